@@ -1,0 +1,4 @@
+//! A validation harness for DEM codes: the yield force of a three-cylinder stack (arXiv:2511.06807).
+
+pub mod stack;
+pub mod theory;

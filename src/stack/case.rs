@@ -1,0 +1,96 @@
+//! A case: everything that a code has to be told to produce one time series.
+
+use super::{Convention, InvalidValue, Protocol, Stack, sha256_hex};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// One compression run of one stack under one contact convention.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What is compressed.
+    pub stack: Stack,
+    /// What a contact is.
+    pub convention: Convention,
+    /// How it is compressed.
+    pub protocol: Protocol,
+}
+
+/// Why a case could not be read.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// The file could not be read.
+    #[error("cannot read the case file {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is neither named `.toml` nor `.json`.
+    #[error("the case file {} must end in .toml or .json", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The text is not a case: unknown, missing or mistyped key.
+    #[error("{} is not a case: {message}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The parser's message, which names the key, the place and what it expected.
+        message: String,
+    },
+    /// A value is out of its range.
+    #[error("in the case file {}: {invalid}", path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// Key, value and what is accepted.
+        invalid: InvalidValue,
+    },
+}
+
+impl Case {
+    /// Every value in its range, or the first one that is not.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        self.stack.validate()?;
+        self.convention.validate()?;
+        self.protocol.validate()
+    }
+
+    /// SHA-256, in hexadecimal, of the case as compact JSON with its keys in the order of the fields
+    /// and its numbers in their shortest exact form. Equal cases have equal hashes on every machine.
+    pub fn content_hash(&self) -> String {
+        let json =
+            serde_json::to_vec(self).expect("a case has only named fields and finite numbers");
+        sha256_hex(&json)
+    }
+
+    /// Reads and validates a case from a `.toml` or `.json` file.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Unreadable {
+            path: path.to_owned(),
+            source,
+        })?;
+        let parsed = match path.extension().and_then(|extension| extension.to_str()) {
+            Some("toml") => toml::from_str(&text).map_err(|error| error.to_string()),
+            Some("json") => serde_json::from_str(&text).map_err(|error| error.to_string()),
+            _ => {
+                return Err(CaseError::UnknownFormat {
+                    path: path.to_owned(),
+                });
+            }
+        };
+        let case: Self = parsed.map_err(|message| CaseError::Malformed {
+            path: path.to_owned(),
+            message,
+        })?;
+        case.validate().map_err(|invalid| CaseError::Invalid {
+            path: path.to_owned(),
+            invalid,
+        })?;
+        Ok(case)
+    }
+}

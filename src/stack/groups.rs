@@ -1,0 +1,104 @@
+//! The dimensionless groups of the problem.
+
+use super::validity::{InvalidValue, positive, within};
+use serde::{Deserialize, Serialize};
+
+/// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), the double nearest to it.
+pub const CRITICAL_FRICTION: f64 = 0.267_949_192_431_122_7;
+
+/// Stiffness ratio κ = k_n/k_t of the paper (supplement I.A).
+pub const PAPER_STIFFNESS_RATIO: f64 = 2.5;
+
+/// Cylinder–cylinder friction μ_d of the paper (supplement I.A).
+pub const PAPER_CYLINDER_FRICTION: f64 = 0.7;
+
+/// Stiffnesses 1/ε that are accepted, lowest and highest.
+pub const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
+
+const HIGHEST_FRICTION: f64 = 1e3;
+const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;
+
+/// Three equal cylinders under gravity on a rough floor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stack {
+    /// Friction coefficient μ between cylinder and floor.
+    pub floor_friction: f64,
+    /// Friction coefficient μ_d between two cylinders.
+    #[serde(default = "paper_cylinder_friction")]
+    pub cylinder_friction: f64,
+    /// Stiffness 1/ε = k_n r/(m g).
+    pub stiffness: f64,
+    /// Stiffness ratio κ = k_n/k_t.
+    #[serde(default = "paper_stiffness_ratio")]
+    pub stiffness_ratio: f64,
+}
+
+fn paper_cylinder_friction() -> f64 {
+    PAPER_CYLINDER_FRICTION
+}
+
+fn paper_stiffness_ratio() -> f64 {
+    PAPER_STIFFNESS_RATIO
+}
+
+impl Stack {
+    /// A stack with the paper's stiffness ratio and cylinder friction.
+    pub fn paper(floor_friction: f64, stiffness: f64) -> Self {
+        Self {
+            floor_friction,
+            cylinder_friction: PAPER_CYLINDER_FRICTION,
+            stiffness,
+            stiffness_ratio: PAPER_STIFFNESS_RATIO,
+        }
+    }
+
+    /// ε = m g/(k_n r), which is also gravity in units of k_n r/m.
+    pub fn epsilon(&self) -> f64 {
+        1.0 / self.stiffness
+    }
+
+    /// Tangential stiffness k_t = k_n/κ in units of k_n.
+    pub fn tangential_stiffness(&self) -> f64 {
+        1.0 / self.stiffness_ratio
+    }
+
+    /// Every value in its range, or the first one that is not.
+    pub fn validate(&self) -> Result<(), InvalidValue> {
+        let (lowest, highest) = STIFFNESS_RANGE;
+        positive(
+            "stack.floor_friction",
+            self.floor_friction,
+            HIGHEST_FRICTION,
+        )?;
+        positive(
+            "stack.cylinder_friction",
+            self.cylinder_friction,
+            HIGHEST_FRICTION,
+        )?;
+        within("stack.stiffness", self.stiffness, lowest, highest)?;
+        positive(
+            "stack.stiffness_ratio",
+            self.stiffness_ratio,
+            HIGHEST_STIFFNESS_RATIO,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn critical_friction_is_two_minus_root_three() {
+        // μ_c is a root of μ² − 4μ + 1, and its derivative there is −2√3: one ulp of μ_c moves it by 2e-16.
+        let mu = CRITICAL_FRICTION;
+        assert!((mu * mu - 4.0 * mu + 1.0).abs() < 2e-16);
+        assert!((mu - libm::tan(std::f64::consts::PI / 12.0)).abs() < 1e-16);
+    }
+
+    #[test]
+    fn epsilon_is_the_inverse_of_the_stiffness() {
+        assert_eq!(Stack::paper(0.3, 1e4).epsilon(), 1e-4);
+    }
+}

@@ -1,0 +1,21 @@
+//! What is studied: three cylinders, the convention of their contacts and the protocol that loads them.
+//!
+//! Units throughout: cylinder radius r = 1, cylinder mass m = 1, normal stiffness k_n = 1. Lengths are
+//! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). The yield force alone is
+//! given in m g, as in the paper (arXiv:2511.06807).
+
+mod case;
+mod convention;
+mod digest;
+mod groups;
+mod protocol;
+mod validity;
+
+pub use case::{Case, CaseError};
+pub use convention::{Convention, PAPER_RESTITUTION};
+pub use digest::sha256_hex;
+pub use groups::{
+    CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,
+};
+pub use protocol::{Preparation, Protocol, Sampling, Schedule};
+pub use validity::InvalidValue;

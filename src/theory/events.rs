@@ -1,0 +1,134 @@
+//! What ends the path of equilibria: the four events, and which one comes first.
+
+use super::root::bracketed_root;
+use crate::stack::{CRITICAL_FRICTION, Stack};
+use serde::{Deserialize, Serialize};
+
+/// The first thing that happens to the stack on its way up in load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Event {
+    /// The bottom cylinders slide on the floor, e = μ d: the paper's yield.
+    FloorSlip,
+    /// The top cylinder slides on the bottom ones, b = μ_d a.
+    CylinderSlip,
+    /// The bottom cylinders touch, x₂ = r: c = 0 no longer holds.
+    ContactCloses,
+    /// The top wall reaches the top of cylinder 2.
+    WallContact,
+    /// The path ends before any of them.
+    None,
+}
+
+impl std::fmt::Display for Event {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Self::FloorSlip => "floor-slip",
+            Self::CylinderSlip => "cylinder-slip",
+            Self::ContactCloses => "contact-closes",
+            Self::WallContact => "wall-contact",
+            Self::None => "none",
+        })
+    }
+}
+
+/// One state of equilibrium on the path, by what the events need. Lengths in r, forces in k_n r.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathPoint {
+    /// T = tan(ψ/2), half the angle between the line 2–1 and the vertical.
+    pub tangent: f64,
+    /// G, overlap of the contact 1–2.
+    pub pair_overlap: f64,
+    /// z, overlap of the floor contacts.
+    pub floor_overlap: f64,
+    /// y = x₂ − r, how far cylinder 2 has moved outwards.
+    pub outward: f64,
+    /// b/a, tangential over normal force of the contact 1–2.
+    pub pair_ratio: f64,
+    /// e/d, tangential over normal force of the floor contacts.
+    pub floor_ratio: f64,
+    /// Force of the top wall, ε F.
+    pub wall_force: f64,
+}
+
+impl PathPoint {
+    /// Height of the centre of cylinder 1 above that of cylinder 2, ρ cos ψ.
+    fn rise(&self) -> f64 {
+        let square = self.tangent * self.tangent;
+        (2.0 - self.pair_overlap) * (1.0 - square) / (1.0 + square)
+    }
+
+    /// Height of the top wall, y₁ + r − f/k_n, with the floor at 0.
+    pub fn wall_height(&self) -> f64 {
+        2.0 - self.floor_overlap + self.rise() - self.wall_force
+    }
+
+    /// How far `event` still is, in its own units; negative once it has happened.
+    fn margin(&self, event: Event, stack: &Stack) -> f64 {
+        match event {
+            Event::FloorSlip => stack.floor_friction - self.floor_ratio,
+            Event::CylinderSlip => stack.cylinder_friction - self.pair_ratio,
+            Event::ContactCloses => self.outward,
+            Event::WallContact => self.rise() - self.wall_force,
+            Event::None => f64::INFINITY,
+        }
+    }
+}
+
+/// A path of equilibria from the stress-free state (parameter 0) upwards, first along the gravity ramp,
+/// then under the wall.
+pub trait Path {
+    /// Increasing parameters, 0 left out, at which the path is searched for events.
+    fn stations(&self) -> Vec<f64>;
+    /// The parameter at which gravity is complete and the wall just touches, F = 0.
+    fn settled(&self) -> f64;
+    /// The state at a parameter between 0 and the last station.
+    fn point(&self, parameter: f64) -> PathPoint;
+}
+
+/// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
+pub fn locate(path: &impl Path, event: Event, stack: &Stack) -> Option<f64> {
+    let margin = |parameter: f64| path.point(parameter).margin(event, stack);
+    let stations = path.stations();
+    let index = stations
+        .iter()
+        .position(|&parameter| margin(parameter) < 0.0)?;
+    if index == 0 {
+        return Some(0.0);
+    }
+    bracketed_root(margin, stations[index - 1], stations[index])
+}
+
+/// y = ρ sin ψ − 1 at an angle `turned` beyond 30°, free of cancellation for small angles.
+pub(super) fn outward_displacement(turned: f64, pair_overlap: f64) -> f64 {
+    let half_sine = libm::sin(0.5 * turned);
+    let sine = libm::sin(turned);
+    let geometric = 3f64.sqrt() * sine - 2.0 * half_sine * half_sine;
+    geometric - 0.5 * pair_overlap * (1.0 + geometric)
+}
+
+/// T = tan(15° + turned/2) at an angle `turned` beyond 30°.
+pub(super) fn half_angle_tangent(turned: f64) -> f64 {
+    let half = libm::tan(0.5 * turned);
+    (CRITICAL_FRICTION + half) / (1.0 - CRITICAL_FRICTION * half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outward_displacement_is_the_geometry_it_abbreviates() {
+        let (turned, overlap) = (0.37, 0.21);
+        let angle = std::f64::consts::FRAC_PI_6 + turned;
+        let direct = (2.0 - overlap) * angle.sin() - 1.0;
+        assert!((outward_displacement(turned, overlap) - direct).abs() < 1e-15);
+    }
+
+    #[test]
+    fn tangent_of_the_undeformed_stack_is_the_critical_friction() {
+        assert_eq!(half_angle_tangent(0.0), CRITICAL_FRICTION);
+        let angle = std::f64::consts::FRAC_PI_6 + 0.3;
+        assert!((half_angle_tangent(0.3) - (angle / 2.0).tan()).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,93 @@
+//! The quasi-static limit as a result: the yield force, or what happens instead.
+
+use super::events::{Event, Path, locate};
+use crate::stack::Stack;
+use serde::Serialize;
+
+/// The quasi-static limit of a DEM with the given torque arms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Limit {
+    /// F = f/(m g) at which the floor slips; absent when something else comes first.
+    pub yield_force: Option<f64>,
+    /// What comes first on the path.
+    pub event: Event,
+    /// F at which the floor slips if the other events are ignored.
+    pub floor_slip_force: Option<f64>,
+    /// Arm coefficient r₁ of cylinder–cylinder contacts.
+    pub pair_arm: f64,
+    /// Arm coefficient r₁ of floor contacts.
+    pub floor_arm: f64,
+    /// T = tan(ψ/2) where the floor slips.
+    #[serde(rename = "T")]
+    pub tangent: Option<f64>,
+    /// y = x₂ − r, in r, where the floor slips.
+    pub y: Option<f64>,
+    /// z, how far cylinder 2 has sunk into the floor, in r, where the floor slips.
+    pub z: Option<f64>,
+    /// How far the top wall has moved, in r, when the floor slips.
+    pub wall_travel: Option<f64>,
+    /// Why there is no yield force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+impl Limit {
+    /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`.
+    pub(super) fn of(
+        path: &impl Path,
+        slip: Option<f64>,
+        stack: &Stack,
+        pair_arm: f64,
+        floor_arm: f64,
+    ) -> Self {
+        let settled = path.settled();
+        let own_weight = slip.is_some_and(|slip| slip < settled);
+        let under_the_wall = slip.filter(|_| !own_weight);
+        let event = first_event(path, slip, stack);
+        let yields = under_the_wall.is_some() && event == Event::FloorSlip;
+        let point = under_the_wall.map(|slip| path.point(slip));
+        let force = point.map(|point| 2.0 * point.floor_overlap * stack.stiffness - 3.0);
+        Self {
+            yield_force: force.filter(|_| yields),
+            event,
+            floor_slip_force: force,
+            pair_arm,
+            floor_arm,
+            tangent: point.map(|point| point.tangent),
+            y: point.map(|point| point.outward),
+            z: point.map(|point| point.floor_overlap),
+            wall_travel: point.map(|point| path.point(settled).wall_height() - point.wall_height()),
+            reason: (!yields).then(|| explanation(event, own_weight)),
+        }
+    }
+}
+
+fn first_event(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Event {
+    let others = [
+        Event::CylinderSlip,
+        Event::ContactCloses,
+        Event::WallContact,
+    ];
+    let located = others.map(|event| (locate(path, event, stack), event));
+    let candidates = located.into_iter().chain([(slip, Event::FloorSlip)]);
+    candidates
+        .filter_map(|(parameter, event)| parameter.map(|parameter| (parameter, event)))
+        .min_by(|left, right| left.0.total_cmp(&right.0))
+        .map_or(Event::None, |(_, event)| event)
+}
+
+fn explanation(event: Event, own_weight: bool) -> String {
+    let text = match event {
+        Event::FloorSlip if own_weight => "the stack slides on the floor under its own weight",
+        Event::FloorSlip => "the floor slips",
+        Event::CylinderSlip => {
+            "the cylinders slip on each other before the floor does (b = mu_d a)"
+        }
+        Event::ContactCloses => {
+            "the bottom cylinders touch before the floor slips, so that c = 0 does not hold"
+        }
+        Event::WallContact => "the top wall reaches the bottom cylinders before the floor slips",
+        Event::None => "the path of equilibria ends before the floor slips",
+    };
+    text.to_owned()
+}

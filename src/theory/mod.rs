@@ -1,0 +1,31 @@
+//! The yield force without time stepping: the paper's theories, and the exact quasi-static limit.
+
+mod events;
+mod limit;
+mod path;
+mod predictions;
+mod quasistatic;
+mod root;
+mod small_displacement;
+
+pub use events::Event;
+pub use limit::Limit;
+pub use path::followed_limit;
+pub use predictions::{Prediction, Predictions};
+pub use quasistatic::{closed_form_limit, pair_overlap};
+pub use small_displacement::{
+    ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,
+    perturbation_load, quintic_displacement, rigid_yield,
+};
+
+use crate::stack::Stack;
+
+/// The exact quasi-static limit of `stack` for the given torque arms: the closed form where both are 0,
+/// the path follower otherwise.
+pub fn quasistatic_limit(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Limit {
+    if pair_arm == 0.0 && floor_arm == 0.0 {
+        closed_form_limit(stack)
+    } else {
+        followed_limit(stack, pair_arm, floor_arm)
+    }
+}

@@ -1,0 +1,76 @@
+//! One bracketing root finder, exact to the last few units of the argument.
+
+const MOST_ITERATIONS: usize = 400;
+
+/// Root of `function` between `low` and `high`, at which it must have opposite signs (or vanish).
+///
+/// Chandrupatla's method (Advances in Engineering Software 28 (1997) 145): inverse quadratic
+/// interpolation where it is safe, bisection elsewhere. It converges in the argument's own relative
+/// precision, so a root near zero is found to as many digits as any other. `None` without a change of
+/// sign.
+pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
+    let (mut x1, mut x2) = (high, low);
+    let (mut f1, mut f2) = (function(x1), function(x2));
+    let opposite = (f1 <= 0.0 && f2 >= 0.0) || (f1 >= 0.0 && f2 <= 0.0);
+    if !opposite {
+        return None;
+    }
+    let mut fraction = 0.5;
+    for _ in 0..MOST_ITERATIONS {
+        let x = x1 + fraction * (x2 - x1);
+        let f = function(x);
+        let (x3, f3);
+        if (f > 0.0) == (f1 > 0.0) {
+            (x3, f3) = (x1, f1);
+        } else {
+            (x3, f3) = (x2, f2);
+            (x2, f2) = (x1, f1);
+        }
+        (x1, f1) = (x, f);
+        let (best, value) = if f1.abs() < f2.abs() {
+            (x1, f1)
+        } else {
+            (x2, f2)
+        };
+        let smallest = 2.0 * f64::EPSILON * best.abs() / (x2 - x1).abs();
+        if value == 0.0 || smallest > 0.5 {
+            return Some(best);
+        }
+        fraction = next_fraction([x1, x2, x3], [f1, f2, f3]).clamp(smallest, 1.0 - smallest);
+    }
+    Some(x1)
+}
+
+/// Where to look next between x1 and x2, as a fraction of the way.
+fn next_fraction([x1, x2, x3]: [f64; 3], [f1, f2, f3]: [f64; 3]) -> f64 {
+    let position = (x1 - x2) / (x3 - x2);
+    let height = (f1 - f2) / (f3 - f2);
+    let monotonic = height * height < position && (1.0 - height) * (1.0 - height) < 1.0 - position;
+    if !monotonic {
+        return 0.5;
+    }
+    f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_a_tiny_root_to_all_digits() {
+        let root = bracketed_root(|x| x * (1.0 + x) - 1e-9, 0.0, 1.0).unwrap();
+        let exact = 2e-9 / (1.0 + (1.0 + 4e-9f64).sqrt());
+        assert!((root - exact).abs() <= 4e-16 * exact);
+    }
+
+    #[test]
+    fn no_change_of_sign_is_no_root() {
+        assert_eq!(bracketed_root(|x| x * x + 1.0, -1.0, 1.0), None);
+        assert_eq!(bracketed_root(|_| f64::NAN, -1.0, 1.0), None);
+    }
+
+    #[test]
+    fn an_end_may_be_the_root() {
+        assert_eq!(bracketed_root(|x| x, 0.0, 1.0), Some(0.0));
+    }
+}

@@ -1,0 +1,36 @@
+//! Rigid cylinders (paper, Eq. 4).
+
+use crate::stack::CRITICAL_FRICTION;
+use serde::Serialize;
+
+/// Yield force of rigid cylinders.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RigidYield {
+    /// f₀/(m g); absent where no force makes the stack slide.
+    pub yield_force: Option<f64>,
+    /// Whether the yield force is infinite, μ ≥ μ_c.
+    pub diverges: bool,
+}
+
+/// f₀(μ)/(m g) = (3μ − μ_c)/(μ_c − μ) between μ_c/3 and μ_c, 0 below, infinite above (paper, Eq. 4).
+///
+/// ```
+/// use tristack::theory::rigid_yield;
+/// let yield_force = rigid_yield(0.2).yield_force.unwrap();
+/// assert!((yield_force - 4.887_124_2).abs() < 1e-7);
+/// assert!(rigid_yield(0.3).diverges);
+/// ```
+pub fn rigid_yield(floor_friction: f64) -> RigidYield {
+    let mu = floor_friction;
+    if mu >= CRITICAL_FRICTION {
+        return RigidYield {
+            yield_force: None,
+            diverges: true,
+        };
+    }
+    let force = (3.0 * mu - CRITICAL_FRICTION) / (CRITICAL_FRICTION - mu);
+    RigidYield {
+        yield_force: Some(force.max(0.0)),
+        diverges: false,
+    }
+}

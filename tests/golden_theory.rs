@@ -1,0 +1,189 @@
+//! The theories against golden values that were computed another way, to 20 digits, by
+//! `reference/golden/generate.py` (Newton on the unreduced equations, Taylor series, Richardson).
+
+use serde::Deserialize;
+use tristack::stack::Stack;
+use tristack::theory::{Event, Predictions, followed_limit};
+
+fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
+    let path = format!("{}/reference/golden/{name}", env!("CARGO_MANIFEST_DIR"));
+    let mut reader = csv::Reader::from_path(path).expect("the golden table is there");
+    reader
+        .deserialize()
+        .map(|row| row.expect("the golden table has the columns of this test"))
+        .collect()
+}
+
+/// The largest relative deviation seen, with the row that shows it.
+#[derive(Default)]
+struct Worst {
+    deviation: f64,
+    row: String,
+    compared: usize,
+}
+
+impl Worst {
+    fn compare(&mut self, computed: Option<f64>, golden: Option<f64>, row: &str) {
+        assert_eq!(
+            computed.is_some(),
+            golden.is_some(),
+            "{row}: {computed:?} {golden:?}"
+        );
+        let (Some(computed), Some(golden)) = (computed, golden) else {
+            return;
+        };
+        let deviation = (computed - golden).abs() / golden.abs();
+        self.compared += 1;
+        if deviation > self.deviation {
+            self.deviation = deviation;
+            self.row = row.to_owned();
+        }
+    }
+
+    fn must_stay_below(&self, bound: f64, what: &str) {
+        println!(
+            "{what}: {} values, worst {:.1e} at {}",
+            self.compared, self.deviation, self.row
+        );
+        assert!(self.compared > 0, "{what}: nothing compared");
+        assert!(
+            self.deviation < bound,
+            "{what}: {:e} at {}",
+            self.deviation,
+            self.row
+        );
+    }
+}
+
+#[derive(Debug, Deserialize)]
+struct SmallDisplacementRow {
+    mu: f64,
+    stiffness: f64,
+    kappa: f64,
+    rigid: Option<f64>,
+    naive: Option<f64>,
+    perturbation: Option<f64>,
+    elastic: Option<f64>,
+    elastic_x: Option<f64>,
+    elastic_y: Option<f64>,
+    elastic_z: Option<f64>,
+    elastic_theta: Option<f64>,
+}
+
+fn stack(mu: f64, stiffness: f64, kappa: f64) -> Stack {
+    Stack {
+        stiffness_ratio: kappa,
+        ..Stack::paper(mu, stiffness)
+    }
+}
+
+#[test]
+fn small_displacement_theories_match_to_1e_10() {
+    let mut worst: [Worst; 8] = Default::default();
+    for golden in rows::<SmallDisplacementRow>("small_displacement.csv") {
+        let name = format!("{golden:?}");
+        let stack = stack(golden.mu, golden.stiffness, golden.kappa);
+        let predictions = Predictions::new(&stack, 0.0, 0.0);
+        let elastic = &predictions.elastic;
+        let pairs = [
+            (predictions.rigid.yield_force, golden.rigid),
+            (predictions.naive.yield_force, golden.naive),
+            (predictions.perturbation.yield_force, golden.perturbation),
+            (elastic.yield_force, golden.elastic),
+            (elastic.x, golden.elastic_x),
+            (elastic.y, golden.elastic_y),
+            (elastic.z, golden.elastic_z),
+            (elastic.theta, golden.elastic_theta),
+        ];
+        for (worst, (computed, golden)) in worst.iter_mut().zip(pairs) {
+            worst.compare(computed, golden, &name);
+        }
+    }
+    let names = [
+        "rigid",
+        "naive",
+        "perturbation",
+        "elastic",
+        "x",
+        "y",
+        "z",
+        "theta",
+    ];
+    for (worst, name) in worst.iter().zip(names) {
+        worst.must_stay_below(1e-10, name);
+    }
+}
+
+#[derive(Debug, Deserialize)]
+struct QuasistaticRow {
+    mu: f64,
+    stiffness: f64,
+    kappa: f64,
+    mu_d: f64,
+    floor_slip_force: Option<f64>,
+    #[serde(rename = "T")]
+    tangent: Option<f64>,
+    y: Option<f64>,
+    event: String,
+}
+
+#[test]
+fn closed_form_matches_to_1e_9_and_names_the_same_event() {
+    let [mut force, mut tangent, mut outward]: [Worst; 3] = Default::default();
+    for golden in rows::<QuasistaticRow>("quasistatic.csv") {
+        let name = format!("{golden:?}");
+        let stack = Stack {
+            cylinder_friction: golden.mu_d,
+            ..stack(golden.mu, golden.stiffness, golden.kappa)
+        };
+        let limit = Predictions::new(&stack, 0.0, 0.0).quasistatic;
+        force.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
+        tangent.compare(limit.tangent, golden.tangent, &name);
+        outward.compare(limit.y, golden.y, &name);
+        let own_weight = golden.event == "own-weight";
+        let expected = if own_weight {
+            "floor-slip"
+        } else {
+            &golden.event
+        };
+        assert_eq!(limit.event.to_string(), expected, "{name}");
+        let yields = limit.event == Event::FloorSlip && !own_weight;
+        assert_eq!(limit.yield_force.is_some(), yields, "{name}");
+    }
+    force.must_stay_below(1e-9, "floor slip force");
+    tangent.must_stay_below(1e-9, "T");
+    outward.must_stay_below(1e-9, "y");
+}
+
+#[test]
+fn follower_equals_the_closed_form_to_1e_9_for_arms_0() {
+    let mut worst = Worst::default();
+    for golden in rows::<QuasistaticRow>("quasistatic.csv") {
+        let name = format!("{golden:?}");
+        let limit = followed_limit(&stack(golden.mu, golden.stiffness, golden.kappa), 0.0, 0.0);
+        worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
+    }
+    worst.must_stay_below(1e-9, "follower, arms 0");
+}
+
+#[derive(Debug, Deserialize)]
+struct ArmsRow {
+    mu: f64,
+    stiffness: f64,
+    kappa: f64,
+    pair_arm: f64,
+    floor_arm: f64,
+    floor_slip_force: Option<f64>,
+}
+
+#[test]
+fn follower_is_converged_to_1e_7_for_every_pair_of_arms() {
+    let mut worst = Worst::default();
+    for golden in rows::<ArmsRow>("arms.csv") {
+        let name = format!("{golden:?}");
+        let stack = stack(golden.mu, golden.stiffness, golden.kappa);
+        let limit = followed_limit(&stack, golden.pair_arm, golden.floor_arm);
+        worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
+    }
+    worst.must_stay_below(1e-7, "follower, all arms");
+}

@@ -1,4 +1,6 @@
 //! A validation harness for DEM codes: the yield force of a three-cylinder stack (arXiv:2511.06807).
 
+pub mod dem;
 pub mod stack;
 pub mod theory;
+pub mod trace;

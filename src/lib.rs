@@ -1,6 +1,11 @@
 //! A validation harness for DEM codes: the yield force of a three-cylinder stack (arXiv:2511.06807).
 
+pub mod archive;
+pub mod cli;
+pub mod crosscheck;
 pub mod dem;
+pub mod engine;
+pub mod report;
 pub mod stack;
 pub mod theory;
 pub mod trace;

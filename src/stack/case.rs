@@ -68,6 +68,12 @@ impl Case {
         sha256_hex(&json)
     }
 
+    /// The case as it is kept in files: indented JSON with a final newline.
+    pub fn to_json(&self) -> String {
+        let json = serde_json::to_string_pretty(self);
+        json.expect("a case has only named fields and finite numbers") + "\n"
+    }
+
     /// Reads and validates a case from a `.toml` or `.json` file.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let text = std::fs::read_to_string(path).map_err(|source| CaseError::Unreadable {

@@ -1,5 +1,6 @@
 //! The yield force read off a series, by the two estimators of the field.
 
+use super::polynomial::value_at_zero;
 use super::series::{Sample, Trace};
 use crate::stack::Stack;
 use serde::{Deserialize, Serialize};
@@ -66,27 +67,12 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
         .iter()
         .map(|sample| sample.wall_force)
         .collect();
-    let force = extrapolated_to_zero(margins, &forces);
-    let lower_order = extrapolated_to_zero(&margins[1..], &forces[1..]);
+    let force = value_at_zero(margins, &forces);
+    let lower_order = value_at_zero(&margins[1..], &forces[1..]);
     Some(Estimate {
         force,
         sampling: (force - lower_order).abs(),
     })
-}
-
-/// Value at 0 of the polynomial through the given points (Lagrange).
-fn extrapolated_to_zero(arguments: &[f64], values: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (i, value) in values.iter().enumerate() {
-        let mut weight = 1.0;
-        for (j, argument) in arguments.iter().enumerate() {
-            if i != j {
-                weight *= argument / (argument - arguments[i]);
-            }
-        }
-        sum += weight * value;
-    }
-    sum
 }
 
 /// Vertex of the parabola through the highest row and its neighbours, compared with the one through the

@@ -1,7 +1,9 @@
 //! A time series with named columns, and the yield force read off it.
 
 mod estimate;
+mod polynomial;
 mod series;
 
 pub use estimate::{Estimate, YieldEstimates};
+pub use polynomial::{value_at_zero, weights_at_zero};
 pub use series::{Sample, SeriesError, Trace};

@@ -88,6 +88,12 @@ pub const COLUMNS: [&str; 16] = [
 /// Why a series is not the one that was asked for.
 #[derive(Debug, Error)]
 pub enum SeriesError {
+    /// There is no series at all.
+    #[error("{message}")]
+    Absent {
+        /// What was looked for, and what was found instead.
+        message: String,
+    },
     /// A row cannot be read.
     #[error("row {row}: {message}")]
     Garbled {

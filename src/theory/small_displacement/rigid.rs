@@ -17,7 +17,7 @@ pub struct RigidYield {
 /// ```
 /// use tristack::theory::rigid_yield;
 /// let yield_force = rigid_yield(0.2).yield_force.unwrap();
-/// assert!((yield_force - 4.887_124_2).abs() < 1e-7);
+/// assert!((yield_force - 4.886_751_3).abs() < 1e-7);
 /// assert!(rigid_yield(0.3).diverges);
 /// ```
 pub fn rigid_yield(floor_friction: f64) -> RigidYield {

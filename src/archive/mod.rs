@@ -1,0 +1,10 @@
+//! Finished runs on disk: a case, its time series, and where they come from.
+//!
+//! An entry is a directory with `case.json`, `series.csv` and `provenance.json`. The store of a user and
+//! the recorded runs of the project are archives of the same form.
+
+mod entry;
+mod provenance;
+
+pub use entry::{Archive, ArchiveError, Run, write_atomically};
+pub use provenance::{Identity, Provenance};

@@ -1,0 +1,86 @@
+//! Where a run comes from.
+
+use crate::stack::{Case, sha256_hex};
+use serde::{Deserialize, Serialize};
+
+/// What decides the numbers of an engine, apart from the case.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identity {
+    /// Name of the engine.
+    pub engine: String,
+    /// Version that the engine gives itself.
+    pub version: String,
+    /// Distribution package and its version, if the binary belongs to one.
+    pub package: Option<String>,
+    /// SHA-256 of the deck or script; of its sources for the native engine.
+    pub deck_hash: String,
+}
+
+impl Identity {
+    /// Content address of the run of `case` by this engine.
+    pub fn address(&self, case: &Case) -> String {
+        let parts = serde_json::json!([case.content_hash(), self]);
+        sha256_hex(parts.to_string().as_bytes())
+    }
+}
+
+/// How a run was made, so that it can be made again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Who computed it.
+    pub identity: Identity,
+    /// Version of tristack that drove it.
+    pub tristack: String,
+    /// The command, run in a directory with the deck and the parameters of the case.
+    pub command: Vec<String>,
+    /// When it finished, UTC.
+    pub date: String,
+    /// Processor, number of cores and operating system.
+    pub machine: String,
+    /// Steps in all, preparation included.
+    pub steps: u64,
+    /// Wall time of the run; of the process divided by its runs where they share one.
+    pub seconds: f64,
+}
+
+impl Provenance {
+    /// Provenance of a run that has just finished here.
+    pub fn now(identity: Identity, command: Vec<String>, steps: u64, seconds: f64) -> Self {
+        Self {
+            identity,
+            tristack: env!("CARGO_PKG_VERSION").to_owned(),
+            command,
+            date: jiff::Timestamp::now()
+                .round(jiff::Unit::Second)
+                .map_or_else(
+                    |_| jiff::Timestamp::now().to_string(),
+                    |rounded| rounded.to_string(),
+                ),
+            machine: machine(),
+            steps,
+            seconds,
+        }
+    }
+}
+
+impl Provenance {
+    /// Indented JSON with a final newline.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"
+    }
+}
+
+fn machine() -> String {
+    let cpu_info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpu_info
+        .lines()
+        .find_map(|line| line.strip_prefix("model name"))
+        .map_or("unknown processor", |rest| {
+            rest.trim_start_matches([' ', '\t', ':'])
+        });
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let (system, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
+    format!("{model}, {cores} cores, {system} {architecture}")
+}

@@ -1,0 +1,147 @@
+//! `tristack crosscheck`.
+
+use super::options::{Format, RunOptions, participants, writable};
+use super::progress::Reporter;
+use super::{CliError, ExitStatus, INTERRUPT};
+use crate::archive::{ArchiveError, write_atomically};
+use crate::crosscheck::{
+    Judgement, Measurement, Participant, Profile, Source, Verdict, measure, plan,
+};
+use crate::engine::EngineName;
+use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// The main job: run, compare, judge, write tables
+///
+/// Measures the yield force of every stack of the profile with every engine, extrapolates it to vanishing
+/// wall speed, and holds it against the exact quasi-static limit under the engine's own contact
+/// convention. Engines that are not installed are represented by their recorded runs.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: tristack crosscheck --engines native,liggghts --out results")]
+pub struct Arguments {
+    /// Which stacks
+    #[arg(long, value_enum, default_value_t = Profile::Quick)]
+    profile: Profile,
+    /// Which engines, separated by commas; each must be installed [default: all, recorded if necessary]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    engines: Vec<EngineName>,
+    /// Directory for crosscheck.csv, crosscheck.json and crosscheck.md
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    run: RunOptions,
+    /// How to print the rows
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Runs the crosscheck, prints and writes its rows.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let participants = participants(&arguments.engines)?;
+    if let Some(directory) = &arguments.out {
+        writable(directory)?;
+    }
+    let measurements = measurements(arguments.profile, &participants);
+    let settings = arguments.run.settings()?;
+    let reporter = Reporter::new();
+    let judgements = measure(&measurements, &participants, &settings, &reporter);
+    drop(reporter);
+    if let Some(directory) = &arguments.out {
+        write(directory, &judgements, &command_line(arguments))?;
+    }
+    super::print(&match arguments.format {
+        Format::Table => crosscheck_table(&judgements).into_bytes(),
+        Format::Json => crosscheck_json(&judgements).into_bytes(),
+        Format::Csv => crosscheck_csv(&judgements),
+    })?;
+    Ok(conclude(&judgements, &participants))
+}
+
+/// The measurements of `profile`, stack by stack, by each of the `participants`.
+fn measurements(profile: Profile, participants: &[Participant]) -> Vec<Measurement> {
+    let stacks = profile.stacks();
+    let rows = stacks.iter().flat_map(|stack| {
+        let engines = participants.iter().map(|participant| participant.name);
+        engines.map(move |engine| plan(engine, stack, engine.convention()))
+    });
+    rows.collect()
+}
+
+fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), ArchiveError> {
+    write_atomically(
+        &directory.join("crosscheck.csv"),
+        &crosscheck_csv(judgements),
+    )?;
+    write_atomically(
+        &directory.join("crosscheck.json"),
+        crosscheck_json(judgements).as_bytes(),
+    )?;
+    let page = crosscheck_markdown(judgements, command);
+    write_atomically(&directory.join("crosscheck.md"), page.as_bytes())
+}
+
+/// The command that gives the same rows again; where it writes them does not matter.
+fn command_line(arguments: &Arguments) -> String {
+    let mut line = "tristack crosscheck --profile quick".to_owned();
+    if !arguments.engines.is_empty() {
+        let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
+        line += &format!(" --engines {}", names.join(","));
+    }
+    line
+}
+
+/// Says on standard error what the rows amount to, and returns the exit status.
+pub(super) fn conclude(judgements: &[Judgement], participants: &[Participant]) -> ExitStatus {
+    for judgement in judgements {
+        let row = &judgement.row;
+        for note in &judgement.notes {
+            eprintln!(
+                "{}: {} mu={} stiffness={}: {note}",
+                row.verdict, row.engine, row.mu, row.stiffness
+            );
+        }
+    }
+    for participant in participants.iter().filter(|who| who.engine.is_none()) {
+        eprintln!(
+            "{} is not installed: recorded runs stand in for it (to run it live: {})",
+            participant.name,
+            participant.name.installation_hint()
+        );
+    }
+    eprintln!("{}", summary(judgements));
+    if INTERRUPT.requested() {
+        eprintln!("interrupted; what was finished is kept, the same command goes on from here");
+        return ExitStatus::Interrupted;
+    }
+    ExitStatus::of(judgements)
+}
+
+fn summary(judgements: &[Judgement]) -> String {
+    let count = |verdict: Verdict| {
+        let rows = judgements.iter().map(|judgement| &judgement.row);
+        rows.filter(|row| row.verdict == verdict).count()
+    };
+    let others = [
+        Verdict::Differs,
+        Verdict::Inconclusive,
+        Verdict::NoYield,
+        Verdict::Failed,
+        Verdict::Missing,
+    ];
+    let mut text = format!(
+        "{} of {} rows agree",
+        count(Verdict::Agrees),
+        judgements.len()
+    );
+    for verdict in others.into_iter().filter(|&verdict| count(verdict) > 0) {
+        text += &format!(", {} {verdict}", count(verdict));
+    }
+    let recorded = judgements
+        .iter()
+        .filter(|judgement| judgement.row.source == Source::Recorded);
+    match recorded.count() {
+        0 => text,
+        count => format!("{text}; {count} rows are recorded, not live"),
+    }
+}

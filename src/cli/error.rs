@@ -1,0 +1,91 @@
+//! How a command ends.
+
+use crate::archive::ArchiveError;
+use crate::crosscheck::{Judgement, NoYield, Verdict};
+use crate::engine::{EngineName, Failure, FailureKind};
+use crate::stack::{CaseError, InvalidValue};
+use thiserror::Error;
+
+/// The exit status of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ExitStatus {
+    /// All agree, or there was nothing to judge.
+    Success,
+    /// The uncertainty is larger than the tolerance, and nothing worse.
+    Inconclusive,
+    /// A disagreement was found.
+    Disagreement,
+    /// An engine failed, timed out or is missing.
+    EngineFailed,
+    /// Wrong usage or input.
+    WrongInput,
+    /// The user interrupted.
+    Interrupted,
+}
+
+impl ExitStatus {
+    /// The number that the shell sees.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::WrongInput => 1,
+            Self::Disagreement => 2,
+            Self::EngineFailed => 3,
+            Self::Inconclusive => 4,
+            Self::Interrupted => 130,
+        }
+    }
+
+    /// The worst that the rows say. That nothing yields where the theory expects no yield is no
+    /// disagreement.
+    pub(super) fn of(judgements: &[Judgement]) -> Self {
+        let each = judgements
+            .iter()
+            .map(|judgement| match judgement.row.verdict {
+                Verdict::Agrees => Self::Success,
+                Verdict::NoYield if judgement.row.reference_force.is_none() => Self::Success,
+                Verdict::NoYield | Verdict::Differs => Self::Disagreement,
+                Verdict::Inconclusive => Self::Inconclusive,
+                Verdict::Failed | Verdict::Missing => Self::EngineFailed,
+            });
+        each.max().unwrap_or(Self::Success)
+    }
+}
+
+/// Why a command could not do what it was asked.
+#[derive(Debug, Error)]
+pub enum CliError {
+    /// A flag has a value that is not accepted.
+    #[error(transparent)]
+    Invalid(#[from] InvalidValue),
+    /// The stack does not yield.
+    #[error(transparent)]
+    NoYield(#[from] NoYield),
+    /// The case file is wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// Something cannot be written or read.
+    #[error(transparent)]
+    Files(#[from] ArchiveError),
+    /// An engine was asked for by name, but is not installed.
+    #[error("{0} is not installed: no `{0}` in the search path; install it with: {hint}", hint = .0.installation_hint())]
+    MissingEngine(EngineName),
+    /// An engine failed.
+    #[error(transparent)]
+    Engine(#[from] Failure),
+}
+
+impl CliError {
+    /// The exit status that goes with it.
+    pub fn status(&self) -> ExitStatus {
+        match self {
+            Self::Engine(failure) => match failure.kind {
+                FailureKind::Interrupted => ExitStatus::Interrupted,
+                FailureKind::Unsupported(_) => ExitStatus::WrongInput,
+                _ => ExitStatus::EngineFailed,
+            },
+            Self::MissingEngine(_) => ExitStatus::EngineFailed,
+            _ => ExitStatus::WrongInput,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! The command line: arguments in, library call, exit status out.
+
+mod crosscheck;
+mod engines;
+mod error;
+mod options;
+mod progress;
+mod record;
+mod simulate;
+mod sweep;
+mod theory;
+
+pub use error::{CliError, ExitStatus};
+
+use crate::archive::ArchiveError;
+use crate::engine::Interrupt;
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::Path;
+
+/// The user's wish to stop.
+pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
+
+/// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes held to it.
+#[derive(Debug, Parser)]
+#[command(name = "tristack", version, max_term_width = 100)]
+#[command(
+    after_help = "Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
+    --stiffness is k_n r/(m g).\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
+    3 an engine failed or is missing, 4 inconclusive, 130 interrupted."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Theory(theory::Arguments),
+    Simulate(simulate::Arguments),
+    Sweep(sweep::Arguments),
+    Crosscheck(crosscheck::Arguments),
+    Engines(engines::Arguments),
+    Record(record::Arguments),
+}
+
+/// Runs the command line `arguments`, the first of which is the program.
+///
+/// # Errors
+/// If the input is wrong or an engine that was asked for does not deliver.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, CliError> {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return options::report_usage(&error),
+    };
+    listen_for_interrupts();
+    match cli.command {
+        Command::Theory(arguments) => theory::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Crosscheck(arguments) => crosscheck::run(&arguments),
+        Command::Engines(arguments) => engines::run(&arguments),
+        Command::Record(arguments) => record::run(&arguments),
+    }
+}
+
+/// The first interrupt stops the engines and lets what is done be written; the second one ends at once.
+fn listen_for_interrupts() {
+    let stop = || {
+        if INTERRUPT.requested() {
+            std::process::exit(i32::from(ExitStatus::Interrupted.code()));
+        }
+        INTERRUPT.request();
+    };
+    if let Err(error) = ctrlc::set_handler(stop) {
+        eprintln!("warning: interrupts will end the program at once: {error}");
+    }
+}
+
+/// Writes results to standard output; a reader who has gone away is no error.
+fn print(bytes: &[u8]) -> Result<ExitStatus, CliError> {
+    let mut output = std::io::stdout().lock();
+    let written = output.write_all(bytes).and_then(|()| output.flush());
+    match written {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(ArchiveError::writing(Path::new("standard output"))(error).into())
+        }
+        _ => Ok(ExitStatus::Success),
+    }
+}

@@ -1,0 +1,212 @@
+//! Options that several commands share.
+
+use super::{CliError, ExitStatus, INTERRUPT};
+use crate::archive::ArchiveError;
+use crate::crosscheck::{Participant, Recorded, Settings, Store};
+use crate::engine::EngineName;
+use crate::stack::{
+    CRITICAL_FRICTION, Convention, InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO,
+    Stack,
+};
+use clap::{Args, ValueEnum};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How results are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    Table,
+    /// For programs.
+    Json,
+    /// For spreadsheets.
+    Csv,
+}
+
+/// Everything of a stack but friction and stiffness.
+#[derive(Debug, Clone, Args)]
+pub struct StackOptions {
+    /// Stiffness ratio k_n/k_t
+    #[arg(long, value_name = "K", default_value_t = PAPER_STIFFNESS_RATIO)]
+    pub kappa: f64,
+    /// Friction between cylinders
+    #[arg(long, value_name = "D", default_value_t = PAPER_CYLINDER_FRICTION)]
+    pub mu_d: f64,
+}
+
+impl StackOptions {
+    /// The stack with the given friction and stiffness, its values checked.
+    pub fn stack(&self, mu: f64, stiffness: f64) -> Result<Stack, InvalidValue> {
+        let stack = Stack {
+            floor_friction: mu,
+            cylinder_friction: self.mu_d,
+            stiffness,
+            stiffness_ratio: self.kappa,
+        };
+        stack.validate().map_err(as_flag)?;
+        Ok(stack)
+    }
+}
+
+/// Torque arms, where they are not the engine's own.
+#[derive(Debug, Clone, Args)]
+pub struct ArmOptions {
+    /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap
+    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    pub pair_arm: Option<f64>,
+    /// Arm coefficient r1 of floor contacts
+    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    pub floor_arm: Option<f64>,
+}
+
+impl ArmOptions {
+    /// The convention of `engine`, with the arms that were given in place of its own.
+    pub fn convention(&self, engine: EngineName) -> Result<Convention, InvalidValue> {
+        let own = engine.convention();
+        let convention = Convention {
+            pair_arm: self.pair_arm.unwrap_or(own.pair_arm),
+            floor_arm: self.floor_arm.unwrap_or(own.floor_arm),
+            ..own
+        };
+        convention.validate().map_err(as_flag)?;
+        engine.check_convention(&convention).map_err(as_flag)?;
+        Ok(convention)
+    }
+}
+
+/// Where runs are kept, and how they are carried out.
+#[derive(Debug, Clone, Args)]
+pub struct RunOptions {
+    /// Store of finished runs [default: $TRISTACK_STORE, else tristack in the user's cache directory]
+    #[arg(long, value_name = "DIR")]
+    pub store: Option<PathBuf>,
+    /// Ignore the runs in the store, and run everything again
+    #[arg(long)]
+    pub fresh: bool,
+    /// Runs at the same time [default: the number of cores]
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Longest time in seconds that an engine may take for one run [default: 30 times the expected]
+    #[arg(long, value_name = "SECONDS")]
+    pub time_limit: Option<f64>,
+}
+
+impl RunOptions {
+    /// The settings of the library.
+    pub fn settings(&self) -> Result<Settings<'static>, CliError> {
+        Ok(Settings {
+            store: Store::open(&self.store_directory()?)?,
+            recorded: Recorded::new(&reference_directory()),
+            fresh: self.fresh,
+            threads: self
+                .jobs
+                .or(std::thread::available_parallelism().ok())
+                .map_or(1, usize::from),
+            time_limit: time_limit(self.time_limit)?,
+            interrupt: &INTERRUPT,
+        })
+    }
+
+    fn store_directory(&self) -> Result<PathBuf, InvalidValue> {
+        let from_environment = || std::env::var_os("TRISTACK_STORE").map(PathBuf::from);
+        let from_cache = || dirs::cache_dir().map(|cache| cache.join("tristack"));
+        let chosen = self
+            .store
+            .clone()
+            .or_else(from_environment)
+            .or_else(from_cache);
+        chosen.ok_or_else(|| {
+            InvalidValue::new(
+                "--store",
+                "absent",
+                "a directory: there is no cache directory here",
+            )
+        })
+    }
+}
+
+/// The checked value of `--time-limit`.
+pub fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue> {
+    let Some(seconds) = seconds else {
+        return Ok(None);
+    };
+    let limit = Duration::try_from_secs_f64(seconds)
+        .ok()
+        .filter(|limit| !limit.is_zero());
+    limit
+        .map(Some)
+        .ok_or_else(|| InvalidValue::new("--time-limit", seconds, "a number of seconds above 0"))
+}
+
+/// The recorded runs of the checkout that this program was built from, or those of
+/// `TRISTACK_REFERENCE`.
+pub fn reference_directory() -> PathBuf {
+    std::env::var_os("TRISTACK_REFERENCE").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"),
+        PathBuf::from,
+    )
+}
+
+/// The engines named, each of which must be installed; all engines if none is named.
+pub fn participants(named: &[EngineName]) -> Result<Vec<Participant>, CliError> {
+    if named.is_empty() {
+        return Ok(EngineName::ALL.into_iter().map(Participant::find).collect());
+    }
+    let mut names = named.to_vec();
+    names.sort();
+    names.dedup();
+    let found = names.into_iter().map(|name| {
+        let participant = Participant::find(name);
+        let installed = participant.engine.is_some();
+        installed
+            .then_some(participant)
+            .ok_or(CliError::MissingEngine(name))
+    });
+    found.collect()
+}
+
+/// Creates `directory` and makes sure that files can be written there.
+pub fn writable(directory: &Path) -> Result<(), ArchiveError> {
+    std::fs::create_dir_all(directory).map_err(ArchiveError::writing(directory))?;
+    tempfile::tempfile_in(directory).map_err(ArchiveError::writing(directory))?;
+    Ok(())
+}
+
+/// Reads `--mu`: a number, or the word `critical`.
+pub fn friction(text: &str) -> Result<f64, String> {
+    if text == "critical" {
+        return Ok(CRITICAL_FRICTION);
+    }
+    text.parse().map_err(|_| {
+        "accepted are a number above 0 and the word `critical` (2 - sqrt 3)".to_owned()
+    })
+}
+
+/// Prints what the parser of the command line has to say.
+pub fn report_usage(error: &clap::Error) -> Result<ExitStatus, CliError> {
+    let printed = error.print();
+    if printed.is_ok() && !error.use_stderr() {
+        return Ok(ExitStatus::Success);
+    }
+    Ok(ExitStatus::WrongInput)
+}
+
+/// The same error, naming the flag instead of the key of a case.
+pub fn as_flag(error: InvalidValue) -> InvalidValue {
+    let flag = match error.key.as_str() {
+        "stack.floor_friction" => "--mu",
+        "stack.cylinder_friction" => "--mu-d",
+        "stack.stiffness" => "--stiffness",
+        "stack.stiffness_ratio" => "--kappa",
+        "convention.pair_arm" => "--pair-arm",
+        "convention.floor_arm" => "--floor-arm",
+        "protocol.wall_speed" => "--speed",
+        "protocol.time_step" => "--dt",
+        other => other,
+    };
+    InvalidValue {
+        key: flag.to_owned(),
+        ..error
+    }
+}

@@ -1,0 +1,147 @@
+//! `tristack simulate`.
+
+use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_limit, writable};
+use super::{CliError, ExitStatus, INTERRUPT};
+use crate::archive::{ArchiveError, Run, write_atomically};
+use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
+use crate::engine::{EngineName, Failure, Workplace};
+use crate::report::{Simulation, simulation_csv, simulation_json, simulation_table};
+use crate::stack::{Case, Stack};
+use crate::theory::quasistatic_limit;
+use crate::trace::YieldEstimates;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Wall speed of a run for which none is given, in units of the predicted displacement z.
+const DEFAULT_SPEED: f64 = 1e-3;
+const DEFAULT_TIME_STEP: f64 = 0.1;
+
+/// One compression run
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: tristack simulate --engine native --mu 0.3 --stiffness 1e3 --out run"
+)]
+pub struct Arguments {
+    /// Who runs it
+    #[arg(long, value_enum)]
+    engine: EngineName,
+    /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "speed", "dt"])]
+    case: Option<PathBuf>,
+    /// Floor friction; a number or the word `critical`
+    #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
+    mu: Option<f64>,
+    /// Stiffness k_n r/(m g)
+    #[arg(
+        long,
+        required_unless_present = "case",
+        value_name = "S",
+        allow_negative_numbers = true
+    )]
+    stiffness: Option<f64>,
+    #[command(flatten)]
+    stack: StackOptions,
+    #[command(flatten)]
+    arms: ArmOptions,
+    /// Wall speed [default: 1e-3 of the predicted displacement at yield]
+    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    speed: Option<f64>,
+    /// Time step
+    #[arg(long, default_value_t = DEFAULT_TIME_STEP, allow_negative_numbers = true)]
+    dt: f64,
+    /// Directory for case, series, summary, deck and captured output
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Longest time in seconds that the engine may take [default: 30 times the expected]
+    #[arg(long, value_name = "SECONDS")]
+    time_limit: Option<f64>,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Runs one case and prints both estimators.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let case = case(arguments)?;
+    let limit = time_limit(arguments.time_limit)?;
+    let scratch = match &arguments.out {
+        Some(directory) => {
+            writable(directory)?;
+            None
+        }
+        None => Some(tempfile::tempdir().map_err(ArchiveError::writing(&std::env::temp_dir()))?),
+    };
+    let directory = arguments
+        .out
+        .as_deref()
+        .or(scratch.as_ref().map(tempfile::TempDir::path));
+    let workplace = Workplace {
+        directory: directory.unwrap_or(Path::new(".")),
+        time_limit: limit,
+        interrupt: &INTERRUPT,
+    };
+    let run = match execute(arguments.engine, &case, &workplace)? {
+        Ok(run) => run,
+        Err(failure) => {
+            // What the engine wrote is evidence, and the failure names the place.
+            scratch.map(tempfile::TempDir::keep);
+            return Err(failure.into());
+        }
+    };
+    let simulation = Simulation::new(&run, YieldEstimates::read(&run.trace, &case.stack));
+    if let Some(directory) = &arguments.out {
+        write(directory, &run, &simulation)?;
+    }
+    super::print(&match arguments.format {
+        Format::Table => simulation_table(&simulation).into_bytes(),
+        Format::Json => simulation_json(&simulation).into_bytes(),
+        Format::Csv => simulation_csv(&simulation),
+    })
+}
+
+fn case(arguments: &Arguments) -> Result<Case, CliError> {
+    if let Some(path) = &arguments.case {
+        return Ok(Case::read(path)?);
+    }
+    let (mu, stiffness) = (
+        arguments.mu.unwrap_or(f64::NAN),
+        arguments.stiffness.unwrap_or(f64::NAN),
+    );
+    let stack: Stack = arguments.stack.stack(mu, stiffness)?;
+    let convention = arguments.arms.convention(arguments.engine)?;
+    let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+    let protocol = match arguments.speed {
+        Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
+        None => planned_protocol(&limit, DEFAULT_SPEED, arguments.dt),
+    };
+    let protocol = protocol.ok_or_else(|| no_yield(&stack, &convention, &limit))?;
+    let case = Case {
+        stack,
+        convention,
+        protocol,
+    };
+    case.validate().map_err(as_flag)?;
+    Ok(case)
+}
+
+fn execute(
+    name: EngineName,
+    case: &Case,
+    workplace: &Workplace,
+) -> Result<Result<Run, Failure>, CliError> {
+    let engine = name.find().ok_or(CliError::MissingEngine(name))?;
+    let mut outcome = None;
+    engine.run(std::slice::from_ref(case), workplace, &mut |_, result| {
+        outcome = Some(result)
+    });
+    Ok(outcome.expect("an engine reports every case"))
+}
+
+fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), ArchiveError> {
+    write_atomically(&directory.join("case.json"), run.case.to_json().as_bytes())?;
+    write_atomically(&directory.join("series.csv"), &run.trace.to_csv())?;
+    write_atomically(
+        &directory.join("summary.json"),
+        simulation_json(simulation).as_bytes(),
+    )
+}

@@ -1,0 +1,149 @@
+//! `tristack sweep`.
+
+use super::crosscheck::conclude;
+use super::options::{
+    ArmOptions, Format, RunOptions, StackOptions, friction, participants, writable,
+};
+use super::progress::Reporter;
+use super::{CliError, ExitStatus};
+use crate::archive::write_atomically;
+use crate::crosscheck::{measure, plan};
+use crate::engine::EngineName;
+use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_table};
+use clap::Args;
+use std::path::PathBuf;
+
+const MOST_FRICTIONS: f64 = 1e4;
+
+/// A yield curve: yield force against floor friction
+///
+/// Every point is measured and judged like a row of a crosscheck. Where theory finds something else than
+/// floor slip, nothing is run and the row says so.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: tristack sweep --engine native --mu 0.1:0.5:0.05 --stiffness 1e2,1e3 --out curve"
+)]
+pub struct Arguments {
+    /// Who measures
+    #[arg(long, value_enum)]
+    engine: EngineName,
+    /// Floor frictions from A to B in steps, or a single one
+    #[arg(long, value_name = "A:B:STEP", value_parser = Frictions::parse, allow_negative_numbers = true)]
+    mu: Frictions,
+    /// Stiffnesses k_n r/(m g), separated by commas
+    #[arg(
+        long,
+        required = true,
+        value_name = "S1,S2",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffness: Vec<f64>,
+    #[command(flatten)]
+    stack: StackOptions,
+    #[command(flatten)]
+    arms: ArmOptions,
+    /// Directory for sweep.csv and sweep.json
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    run: RunOptions,
+    /// How to print the rows
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Frictions(Vec<f64>);
+
+impl Frictions {
+    /// A, A + STEP, … up to B, which is included if it lies on the grid.
+    fn parse(text: &str) -> Result<Self, String> {
+        let accepted = "accepted are A:B:STEP with A <= B and STEP > 0, at most 10000 values, \
+                        a number above 0, and the word `critical`";
+        let parts: Vec<&str> = text.split(':').collect();
+        let [from, to, step] = parts[..] else {
+            return friction(text)
+                .map(|value| Self(vec![value]))
+                .map_err(|_| accepted.to_owned());
+        };
+        let number = |part: &str| friction(part).map_err(|_| accepted.to_owned());
+        let (from, to, step) = (number(from)?, number(to)?, number(step)?);
+        let count = ((to - from) / step + 1e-9).floor();
+        if !(step > 0.0 && (0.0..MOST_FRICTIONS).contains(&count)) {
+            return Err(accepted.to_owned());
+        }
+        let values = (0..=count as u32).map(|index| rounded(from + step * f64::from(index)));
+        Ok(Self(values.collect()))
+    }
+}
+
+/// Without the last digits, which the multiplication by the step leaves behind (0.1 + 2 × 0.1 is not 0.3).
+fn rounded(value: f64) -> f64 {
+    (value * 1e12).round() / 1e12
+}
+
+/// Measures the curve, prints and writes its rows.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let convention = arguments.arms.convention(arguments.engine)?;
+    let mut measurements = Vec::new();
+    for &stiffness in &arguments.stiffness {
+        for &mu in &arguments.mu.0 {
+            let stack = arguments.stack.stack(mu, stiffness)?;
+            measurements.push(plan(arguments.engine, &stack, convention));
+        }
+    }
+    let participants = participants(&[arguments.engine])?;
+    if let Some(directory) = &arguments.out {
+        writable(directory)?;
+    }
+    let settings = arguments.run.settings()?;
+    let reporter = Reporter::new();
+    let judgements = measure(&measurements, &participants, &settings, &reporter);
+    drop(reporter);
+    let (csv, json) = (
+        crosscheck_csv(&judgements),
+        crosscheck_json(&judgements).into_bytes(),
+    );
+    if let Some(directory) = &arguments.out {
+        write_atomically(&directory.join("sweep.csv"), &csv)?;
+        write_atomically(&directory.join("sweep.json"), &json)?;
+    }
+    super::print(&match arguments.format {
+        Format::Table => crosscheck_table(&judgements).into_bytes(),
+        Format::Json => json,
+        Format::Csv => csv,
+    })?;
+    Ok(conclude(&judgements, &participants))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_includes_both_ends_without_rounding_debris() {
+        let values = Frictions::parse("0.1:0.5:0.1").unwrap();
+        assert_eq!(values.0, [0.1, 0.2, 0.3, 0.4, 0.5]);
+    }
+
+    #[test]
+    fn a_single_friction_is_a_sweep_of_one() {
+        assert_eq!(Frictions::parse("0.3").unwrap().0, [0.3]);
+    }
+
+    #[test]
+    fn ranges_that_never_end_or_go_backwards_are_refused() {
+        for text in [
+            "0.1:0.5:0",
+            "0.5:0.1:0.1",
+            "0.1:0.5:-0.1",
+            "0:1e9:1e-9",
+            "a:b:c",
+            "1:2",
+            "nan:1:1",
+        ] {
+            assert!(Frictions::parse(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! `tristack theory`.
+
+use super::options::{ArmOptions, Format, StackOptions, friction};
+use super::{CliError, ExitStatus};
+use crate::engine::EngineName;
+use crate::report::{theory_csv, theory_json, theory_table};
+use crate::theory::Predictions;
+use clap::Args;
+
+/// Yield force by every theory
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: tristack theory --mu 0.3 --stiffness 1e4 --pair-arm -0.5 --floor-arm -0.5"
+)]
+pub struct Arguments {
+    /// Floor friction; a number, the word `critical`, or several separated by commas
+    #[arg(long, required = true, value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
+    mu: Vec<f64>,
+    /// Stiffness k_n r/(m g); one or several separated by commas
+    #[arg(
+        long,
+        required = true,
+        value_name = "S",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffness: Vec<f64>,
+    #[command(flatten)]
+    stack: StackOptions,
+    #[command(flatten)]
+    arms: ArmOptions,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Prints the predictions for every combination of friction and stiffness.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let convention = arguments.arms.convention(EngineName::Native)?;
+    let mut predictions = Vec::new();
+    for &stiffness in &arguments.stiffness {
+        for &mu in &arguments.mu {
+            let stack = arguments.stack.stack(mu, stiffness)?;
+            let (pair, floor) = (convention.pair_arm, convention.floor_arm);
+            predictions.push(Predictions::new(&stack, pair, floor));
+        }
+    }
+    super::print(&match arguments.format {
+        Format::Table => theory_table(&predictions).into_bytes(),
+        Format::Json => theory_json(&predictions).into_bytes(),
+        Format::Csv => theory_csv(&predictions),
+    })
+}

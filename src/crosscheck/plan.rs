@@ -1,0 +1,255 @@
+//! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
+
+use crate::engine::EngineName;
+use crate::stack::{CRITICAL_FRICTION, Case, Convention, Preparation, Protocol, Sampling, Stack};
+use crate::theory::{Event, Limit, quasistatic_limit};
+use thiserror::Error;
+
+/// Wall speeds in units of the predicted displacement z, fastest first, each half the one before.
+pub const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
+
+/// Position of the run at the middle speed, with which the two further runs are compared.
+pub const MIDDLE_RUN: usize = 1;
+/// Position of the run with twice the time step.
+pub const COARSE_TIME_STEP_RUN: usize = SPEEDS.len();
+/// Position of the run with half the gravity ramp.
+pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
+
+/// Time step of all runs but one.
+const TIME_STEP: f64 = 0.1;
+/// Duration of the gravity ramp of all runs but one.
+const RAMP_TIME: f64 = 100.0;
+const REST_TIME: f64 = 100.0;
+/// Rows before the fine ones.
+const COARSE_ROWS: f64 = 60.0;
+const FINE_INTERVAL: f64 = 2.0;
+/// Fraction of the predicted wall travel from which rows are fine.
+const FINE_FROM: f64 = 0.98;
+/// Fraction of the predicted wall travel that is run in any case …
+const TRAVEL_MARGIN: f64 = 1.05;
+/// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
+const TIME_MARGIN: f64 = 80.0;
+
+/// Which stacks a crosscheck covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Profile {
+    /// Six frictions around the critical one at three stiffnesses.
+    Quick,
+}
+
+impl Profile {
+    /// The stacks, stiffness by stiffness.
+    pub fn stacks(self) -> Vec<Stack> {
+        let frictions = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
+        let stiffnesses = [1e2, 1e3, 1e4];
+        stiffnesses
+            .into_iter()
+            .flat_map(|stiffness| frictions.map(|friction| Stack::paper(friction, stiffness)))
+            .collect()
+    }
+}
+
+/// There is nothing to run because the stack does not yield at the floor.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("`mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
+pub struct NoYield {
+    /// The stack.
+    pub stack: Stack,
+    /// What happens instead of the yield.
+    pub reason: String,
+    /// Lowest and highest floor friction at which such a stack yields, if there is any.
+    pub range: Option<(f64, f64)>,
+}
+
+fn accepted(range: Option<(f64, f64)>) -> String {
+    range.map_or_else(String::new, |(lowest, highest)| {
+        format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
+    })
+}
+
+/// All that one row of a crosscheck needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Who measures.
+    pub engine: EngineName,
+    /// What.
+    pub stack: Stack,
+    /// What a contact is to this engine.
+    pub convention: Convention,
+    /// The exact limit under this convention, by which the engine is judged.
+    pub limit: Limit,
+    /// Distance of that limit from the one under the paper's convention, relative to F + 3.
+    pub model_form: Option<f64>,
+    /// One case per wall speed, then one with a coarse time step and one with a short gravity ramp; none
+    /// where nothing yields.
+    pub cases: Vec<Case>,
+}
+
+/// Plans the measurement of `stack` with `engine` under `convention`.
+pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measurement {
+    let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
+    let paper = quasistatic_limit(stack, 0.0, 0.0);
+    let model_form = limit
+        .yield_force
+        .zip(paper.yield_force)
+        .map(|(own, paper)| (own - paper) / (paper + 3.0));
+    let protocols = planned_protocols(&limit).into_iter().flatten();
+    let cases = protocols.map(|protocol| Case {
+        stack: *stack,
+        convention,
+        protocol,
+    });
+    Measurement {
+        engine,
+        stack: *stack,
+        convention,
+        cases: cases.collect(),
+        limit,
+        model_form,
+    }
+}
+
+fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
+    let mut protocols = Vec::new();
+    for speed in SPEEDS {
+        protocols.push(planned_protocol(limit, speed, TIME_STEP)?);
+    }
+    let middle = protocols[MIDDLE_RUN];
+    let Preparation::GravityRamp { rest_time, .. } = middle.preparation;
+    protocols.push(Protocol {
+        time_step: 2.0 * TIME_STEP,
+        ..middle
+    });
+    protocols.push(Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: 0.5 * RAMP_TIME,
+            rest_time,
+        },
+        ..middle
+    });
+    Some(protocols)
+}
+
+/// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time.
+/// `None` where nothing yields.
+pub fn planned_protocol(limit: &Limit, speed: f64, time_step: f64) -> Option<Protocol> {
+    limit.yield_force?;
+    protocol_at_speed(limit, speed * limit.z?, time_step)
+}
+
+/// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
+pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
+    limit.yield_force?;
+    let travel = limit.wall_travel?;
+    let fine_from_travel = FINE_FROM * travel;
+    Some(Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: RAMP_TIME,
+            rest_time: REST_TIME,
+        },
+        time_step,
+        wall_speed,
+        wall_travel: TRAVEL_MARGIN * travel + TIME_MARGIN * wall_speed,
+        sampling: Sampling {
+            coarse_interval: fine_from_travel / wall_speed / COARSE_ROWS,
+            fine_from_travel,
+            fine_interval: FINE_INTERVAL,
+        },
+    })
+}
+
+/// The refusal to run a stack that does not yield, with what would be accepted.
+pub fn no_yield(stack: &Stack, convention: &Convention, limit: &Limit) -> NoYield {
+    NoYield {
+        stack: *stack,
+        reason: limit
+            .reason
+            .clone()
+            .unwrap_or_else(|| "no yield force".to_owned()),
+        range: yielding_frictions(stack, convention),
+    }
+}
+
+/// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
+/// four digits; `None` if there is none.
+pub fn yielding_frictions(stack: &Stack, convention: &Convention) -> Option<(f64, f64)> {
+    const GRID: f64 = 0.01;
+    let yields = |floor_friction: f64| {
+        let stack = Stack {
+            floor_friction,
+            ..*stack
+        };
+        let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+        limit.event == Event::FloorSlip && limit.yield_force.is_some()
+    };
+    let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
+    let first = grid.iter().position(|&friction| yields(friction))?;
+    let last = grid.iter().rposition(|&friction| yields(friction))?;
+    let border = |mut inside: f64, mut outside: f64| {
+        while (inside - outside).abs() > 1e-5 {
+            let middle = 0.5 * (inside + outside);
+            if yields(middle) {
+                inside = middle
+            } else {
+                outside = middle
+            }
+        }
+        inside
+    };
+    Some((
+        border(grid[first], grid[first] - GRID),
+        border(grid[last], grid[last] + GRID),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_planned_case_is_valid_and_of_similar_length() {
+        for stack in Profile::Quick.stacks() {
+            let measurement = plan(EngineName::Yade, &stack, EngineName::Yade.convention());
+            assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
+            for case in &measurement.cases {
+                case.validate().unwrap();
+                let steps = case.protocol.schedule().total_steps();
+                assert!((3_000..150_000).contains(&steps), "{steps}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_further_run_differs_from_the_middle_one_in_one_thing() {
+        let stack = Stack::paper(0.3, 1e3);
+        let cases = plan(EngineName::Native, &stack, Convention::PAPER).cases;
+        let middle = cases[MIDDLE_RUN];
+        let mut coarse = cases[COARSE_TIME_STEP_RUN];
+        assert_eq!(coarse.protocol.time_step, 2.0 * TIME_STEP);
+        coarse.protocol.time_step = TIME_STEP;
+        assert_eq!(coarse, middle);
+        let mut short = cases[SHORT_RAMP_RUN];
+        assert_ne!(short, middle);
+        short.protocol.preparation = middle.protocol.preparation;
+        assert_eq!(short, middle);
+    }
+
+    #[test]
+    fn nothing_is_planned_where_nothing_yields() {
+        let measurement = plan(
+            EngineName::Native,
+            &Stack::paper(0.05, 1e2),
+            Convention::PAPER,
+        );
+        assert!(measurement.cases.is_empty());
+    }
+
+    #[test]
+    fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
+        let (lowest, highest) =
+            yielding_frictions(&Stack::paper(0.05, 1e2), &Convention::PAPER).unwrap();
+        assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
+        // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
+        assert!((highest - 0.53994).abs() < 2e-5);
+    }
+}

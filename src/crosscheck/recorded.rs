@@ -1,0 +1,105 @@
+//! Recorded runs, which stand in for engines that are not installed.
+
+use crate::archive::{Archive, ArchiveError, Run};
+use crate::engine::EngineName;
+use crate::stack::Case;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// The recorded runs of the project.
+#[derive(Debug, Clone)]
+pub struct Recorded {
+    archive: Archive,
+}
+
+/// Why a recorded run cannot stand in.
+#[derive(Debug, Error)]
+pub enum RecordedError {
+    /// Nobody recorded it.
+    #[error("{engine} is not installed, and there is no recorded run at {}; install it ({}) or record it where it is installed (tristack record --engines {engine})", path.display(), engine.installation_hint())]
+    Absent {
+        /// The engine.
+        engine: EngineName,
+        /// Where the run would be.
+        path: PathBuf,
+    },
+    /// It was made with another deck than today's.
+    #[error("the recorded run {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --engines {engine}", path.display())]
+    OtherDeck {
+        /// The engine.
+        engine: EngineName,
+        /// The recorded run.
+        path: PathBuf,
+        /// Deck hash it was made with.
+        recorded: String,
+        /// Deck hash of this version of tristack.
+        current: String,
+    },
+    /// It cannot be read.
+    #[error(transparent)]
+    Damaged(#[from] ArchiveError),
+}
+
+impl Recorded {
+    /// Recorded runs below `root`.
+    pub fn new(root: &Path) -> Self {
+        Self {
+            archive: Archive::new(root),
+        }
+    }
+
+    /// The recorded run of `case` by `engine`.
+    ///
+    /// # Errors
+    /// If there is none, or it is damaged, or it was made with another deck.
+    pub fn get(&self, engine: EngineName, case: &Case) -> Result<Run, RecordedError> {
+        let name = name(engine, case);
+        let path = self.archive.root().join(&name);
+        let run = self.archive.load(&name)?;
+        let Some(run) = run.filter(|run| run.case == *case) else {
+            return Err(RecordedError::Absent { engine, path });
+        };
+        let current = engine.deck_hash();
+        if run.provenance.identity.deck_hash != current {
+            return Err(RecordedError::OtherDeck {
+                engine,
+                path,
+                recorded: run.provenance.identity.deck_hash,
+                current,
+            });
+        }
+        Ok(run)
+    }
+
+    /// Records `runs` of `engine` in place of everything recorded of it before.
+    ///
+    /// # Errors
+    /// If they cannot be written; the older recordings are removed last.
+    pub fn replace(&self, engine: EngineName, runs: &[Run]) -> Result<(), ArchiveError> {
+        let mut names = Vec::new();
+        for run in runs {
+            let name = name(engine, &run.case);
+            self.archive.save(&name, run)?;
+            names.push(self.archive.root().join(name));
+        }
+        let directory = self.archive.root().join(engine.as_str());
+        let entries = std::fs::read_dir(&directory).map_err(ArchiveError::reading(&directory))?;
+        for entry in entries.flatten() {
+            let path = entry.path();
+            if !names.contains(&path) {
+                std::fs::remove_dir_all(&path).map_err(ArchiveError::writing(&path))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn name(engine: EngineName, case: &Case) -> PathBuf {
+    let stack = &case.stack;
+    let hash = &case.content_hash()[..12];
+    let case = format!(
+        "mu-{}_stiffness-{}_{hash}",
+        stack.floor_friction, stack.stiffness
+    );
+    Path::new(engine.as_str()).join(case)
+}

@@ -1,0 +1,77 @@
+//! A run that did not deliver, with everything needed to look into it.
+
+use super::EngineName;
+use crate::archive::ArchiveError;
+use crate::stack::{Case, InvalidValue};
+use crate::trace::SeriesError;
+use std::path::PathBuf;
+use std::process::ExitStatus;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why an engine delivered no series.
+#[derive(Debug, Error)]
+pub enum FailureKind {
+    /// The engine cannot run this case.
+    #[error("the engine cannot run the case: {0}")]
+    Unsupported(InvalidValue),
+    /// The run directory could not be prepared.
+    #[error(transparent)]
+    Workplace(#[from] ArchiveError),
+    /// The program could not be started.
+    #[error("cannot start the program: {0}")]
+    Start(std::io::Error),
+    /// The program ended before the case was done.
+    #[error("the program ended without a series: {0}")]
+    Ended(ExitStatus),
+    /// The program did not finish in time and was killed.
+    #[error("no series after {:.1} s; the program was killed", .0.as_secs_f64())]
+    TimedOut(Duration),
+    /// The user interrupted.
+    #[error("interrupted")]
+    Interrupted,
+    /// The series is not the one that was asked for.
+    #[error("the series is not usable: {0}")]
+    Series(#[from] SeriesError),
+}
+
+/// A failed run.
+#[derive(Debug, Error)]
+#[error(
+    "{engine} failed on {}: {kind}{}",
+    describe(case),
+    context(run_directory, last_lines)
+)]
+pub struct Failure {
+    /// Who failed.
+    pub engine: EngineName,
+    /// On what.
+    pub case: Box<Case>,
+    /// Why.
+    pub kind: FailureKind,
+    /// Where the deck and the captured output are.
+    pub run_directory: Option<PathBuf>,
+    /// The end of what the program wrote.
+    pub last_lines: Vec<String>,
+}
+
+fn describe(case: &Case) -> String {
+    format!(
+        "mu = {}, stiffness = {}, wall speed = {:e}, time step = {}",
+        case.stack.floor_friction,
+        case.stack.stiffness,
+        case.protocol.wall_speed,
+        case.protocol.time_step
+    )
+}
+
+fn context(run_directory: &Option<PathBuf>, last_lines: &[String]) -> String {
+    let mut text = String::new();
+    if let Some(directory) = run_directory {
+        text += &format!("\n  run directory: {}", directory.display());
+    }
+    for line in last_lines {
+        text += &format!("\n  | {line}");
+    }
+    text
+}

@@ -1,0 +1,106 @@
+//! Which binary an engine is, and which version.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// An installed program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Installation {
+    /// The program.
+    pub program: PathBuf,
+    /// Its own version, or that of its package.
+    pub version: String,
+    /// Distribution package and its version, if the program belongs to one.
+    pub package: Option<String>,
+}
+
+/// Looks for `program` in the search path and asks the package manager, else the program itself with
+/// `version_arguments`, for its version.
+pub fn find(program: &str, version_arguments: &[&str]) -> Option<Installation> {
+    let program = in_search_path(program)?;
+    let package = owning_package(&program);
+    let version = match &package {
+        Some((_, version)) => upstream(version).to_owned(),
+        None => own_version(&program, version_arguments),
+    };
+    Some(Installation {
+        program,
+        version,
+        package: package.map(|(name, version)| format!("{name} {version}")),
+    })
+}
+
+fn in_search_path(program: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path)
+        .map(|directory| directory.join(program))
+        .find(|candidate| is_executable(candidate))
+}
+
+#[cfg(unix)]
+fn is_executable(path: &Path) -> bool {
+    use std::os::unix::fs::PermissionsExt;
+    let metadata = std::fs::metadata(path);
+    metadata.is_ok_and(|metadata| metadata.is_file() && metadata.permissions().mode() & 0o111 != 0)
+}
+
+#[cfg(not(unix))]
+fn is_executable(path: &Path) -> bool {
+    path.is_file()
+}
+
+/// Debian package and version that the program, links followed, belongs to.
+fn owning_package(program: &Path) -> Option<(String, String)> {
+    let resolved = program.canonicalize().ok()?;
+    let search = output(Command::new("dpkg-query").arg("--search").arg(resolved))?;
+    let name = search.lines().next()?.split(':').next()?.to_owned();
+    let format = "--showformat=${Version}";
+    let version = output(Command::new("dpkg-query").args(["--show", format, &name]))?;
+    Some((name, version))
+}
+
+/// The upstream part of a Debian version, without epoch, repackaging suffix and revision.
+fn upstream(version: &str) -> &str {
+    let version = version.split_once(':').map_or(version, |(_, rest)| rest);
+    let version = version
+        .rsplit_once('-')
+        .map_or(version, |(upstream, _)| upstream);
+    version
+        .split_once('+')
+        .map_or(version, |(upstream, _)| upstream)
+}
+
+fn own_version(program: &Path, arguments: &[&str]) -> String {
+    let text = output(Command::new(program).args(arguments)).unwrap_or_default();
+    let first = text.lines().find(|line| !line.trim().is_empty());
+    first.map_or("unknown", str::trim).to_owned()
+}
+
+fn output(command: &mut Command) -> Option<String> {
+    let output = command
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
+    output
+        .status
+        .success()
+        .then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn upstream_version_is_what_the_authors_call_it() {
+        assert_eq!(upstream("3.8.0+repack1-9+b2"), "3.8.0");
+        assert_eq!(upstream("2023.02a-1"), "2023.02a");
+        assert_eq!(upstream("1:29Sep2021+ds-1"), "29Sep2021");
+    }
+
+    #[test]
+    fn a_program_that_does_not_exist_is_not_installed() {
+        assert_eq!(find("tristack-has-no-such-engine", &[]), None);
+    }
+}

@@ -1,0 +1,78 @@
+//! The native DEM behind the same interface as the external codes.
+
+use super::{Engine, EngineName, Failure, FailureKind, Workplace};
+use crate::archive::{Identity, Provenance, Run};
+use crate::dem::compress_stack;
+use crate::stack::Case;
+use std::time::Instant;
+
+/// The DEM of this program.
+pub struct Native {
+    identity: Identity,
+}
+
+impl Native {
+    pub(super) fn new() -> Self {
+        Self {
+            identity: Identity {
+                engine: EngineName::Native.as_str().to_owned(),
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                package: None,
+                deck_hash: EngineName::Native.deck_hash(),
+            },
+        }
+    }
+
+    fn run_one(&self, case: &Case, workplace: &Workplace) -> Result<Run, FailureKind> {
+        if workplace.interrupt.requested() {
+            return Err(FailureKind::Interrupted);
+        }
+        let start = Instant::now();
+        let trace = compress_stack(case)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let steps = case.protocol.schedule().total_steps();
+        let command = vec![
+            "tristack".to_owned(),
+            "simulate".to_owned(),
+            "--case".to_owned(),
+            "case.json".to_owned(),
+        ];
+        Ok(Run {
+            case: *case,
+            trace,
+            provenance: Provenance::now(self.identity.clone(), command, steps, seconds),
+        })
+    }
+}
+
+impl Engine for Native {
+    fn name(&self) -> EngineName {
+        EngineName::Native
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    fn prefers_many_cases(&self) -> bool {
+        false
+    }
+
+    fn run(
+        &self,
+        cases: &[Case],
+        workplace: &Workplace,
+        finished: &mut dyn FnMut(usize, Result<Run, Failure>),
+    ) {
+        for (index, case) in cases.iter().enumerate() {
+            let result = self.run_one(case, workplace).map_err(|kind| Failure {
+                engine: EngineName::Native,
+                case: Box::new(*case),
+                kind,
+                run_directory: None,
+                last_lines: Vec::new(),
+            });
+            finished(index, result);
+        }
+    }
+}

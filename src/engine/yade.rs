@@ -1,0 +1,49 @@
+//! YADE: many cases a process, because its start takes longer than most cases.
+
+use super::EngineName;
+use super::deck::DeckParameters;
+use super::external::Adapter;
+use crate::stack::{Case, Convention};
+use crate::trace::{SeriesError, Trace};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Both arms end halfway into the overlap, on a floor made of boxes.
+pub const CONVENTION: Convention = Convention::with_arms(-0.5, -0.5);
+
+const SERIES: &str = "series.csv";
+
+/// YADE, ViscElPhys_Basic, box floor.
+pub static YADE: Adapter = Adapter {
+    name: EngineName::Yade,
+    program: "yade",
+    version_arguments: &["--version"],
+    deck: &[("stack.py", include_str!("../../yade_scripts/stack.py"))],
+    environment: &[],
+    logs: &[],
+    parameter_file: "parameters.json",
+    parameters: DeckParameters::to_json,
+    arguments: |directories| {
+        let fixed = ["-n", "-x", "-j1", "stack.py"].map(str::to_owned);
+        fixed
+            .into_iter()
+            .chain(directories.iter().cloned())
+            .collect()
+    },
+    completion_file: Some(SERIES),
+    read_series,
+};
+
+/// Hash of the script.
+pub fn deck_hash() -> String {
+    YADE.deck_hash()
+}
+
+fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
+    let file = File::open(directory.join(SERIES)).map_err(|error| SeriesError::Absent {
+        message: format!("cannot read {SERIES}: {error}"),
+    })?;
+    let schedule = case.protocol.schedule();
+    Trace::read(BufReader::new(file), &schedule, case.protocol.time_step)
+}

@@ -1,0 +1,49 @@
+//! Numbers for people.
+
+use crate::stack::CRITICAL_FRICTION;
+
+/// `value` with `digits` significant digits, in plain notation where that is short.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = libm::floor(libm::log10(value.abs())) as i32;
+    let decimals = digits as i32 - 1 - exponent;
+    if (-5..7).contains(&exponent) && decimals >= 0 {
+        format!("{value:.*}", decimals as usize)
+    } else {
+        format!("{value:.*e}", digits - 1)
+    }
+}
+
+/// A relative deviation: sign, two digits, exponent.
+pub fn relative(value: f64) -> String {
+    format!("{value:+.1e}")
+}
+
+/// A friction coefficient, with the critical one by its name.
+pub fn friction(value: f64) -> String {
+    if value == CRITICAL_FRICTION {
+        "mu_c".to_owned()
+    } else {
+        value.to_string()
+    }
+}
+
+/// A cell for a value that may be absent.
+pub fn optional(value: Option<f64>, format: impl Fn(f64) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), format)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_significant_ones() {
+        assert_eq!(significant(2124.669922154, 8), "2124.6699");
+        assert_eq!(significant(0.59912362, 6), "0.599124");
+        assert_eq!(significant(3.2e-9, 2), "3.2e-9");
+        assert_eq!(significant(0.0, 3), "0");
+    }
+}

@@ -33,7 +33,8 @@ pub struct Provenance {
     pub identity: Identity,
     /// Version of tristack that drove it.
     pub tristack: String,
-    /// The command, run in a directory with the deck and the parameters of the case.
+    /// The command that repeats the run in a directory with the deck and the parameters of the case, as
+    /// `tristack simulate --case case.json --out DIRECTORY` makes it.
     pub command: Vec<String>,
     /// When it finished, UTC.
     pub date: String,
@@ -41,7 +42,7 @@ pub struct Provenance {
     pub machine: String,
     /// Steps in all, preparation included.
     pub steps: u64,
-    /// Wall time of the run; of the process divided by its runs where they share one.
+    /// Wall time since the process was started, or since its last finished run where many share one.
     pub seconds: f64,
 }
 

@@ -60,7 +60,7 @@ pub enum CliError {
     Invalid(#[from] InvalidValue),
     /// The stack does not yield.
     #[error(transparent)]
-    NoYield(#[from] NoYield),
+    NoYield(#[from] Box<NoYield>),
     /// The case file is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -72,7 +72,7 @@ pub enum CliError {
     MissingEngine(EngineName),
     /// An engine failed.
     #[error(transparent)]
-    Engine(#[from] Failure),
+    Engine(#[from] Box<Failure>),
 }
 
 impl CliError {

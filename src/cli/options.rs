@@ -28,10 +28,10 @@ pub enum Format {
 #[derive(Debug, Clone, Args)]
 pub struct StackOptions {
     /// Stiffness ratio k_n/k_t
-    #[arg(long, value_name = "K", default_value_t = PAPER_STIFFNESS_RATIO)]
+    #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
     pub kappa: f64,
     /// Friction between cylinders
-    #[arg(long, value_name = "D", default_value_t = PAPER_CYLINDER_FRICTION)]
+    #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
     pub mu_d: f64,
 }
 
@@ -88,7 +88,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
     /// Longest time in seconds that an engine may take for one run [default: 30 times the expected]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time_limit: Option<f64>,
 }
 

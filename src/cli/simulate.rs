@@ -53,7 +53,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Longest time in seconds that the engine may take [default: 30 times the expected]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
     /// How to print the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Err(failure) => {
             // What the engine wrote is evidence, and the failure names the place.
             scratch.map(tempfile::TempDir::keep);
-            return Err(failure.into());
+            return Err(Box::new(failure).into());
         }
     };
     let simulation = Simulation::new(&run, YieldEstimates::read(&run.trace, &case.stack));
@@ -114,7 +114,7 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
         None => planned_protocol(&limit, DEFAULT_SPEED, arguments.dt),
     };
-    let protocol = protocol.ok_or_else(|| no_yield(&stack, &convention, &limit))?;
+    let protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
     let case = Case {
         stack,
         convention,

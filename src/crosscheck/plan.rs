@@ -51,7 +51,7 @@ impl Profile {
 
 /// There is nothing to run because the stack does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("`mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
+#[error("`--mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
 pub struct NoYield {
     /// The stack.
     pub stack: Stack,
@@ -93,7 +93,11 @@ pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measur
         .yield_force
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / (paper + 3.0));
-    let protocols = planned_protocols(&limit).into_iter().flatten();
+    let yields = limit.yield_force.is_some();
+    let protocols = planned_protocols(&limit)
+        .filter(|_| yields)
+        .into_iter()
+        .flatten();
     let cases = protocols.map(|protocol| Case {
         stack: *stack,
         convention,
@@ -131,15 +135,17 @@ fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 }
 
 /// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time.
-/// `None` where nothing yields.
+/// `None` where the floor does not slip.
 pub fn planned_protocol(limit: &Limit, speed: f64, time_step: f64) -> Option<Protocol> {
-    limit.yield_force?;
     protocol_at_speed(limit, speed * limit.z?, time_step)
 }
 
-/// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
+/// The protocol of a run with a given wall speed in r √(k_n/m). `None` where the floor does not slip; where
+/// the bottom cylinders touch first it still slips later, near the force that ignores this.
 pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
-    limit.yield_force?;
+    if !matches!(limit.event, Event::FloorSlip | Event::ContactCloses) {
+        return None;
+    }
     let travel = limit.wall_travel?;
     let fine_from_travel = FINE_FROM * travel;
     Some(Protocol {
@@ -148,14 +154,21 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
             rest_time: REST_TIME,
         },
         time_step,
-        wall_speed,
-        wall_travel: TRAVEL_MARGIN * travel + TIME_MARGIN * wall_speed,
+        wall_speed: rounded(wall_speed),
+        wall_travel: rounded(TRAVEL_MARGIN * travel + TIME_MARGIN * wall_speed),
         sampling: Sampling {
-            coarse_interval: fine_from_travel / wall_speed / COARSE_ROWS,
-            fine_from_travel,
+            coarse_interval: rounded(fine_from_travel / wall_speed / COARSE_ROWS),
+            fine_from_travel: rounded(fine_from_travel),
             fine_interval: FINE_INTERVAL,
         },
     })
+}
+
+/// `value` to six significant digits. A plan is part of the address of a run: it must not depend on the
+/// last digits of the limit, which may differ between machines.
+fn rounded(value: f64) -> f64 {
+    let text = format!("{value:.5e}");
+    text.parse().unwrap_or(value)
 }
 
 /// The refusal to run a stack that does not yield, with what would be accepted.
@@ -232,6 +245,12 @@ mod tests {
         assert_ne!(short, middle);
         short.protocol.preparation = middle.protocol.preparation;
         assert_eq!(short, middle);
+    }
+
+    #[test]
+    fn a_plan_does_not_see_the_last_digits_of_the_limit() {
+        assert_eq!(rounded(1.642_259_585e-4), 1.64226e-4);
+        assert_eq!(rounded(0.7), 0.7);
     }
 
     #[test]

@@ -50,7 +50,7 @@ impl Participant {
 pub enum RunError {
     /// The engine failed.
     #[error(transparent)]
-    Failed(#[from] Failure),
+    Failed(#[from] Box<Failure>),
     /// The engine is not installed, and no recorded run stands in.
     #[error(transparent)]
     Missing(#[from] RecordedError),
@@ -253,7 +253,7 @@ impl Floor<'_> {
         }
         self.progress
             .finished(job.engine.name(), self.case(task), result.as_ref());
-        self.fill(task, result.map_err(RunError::from));
+        self.fill(task, result.map_err(|failure| Box::new(failure).into()));
     }
 
     fn fail_all(&self, job: &Job, message: &str) {

@@ -64,7 +64,7 @@ impl std::fmt::Display for Verdict {
 /// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
 /// least [`FLOOR`] and at most [`BAR`].
 pub fn tolerance(uncertainty: f64) -> f64 {
-    uncertainty.max(FLOOR).min(BAR)
+    uncertainty.clamp(FLOOR, BAR)
 }
 
 /// Whether the numbers of a row were computed now or read from a recorded run.

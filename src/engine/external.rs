@@ -81,6 +81,15 @@ impl ExternalEngine {
     }
 }
 
+impl ExternalEngine {
+    /// Program and arguments that run the cases in `directories`.
+    fn command(&self, directories: &[String]) -> Vec<String> {
+        let mut command = vec![self.adapter.program.to_owned()];
+        command.extend((self.adapter.arguments)(directories));
+        command
+    }
+}
+
 impl Engine for ExternalEngine {
     fn name(&self) -> EngineName {
         self.adapter.name
@@ -130,7 +139,6 @@ struct Batch<'a> {
     directory: PathBuf,
     /// Directories of the cases, relative to `directory`.
     case_directories: Vec<String>,
-    command: Vec<String>,
     /// First case whose result has not been reported yet.
     next: usize,
     last_report: Instant,
@@ -146,14 +154,11 @@ impl<'a> Batch<'a> {
                 .map(|index| format!("case-{index}"))
                 .collect(),
         };
-        let mut command = vec![engine.adapter.program.to_owned()];
-        command.extend((engine.adapter.arguments)(&case_directories));
         Self {
             engine,
             cases,
             directory,
             case_directories,
-            command,
             next: 0,
             last_report: Instant::now(),
         }
@@ -202,7 +207,8 @@ impl<'a> Batch<'a> {
         workplace: &Workplace,
         report: Report,
     ) -> Result<Ending, FailureKind> {
-        let mut command: Vec<OsString> = self.command.iter().map(OsString::from).collect();
+        let command = self.engine.command(&self.case_directories);
+        let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
         command[0] = self.engine.installation.program.clone().into_os_string();
         let directory = self.directory.clone();
         let job = Job {
@@ -266,7 +272,8 @@ impl<'a> Batch<'a> {
                 let seconds = self.last_report.elapsed().as_secs_f64();
                 let steps = case.protocol.schedule().total_steps();
                 let identity = self.engine.identity.clone();
-                let provenance = Provenance::now(identity, self.command.clone(), steps, seconds);
+                let command = self.engine.command(&[".".to_owned()]);
+                let provenance = Provenance::now(identity, command, steps, seconds);
                 self.report(
                     Ok(Run {
                         case: *case,

@@ -30,7 +30,7 @@ pub(super) fn within(key: &str, value: f64, lowest: f64, highest: f64) -> Result
     if (lowest..=highest).contains(&value) {
         return Ok(());
     }
-    let accepted = format!("a number from {lowest:?} to {highest:?}");
+    let accepted = format!("a number from {} to {}", short(lowest), short(highest));
     Err(InvalidValue::new(key, value, accepted))
 }
 
@@ -39,8 +39,18 @@ pub(super) fn positive(key: &str, value: f64, highest: f64) -> Result<(), Invali
     if value > 0.0 && value <= highest {
         return Ok(());
     }
-    let accepted = format!("a number above 0, at most {highest:?}");
+    let accepted = format!("a number above 0, at most {}", short(highest));
     Err(InvalidValue::new(key, value, accepted))
+}
+
+/// The shorter of plain and scientific notation.
+fn short(value: f64) -> String {
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() {
+        scientific
+    } else {
+        plain
+    }
 }
 
 #[cfg(test)]
@@ -59,7 +69,7 @@ mod tests {
         let error = positive("stack.stiffness", -3.0, 1e8).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "`stack.stiffness` is -3, but must be a number above 0, at most 100000000.0"
+            "`stack.stiffness` is -3, but must be a number above 0, at most 1e8"
         );
     }
 }

@@ -30,11 +30,24 @@ impl YieldEstimates {
             force: estimate.force * stack.stiffness,
             sampling: estimate.sampling * stack.stiffness,
         };
+        let samples = trace.samples();
+        let Some(highest) = highest(samples) else {
+            return Self {
+                slip: None,
+                peak: None,
+            };
+        };
         Self {
-            slip: slip_onset(trace.samples(), stack.floor_friction).map(in_weights),
-            peak: peak(trace.samples()).map(in_weights),
+            slip: slip_onset(&samples[..=highest], stack.floor_friction).map(in_weights),
+            peak: peak(samples, highest).map(in_weights),
         }
     }
+}
+
+/// Index of the row with the largest wall force.
+fn highest(samples: &[Sample]) -> Option<usize> {
+    let force = |index: usize| samples[index].wall_force;
+    (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))
 }
 
 /// μ n − |t| of the floor contact that is closer to sliding.
@@ -77,9 +90,7 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
 
 /// Vertex of the parabola through the highest row and its neighbours, compared with the one through the
 /// neighbours one further away.
-fn peak(samples: &[Sample]) -> Option<Estimate> {
-    let force = |index: usize| samples[index].wall_force;
-    let highest = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
+fn peak(samples: &[Sample], highest: usize) -> Option<Estimate> {
     if highest < 2 || highest + 2 >= samples.len() {
         return None;
     }

@@ -1,0 +1,239 @@
+//! Bad input: a clear error, the documented exit status, no panic, no partial file.
+
+mod common;
+
+use common::{Bench, standard_error};
+use std::fs;
+
+const CASE: &str = r#"
+[stack]
+floor_friction = 0.3
+stiffness = 100.0
+
+[convention]
+pair_arm = 0.0
+floor_arm = 0.0
+
+[protocol]
+preparation = { kind = "gravity-ramp", ramp_time = 100.0, rest_time = 100.0 }
+time_step = 0.1
+wall_speed = 1e-3
+wall_travel = 0.8
+sampling = { coarse_interval = 10.0, fine_from_travel = 0.6, fine_interval = 2.0 }
+"#;
+
+/// The message of a command that must fail with `status`, checked not to be a panic.
+fn refusal(bench: &Bench, line: &str, status: i32) -> String {
+    let message = standard_error(&mut bench.tristack(line));
+    bench.tristack(line).assert().code(status).stdout("");
+    assert!(!message.contains("panicked"), "{line}: {message}");
+    message
+}
+
+#[test]
+fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
+    let bench = Bench::without_engines();
+    for (line, parts) in [
+        (
+            "theory --mu 0.3 --stiffness -5",
+            ["--stiffness", "-5", "from 1 to 1e8"],
+        ),
+        (
+            "theory --mu 0.3 --stiffness nan",
+            ["--stiffness", "NaN", "from 1 to 1e8"],
+        ),
+        (
+            "theory --mu 0.3 --stiffness inf",
+            ["--stiffness", "inf", "from 1 to 1e8"],
+        ),
+        (
+            "theory --mu nan --stiffness 100",
+            ["--mu", "NaN", "above 0"],
+        ),
+        (
+            "theory --mu -0.3 --stiffness 100",
+            ["--mu", "-0.3", "above 0"],
+        ),
+        (
+            "theory --mu high --stiffness 100",
+            ["--mu", "high", "critical"],
+        ),
+        (
+            "theory --mu 0.3 --stiffness 100 --kappa 0",
+            ["--kappa", "0", "above 0"],
+        ),
+        (
+            "theory --mu 0.3 --stiffness 100 --pair-arm 7",
+            ["--pair-arm", "7", "from -1 to 1"],
+        ),
+        (
+            "simulate --engine native --mu 0.3 --stiffness 100 --dt 9",
+            ["--dt", "9", "at most 0.4"],
+        ),
+        (
+            "simulate --engine native --mu 0.3 --stiffness 100 --speed 0",
+            ["--speed", "0", "above 0"],
+        ),
+        (
+            "simulate --engine native --mu 0.3 --stiffness 100 --time-limit -1",
+            ["--time-limit", "-1", "seconds"],
+        ),
+        (
+            "simulate --engine abaqus --mu 0.3 --stiffness 100",
+            ["--engine", "abaqus", "liggghts"],
+        ),
+        (
+            "simulate --engine yade --mu 0.3 --stiffness 100 --floor-arm -1",
+            ["--floor-arm", "-1", "-0.5 for yade"],
+        ),
+        (
+            "sweep --engine native --mu 0.5:0.1:0.1 --stiffness 100",
+            ["--mu", "0.5:0.1:0.1", "A:B:STEP"],
+        ),
+        ("crosscheck --profile slow", ["--profile", "slow", "quick"]),
+        (
+            "crosscheck --engines native,matlab",
+            ["--engines", "matlab", "yade"],
+        ),
+    ] {
+        let message = refusal(&bench, line, 1);
+        for part in parts {
+            assert!(message.contains(part), "{line}: {message} lacks {part}");
+        }
+    }
+}
+
+#[test]
+fn a_friction_at_which_nothing_yields_is_refused_with_the_range_that_does() {
+    let bench = Bench::without_engines();
+    for (mu, reason) in [
+        ("0.05", "under its own weight"),
+        ("0.8", "top wall reaches"),
+    ] {
+        let line = format!("simulate --engine native --mu {mu} --stiffness 100 --out run");
+        let message = refusal(&bench, &line, 1);
+        assert!(message.contains(reason), "{message}");
+        assert!(message.contains("between 0.0898 and 0.5399"), "{message}");
+        assert!(!bench.path("run").exists());
+    }
+}
+
+#[test]
+fn case_files_are_checked_key_by_key() {
+    let bench = Bench::without_engines();
+    let changes = [
+        (
+            "stiffness = 100.0",
+            "stiffness = -100.0",
+            "`stack.stiffness` is -100",
+        ),
+        (
+            "stiffness = 100.0",
+            "stiffness = nan",
+            "`stack.stiffness` is NaN",
+        ),
+        (
+            "stiffness = 100.0",
+            "stiffnes = 100.0",
+            "unknown field `stiffnes`",
+        ),
+        ("stiffness = 100.0", "", "missing field `stiffness`"),
+        (
+            "stiffness = 100.0",
+            "stiffness = \"high\"",
+            "invalid type: string",
+        ),
+        (
+            "time_step = 0.1",
+            "time_step = 4.0",
+            "`protocol.time_step` is 4",
+        ),
+        (
+            "wall_speed = 1e-3",
+            "wall_speed = 1e-300",
+            "`protocol.wall_speed` is",
+        ),
+        ("gravity-ramp", "magic", "unknown variant `magic`"),
+        (
+            "pair_arm = 0.0",
+            "pair_arm = 0.0\nrestitution = 2.0",
+            "`convention.restitution` is 2",
+        ),
+    ];
+    for (from, to, expected) in changes {
+        fs::write(bench.path("case.toml"), CASE.replacen(from, to, 1)).expect("a case file");
+        let message = refusal(&bench, "simulate --engine native --case case.toml", 1);
+        assert!(message.contains("case.toml"), "{message}");
+        assert!(message.contains(expected), "{message} lacks {expected}");
+    }
+}
+
+#[test]
+fn the_unchanged_case_file_runs() {
+    let bench = Bench::without_engines();
+    fs::write(bench.path("case.toml"), CASE).expect("a case file");
+    bench
+        .tristack("simulate --engine native --case case.toml")
+        .assert()
+        .success();
+}
+
+#[test]
+fn a_case_file_that_cannot_be_read_is_named() {
+    let bench = Bench::without_engines();
+    for (name, expected) in [
+        ("absent.toml", "absent.toml"),
+        ("case.yaml", "must end in .toml or .json"),
+    ] {
+        if name == "case.yaml" {
+            fs::write(bench.path(name), CASE).expect("a case file");
+        }
+        let message = refusal(
+            &bench,
+            &format!("simulate --engine native --case {name}"),
+            1,
+        );
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn a_directory_that_cannot_be_written_is_named_before_anything_runs() {
+    let bench = Bench::without_engines();
+    fs::write(bench.path("file"), "").expect("a file where a directory is wanted");
+    for line in [
+        "simulate --engine native --mu 0.3 --stiffness 100 --out file/run",
+        "crosscheck --engines native --out file/results",
+        "crosscheck --engines native --store file/store",
+        "sweep --engine native --mu 0.3 --stiffness 100 --out file/curve",
+    ] {
+        let message = refusal(&bench, line, 1);
+        assert!(message.contains("cannot write file/"), "{message}");
+        assert!(!message.contains("runs"), "something ran: {message}");
+    }
+}
+
+#[test]
+fn a_missing_engine_asked_for_by_name_is_an_error_with_the_remedy() {
+    let bench = Bench::without_engines();
+    for line in [
+        "crosscheck --engines liggghts",
+        "record --engines liggghts",
+        "simulate --engine liggghts --mu 0.3 --stiffness 100",
+        "sweep --engine liggghts --mu 0.3 --stiffness 100",
+    ] {
+        let message = refusal(&bench, line, 3);
+        assert!(message.contains("liggghts is not installed"), "{message}");
+        assert!(message.contains("apt-get install"), "{message}");
+    }
+}
+
+#[test]
+fn wrong_usage_ends_with_status_1_and_help_with_0() {
+    let bench = Bench::without_engines();
+    refusal(&bench, "", 1);
+    refusal(&bench, "frobnicate", 1);
+    refusal(&bench, "theory --mu 0.3", 1);
+    bench.tristack("--help").assert().code(0);
+    bench.tristack("--version").assert().code(0);
+}

@@ -1,0 +1,152 @@
+//! `tristack crosscheck` on a machine without engines: native live, the others recorded.
+
+mod common;
+
+use common::{Bench, assert_only, json, standard_error, standard_output};
+use insta::assert_snapshot;
+use std::fs;
+
+#[test]
+fn every_row_agrees_and_says_where_it_comes_from() {
+    let bench = Bench::without_engines();
+    let output = bench
+        .tristack("crosscheck --out results")
+        .output()
+        .expect("it runs");
+    assert_eq!(output.status.code(), Some(0));
+    let table = String::from_utf8(output.stdout).expect("text");
+    assert_snapshot!(table);
+    assert_only(
+        &bench.path("results"),
+        &["crosscheck.csv", "crosscheck.json", "crosscheck.md"],
+    );
+    let page = fs::read_to_string(bench.path("results/crosscheck.md")).expect("the page");
+    assert_snapshot!("page", page);
+    let message = String::from_utf8(output.stderr).expect("text");
+    assert!(
+        message.contains("yade is not installed: recorded runs stand in for it"),
+        "{message}"
+    );
+    assert!(
+        message.contains("54 of 54 rows agree; 36 rows are recorded, not live"),
+        "{message}"
+    );
+}
+
+#[test]
+fn rows_meet_the_accuracy_that_is_promised() {
+    let bench = Bench::without_engines();
+    let rows = json(&standard_output(
+        &mut bench.tristack("crosscheck --format json"),
+    ));
+    let rows = rows.as_array().expect("a list");
+    assert_eq!(rows.len(), 54);
+    for row in rows {
+        let error = row["error"].as_f64().expect("an error").abs();
+        let promised = if row["engine"] == "native" {
+            1e-6
+        } else {
+            2e-5
+        };
+        assert!(error < promised, "{row}");
+        let load = row["reference_force"].as_f64().expect("a force") + 3.0;
+        let uncertainty = row["uncertainty"].as_f64().expect("an uncertainty") / load;
+        assert!(
+            error <= uncertainty,
+            "the budget leaves something out: {row}"
+        );
+    }
+}
+
+#[test]
+fn csv_has_the_agreed_columns() {
+    let bench = Bench::without_engines();
+    let text = standard_output(&mut bench.tristack("crosscheck --engines native --format csv"));
+    assert_eq!(
+        text.lines().next(),
+        Some(
+            "engine,version,source,mu,stiffness,kappa,pair_arm,floor_arm,yield_force,uncertainty,\
+             reference,reference_force,error,tolerance,model_form,verdict"
+        )
+    );
+    assert_eq!(text.lines().count(), 19);
+}
+
+#[test]
+fn a_second_crosscheck_runs_nothing_and_says_the_same() {
+    let bench = Bench::without_engines();
+    let line = "crosscheck --engines native --format csv";
+    let first = standard_output(&mut bench.tristack(line));
+    let mut again = bench.tristack(line);
+    assert_eq!(standard_output(&mut again), first);
+    assert!(standard_error(&mut again).contains("90 of 90 runs are there already"));
+}
+
+#[test]
+fn fresh_ignores_the_store() {
+    let bench = Bench::without_engines();
+    let line = "crosscheck --engines native --fresh --format csv";
+    let first = standard_output(&mut bench.tristack(line));
+    let mut again = bench.tristack(line);
+    assert!(!standard_error(&mut again).contains("there already"));
+    assert_eq!(standard_output(&mut again), first);
+}
+
+#[test]
+fn the_number_of_workers_does_not_change_a_digit() {
+    let bench = Bench::without_engines();
+    let run = |jobs: u32| {
+        let line = format!("crosscheck --engines native --fresh --format csv --jobs {jobs}");
+        standard_output(&mut bench.tristack(&line))
+    };
+    assert_eq!(run(1), run(4));
+}
+
+#[test]
+fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
+    let bench = Bench::without_engines();
+    let reference = bench.path("reference/yade");
+    copy_recordings("yade", &reference, |provenance| {
+        provenance.replace("\"deck_hash\": \"", "\"deck_hash\": \"0")
+    });
+    let mut command = bench.tristack("crosscheck --format json");
+    command.env("TRISTACK_REFERENCE", bench.path("reference"));
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(3));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("made with another deck"), "{message}");
+    assert!(
+        message.contains("tristack record --engines yade"),
+        "{message}"
+    );
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let verdicts = |engine: &str, verdict: &str| {
+        let rows = rows.as_array().expect("a list").iter();
+        rows.filter(|row| row["engine"] == engine && row["verdict"] == verdict)
+            .count()
+    };
+    assert_eq!(verdicts("yade", "missing"), 18);
+    assert_eq!(
+        verdicts("liggghts", "missing"),
+        18,
+        "its recordings were not copied"
+    );
+    assert_eq!(verdicts("native", "agrees"), 18);
+}
+
+fn copy_recordings(engine: &str, target: &std::path::Path, change: impl Fn(&str) -> String) {
+    let source = format!("{}/reference/{engine}", env!("CARGO_MANIFEST_DIR"));
+    for entry in fs::read_dir(source).expect("recorded runs").flatten() {
+        let copy = target.join(entry.file_name());
+        fs::create_dir_all(&copy).expect("a directory");
+        for file in ["case.json", "series.csv", "provenance.json"] {
+            let text = fs::read_to_string(entry.path().join(file)).expect("a file");
+            let text = if file == "provenance.json" {
+                change(&text)
+            } else {
+                text
+            };
+            fs::write(copy.join(file), text).expect("a copy");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! `tristack simulate`, `sweep` and `engines`, as a user sees them.
+
+mod common;
+
+use common::{Bench, assert_only, json, standard_error, standard_output};
+use insta::assert_snapshot;
+use std::fs;
+
+const RUN: &str = "simulate --engine native --mu 0.3 --stiffness 1e2";
+
+fn without_time(text: &str) -> String {
+    let keep = |line: &&str| !line.contains("wall time") && !line.contains("seconds");
+    text.lines().filter(keep).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn table_shows_both_estimators() {
+    let bench = Bench::without_engines();
+    assert_snapshot!(without_time(&standard_output(&mut bench.tristack(RUN))));
+}
+
+#[test]
+fn json_has_the_agreed_keys_and_the_same_numbers_everywhere() {
+    let bench = Bench::without_engines();
+    let text = standard_output(&mut bench.tristack(&format!("{RUN} --format json")));
+    assert_snapshot!(without_time(&text));
+    assert!(json(&text)["seconds"].is_f64());
+}
+
+#[test]
+fn out_holds_case_series_and_summary() {
+    let bench = Bench::without_engines();
+    bench
+        .tristack(&format!("{RUN} --out run"))
+        .assert()
+        .success();
+    assert_only(
+        &bench.path("run"),
+        &["case.json", "series.csv", "summary.json"],
+    );
+    let series = fs::read_to_string(bench.path("run/series.csv")).expect("a series");
+    assert_snapshot!(series.lines().next().expect("a header"));
+}
+
+#[test]
+fn a_case_file_repeats_the_run_bit_by_bit() {
+    let bench = Bench::without_engines();
+    bench
+        .tristack(&format!("{RUN} --out first"))
+        .assert()
+        .success();
+    bench
+        .tristack("simulate --engine native --case first/case.json --out second")
+        .assert()
+        .success();
+    let series = |run: &str| fs::read(bench.path(run).join("series.csv")).expect("a series");
+    assert_eq!(series("first"), series("second"));
+}
+
+#[test]
+fn native_takes_any_arms() {
+    let bench = Bench::without_engines();
+    let line = format!("{RUN} --pair-arm -0.5 --floor-arm -1 --format json");
+    let run = json(&standard_output(&mut bench.tristack(&line)));
+    let slip = run["slip_force"].as_f64().expect("a number");
+    // The exact limit under these arms (reference/golden); the slip at finite speed comes a little later.
+    assert!(slip > 24.8114052 && slip < 24.82, "{slip}");
+}
+
+#[test]
+fn an_explicit_speed_is_taken_literally() {
+    let bench = Bench::without_engines();
+    let line = format!("{RUN} --speed 1e-3 --dt 0.05 --format json");
+    let run = json(&standard_output(&mut bench.tristack(&line)));
+    assert_eq!(run["case"]["protocol"]["wall_speed"], 1e-3);
+    assert_eq!(run["case"]["protocol"]["time_step"], 0.05);
+}
+
+#[test]
+fn sweep_is_a_judged_yield_curve() {
+    let bench = Bench::without_engines();
+    let line = "sweep --engine native --mu 0.05:0.55:0.1 --stiffness 1e2 --out curve";
+    let mut command = bench.tristack(line);
+    assert_snapshot!(standard_output(&mut command));
+    assert_only(&bench.path("curve"), &["sweep.csv", "sweep.json"]);
+}
+
+#[test]
+fn sweep_says_why_a_point_does_not_yield() {
+    let bench = Bench::without_engines();
+    let line = "sweep --engine native --mu 0.05 --stiffness 1e2";
+    let message = standard_error(&mut bench.tristack(line));
+    assert!(
+        message.contains("slides on the floor under its own weight"),
+        "{message}"
+    );
+    bench.tristack(line).assert().code(0);
+}
+
+#[test]
+fn engines_lists_what_is_not_installed_with_a_remedy() {
+    let bench = Bench::without_engines();
+    let text = standard_output(&mut bench.tristack("engines"));
+    let (native, external): (Vec<&str>, Vec<&str>) =
+        text.lines().partition(|line| line.contains("native"));
+    assert!(native[0].contains(env!("CARGO_PKG_VERSION")));
+    assert_snapshot!(external.join("\n"));
+}

@@ -1,0 +1,112 @@
+//! What the tests of the command line share.
+#![allow(dead_code)] // Every test binary uses a part of it.
+
+pub mod replay;
+
+use assert_cmd::Command;
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A place of its own for a test: store, programs in the search path, results.
+pub struct Bench {
+    root: TempDir,
+    /// Whether the search path holds the programs of the system, and with them installed engines.
+    system_programs: bool,
+}
+
+impl Bench {
+    /// A machine on which no engine is installed.
+    pub fn without_engines() -> Self {
+        Self::new(false)
+    }
+
+    /// This machine, as it is.
+    pub fn with_system_programs() -> Self {
+        Self::new(true)
+    }
+
+    fn new(system_programs: bool) -> Self {
+        let root = tempfile::tempdir().expect("a temporary directory");
+        fs::create_dir(root.path().join("programs")).expect("a directory for programs");
+        Self {
+            root,
+            system_programs,
+        }
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.root.path().join(name)
+    }
+
+    /// Installs a shell script as `program`, in front of everything else in the search path.
+    pub fn install(&self, program: &str, script: &str) {
+        let path = self.path("programs").join(program);
+        fs::write(&path, format!("#!/bin/sh\n{script}")).expect("a script");
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).expect("its permissions");
+    }
+
+    fn search_path(&self) -> String {
+        let own = self.path("programs").display().to_string();
+        let system = std::env::var("PATH").unwrap_or_default();
+        if self.system_programs {
+            format!("{own}:{system}")
+        } else {
+            own
+        }
+    }
+
+    /// `tristack` with the arguments in `line`, which are separated by spaces.
+    pub fn tristack(&self, line: &str) -> Command {
+        let mut command = assert_cmd::cargo::cargo_bin_cmd!("tristack");
+        command
+            .args(line.split_whitespace())
+            .env("PATH", self.search_path())
+            .env("TRISTACK_STORE", self.path("store"))
+            .env_remove("TRISTACK_REFERENCE")
+            .current_dir(self.root.path());
+        command
+    }
+
+    /// The same, as a process that can be watched and interrupted.
+    pub fn process(&self, line: &str) -> std::process::Command {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tristack"));
+        command
+            .args(line.split_whitespace())
+            .env("PATH", self.search_path())
+            .env("TRISTACK_STORE", self.path("store"))
+            .current_dir(self.root.path());
+        command
+    }
+}
+
+pub fn standard_output(command: &mut Command) -> String {
+    let output = command.output().expect("the program starts");
+    String::from_utf8(output.stdout).expect("its output is text")
+}
+
+pub fn standard_error(command: &mut Command) -> String {
+    let output = command.output().expect("the program starts");
+    String::from_utf8(output.stderr).expect("its output is text")
+}
+
+pub fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).expect("the output is JSON")
+}
+
+/// Nothing but what is named is in `directory`.
+pub fn assert_only(directory: &Path, names: &[&str]) {
+    let mut found: Vec<String> = fs::read_dir(directory)
+        .expect("the directory is there")
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    found.sort();
+    assert_eq!(found, names);
+}

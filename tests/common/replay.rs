@@ -1,0 +1,58 @@
+//! A fake YADE that replays recorded runs, so that the whole way from plan to verdict can be tested
+//! without engines, and disturbed at will.
+
+use super::Bench;
+use std::fs;
+use std::path::Path;
+use tristack::engine::DeckParameters;
+use tristack::stack::{Case, sha256_hex};
+
+/// What happens to the recorded series of one case.
+pub enum Disturbance {
+    /// It is delivered as it was recorded.
+    None,
+    /// It is delivered changed.
+    Change(fn(String) -> String),
+    /// A shell command is executed instead.
+    Instead(&'static str),
+}
+
+/// Installs the fake on `bench`; `disturb` decides for every recorded case. Returns how many there are.
+pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
+    let replay = bench.path("replay");
+    fs::create_dir_all(&replay).expect("a directory");
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/yade");
+    let mut count = 0;
+    for entry in fs::read_dir(recorded).expect("recorded runs").flatten() {
+        let case = Case::read(&entry.path().join("case.json")).expect("a case");
+        let series = fs::read_to_string(entry.path().join("series.csv")).expect("a series");
+        let address = sha256_hex(DeckParameters::new(&case).to_json().as_bytes());
+        let write = |extension: &str, text: &str| {
+            fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
+        };
+        match disturb(&case) {
+            Disturbance::None => write("csv", &series),
+            Disturbance::Change(change) => write("csv", &change(series)),
+            Disturbance::Instead(command) => write("sh", command),
+        }
+        count += 1;
+    }
+    bench.install("yade", &script(&replay));
+    count
+}
+
+fn script(replay: &Path) -> String {
+    let replay = replay.display();
+    format!(
+        r#"
+if [ "$1" = --version ]; then echo "Yade version: replayed"; exit 0; fi
+shift 4
+for directory in "$@"; do
+    address=$(sha256sum "$directory/parameters.json" | cut -c 1-64)
+    if [ -f "{replay}/$address.sh" ]; then . "{replay}/$address.sh"; continue; fi
+    cp "{replay}/$address.csv" "$directory/series.csv.part" || exit 9
+    mv "$directory/series.csv.part" "$directory/series.csv"
+done
+"#
+    )
+}

@@ -1,0 +1,128 @@
+//! The real codes. Runs whenever they are installed; with TRISTACK_REQUIRE_ENGINES=liggghts,yade a missing
+//! one fails the suite.
+
+mod common;
+
+use clap::ValueEnum;
+use common::{Bench, assert_only, json};
+use std::fs;
+use tristack::engine::EngineName;
+
+const EXTERNAL: [EngineName; 2] = [EngineName::Liggghts, EngineName::Yade];
+
+/// The external engines that are installed; fails if one that is required is not.
+fn installed() -> Vec<EngineName> {
+    let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
+    for name in required.split(',').filter(|name| !name.is_empty()) {
+        let engine =
+            EngineName::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names engines");
+        assert!(
+            engine.find().is_some(),
+            "{engine} is required, but not installed"
+        );
+    }
+    let (installed, missing): (Vec<_>, Vec<_>) = EXTERNAL
+        .into_iter()
+        .partition(|engine| engine.find().is_some());
+    for engine in missing {
+        eprintln!("{engine} is not installed: its live tests are skipped");
+    }
+    installed
+}
+
+#[test]
+fn all_installed_engines_agree_with_their_limit_on_the_quick_profile() {
+    let installed = installed();
+    if installed.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = installed.iter().map(|engine| engine.as_str()).collect();
+    let bench = Bench::with_system_programs();
+    let line = format!(
+        "crosscheck --engines native,{} --format json",
+        names.join(",")
+    );
+    let output = bench.tristack(&line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = rows.as_array().expect("a list");
+    assert_eq!(rows.len(), 18 * (1 + installed.len()));
+    for engine in installed {
+        let own = rows.iter().filter(|row| row["engine"] == engine.as_str());
+        let errors = own.map(|row| {
+            assert_eq!(row["source"], "live");
+            row["error"].as_f64().expect("an error").abs()
+        });
+        let worst = errors.fold(0.0, f64::max);
+        println!("{engine}: largest error {worst:.1e} of F + 3");
+        assert!(worst < 2e-5, "{engine}: {worst:e}");
+    }
+    assert_only(&bench.path("store/work"), &[]);
+}
+
+#[test]
+fn a_live_run_leaves_deck_output_and_series_for_inspection() {
+    let deck = |engine| match engine {
+        EngineName::Liggghts => vec!["log.liggghts", "parameters.in", "stack.in", "wall.stl"],
+        _ => vec!["parameters.json", "stack.py"],
+    };
+    for engine in installed() {
+        let bench = Bench::with_system_programs();
+        let line = format!("simulate --engine {engine} --mu 0.2 --stiffness 100 --out run");
+        bench.tristack(&line).assert().code(0);
+        let mut files = deck(engine);
+        files.extend([
+            "case.json",
+            "series.csv",
+            "stderr.txt",
+            "stdout.txt",
+            "summary.json",
+        ]);
+        files.sort_unstable();
+        assert_only(&bench.path("run"), &files);
+    }
+}
+
+#[test]
+fn a_live_run_repeats_its_recording() {
+    for engine in installed() {
+        let recorded = format!("{}/reference/{engine}", env!("CARGO_MANIFEST_DIR"));
+        let mut entries: Vec<_> = fs::read_dir(recorded)
+            .expect("recorded runs")
+            .flatten()
+            .collect();
+        entries.sort_by_key(|entry| entry.file_name());
+        let entry = entries[entries.len() / 2].path();
+        let bench = Bench::with_system_programs();
+        let case = entry.join("case.json");
+        let line = format!(
+            "simulate --engine {engine} --out run --case {}",
+            case.display()
+        );
+        bench.tristack(&line).assert().code(0);
+        let largest = largest_deviation(&entry.join("series.csv"), &bench.path("run/series.csv"));
+        println!("{engine}: largest deviation from its recording {largest:e}");
+        // Another build of the same version may round differently; positions are of order 1.
+        assert!(largest < 1e-9, "{engine}: {largest:e}");
+    }
+}
+
+fn largest_deviation(left: &std::path::Path, right: &std::path::Path) -> f64 {
+    let read = |path: &std::path::Path| -> Vec<f64> {
+        let mut reader = csv::Reader::from_path(path).expect("a series");
+        let rows = reader.records().map(|row| row.expect("a row"));
+        rows.flat_map(|row| {
+            row.iter()
+                .map(|cell| cell.parse().expect("a number"))
+                .collect::<Vec<f64>>()
+        })
+        .collect()
+    };
+    let (left, right) = (read(left), read(right));
+    assert_eq!(left.len(), right.len());
+    left.iter()
+        .zip(&right)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}

@@ -17,7 +17,10 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_6;
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
-/// Distance of the stations along the gravity ramp, relative to the angle it turns to first order.
+/// First station on the gravity ramp, relative to the angle it turns to first order; each further one lies
+/// twice as far, up to the spacing below.
+const FIRST_STATION: f64 = 1e-7;
+/// Largest distance of stations along the gravity ramp.
 const RAMP_SPACING: f64 = 0.125;
 /// Distance of the stations under the wall, in the logarithm of the angle turned.
 const WALL_SPACING: f64 = 0.125;
@@ -273,7 +276,8 @@ impl<Law: SpringLaw> FollowedPath<Law> {
         let end = LARGEST_TURN / self.first_turn;
         loop {
             let (from, state) = self.last();
-            let to = (from + RAMP_SPACING).min(end);
+            let spacing = from.clamp(FIRST_STATION, RAMP_SPACING);
+            let to = (from + spacing).min(end);
             let Some(next) = self.advance((from, state), to) else {
                 return;
             };

@@ -26,6 +26,7 @@ static QUADRATURE: LazyLock<GaussLegendre> =
 const HIGHEST_TANGENT: f64 = 1.0;
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 const STATIONS: usize = 256;
+const EARLY_STATIONS: i32 = 24;
 
 /// G(T), the overlap of the contact 1–2, at T = μ_c + `beyond`.
 ///
@@ -66,10 +67,15 @@ impl ClosedForm {
 }
 
 impl Path for ClosedForm {
+    /// Evenly spaced, and ever closer towards the start: near κ = (2 + √3)/(2√3) the bottom cylinders touch
+    /// for a short while before they part.
     fn stations(&self) -> Vec<f64> {
-        (1..=STATIONS)
-            .map(|index| self.end * index as f64 / STATIONS as f64)
-            .collect()
+        let spacing = self.end / STATIONS as f64;
+        let early = (1..=EARLY_STATIONS)
+            .rev()
+            .map(|halvings| spacing * 0.5f64.powi(halvings));
+        let even = (1..=STATIONS).map(|index| spacing * index as f64);
+        early.chain(even).collect()
     }
 
     fn settled(&self) -> f64 {

@@ -1,0 +1,165 @@
+//! The native DEM as physics: what a contact must do, for any number of cylinders, and the same bits
+//! everywhere.
+
+use tristack::crosscheck::plan;
+use tristack::dem::{ContactLaw, Cylinder, PlaneWall, Scene, compress_stack};
+use tristack::engine::EngineName;
+use tristack::stack::{Convention, PAPER_RESTITUTION, Stack, sha256_hex};
+
+fn law() -> ContactLaw {
+    ContactLaw {
+        normal_stiffness: 1.0,
+        tangential_stiffness: 0.4,
+        normal_damping: Convention::PAPER.damping(1.0),
+        tangential_damping: Convention::PAPER.damping(0.4),
+    }
+}
+
+fn floor(friction: f64) -> PlaneWall {
+    PlaneWall {
+        normal: [0.0, 1.0],
+        offset: 0.0,
+        speed: 0.0,
+        friction,
+    }
+}
+
+fn advance(scene: &mut Scene, steps: usize) {
+    for _ in 0..steps {
+        scene.evaluate_forces();
+        scene.advance();
+    }
+}
+
+#[test]
+fn a_cylinder_bounces_off_a_wall_with_the_restitution_of_the_paper() {
+    let restitution = |time_step: f64| {
+        let mut ball = Cylinder::at(0.0, 1.0);
+        ball.velocity = [0.0, -1e-3];
+        let mut scene = Scene::new(vec![ball], law(), time_step);
+        scene.add_wall(floor(0.5));
+        advance(&mut scene, (10.0 / time_step) as usize);
+        scene.cylinders[0].velocity[1] / 1e-3
+    };
+    let (coarse, fine) = (restitution(1e-3), restitution(5e-4));
+    assert!((fine - PAPER_RESTITUTION).abs() < 1e-3, "{fine}");
+    assert!((fine - PAPER_RESTITUTION).abs() < 0.7 * (coarse - PAPER_RESTITUTION).abs());
+}
+
+#[test]
+fn a_collision_of_two_conserves_momentum() {
+    let (mut left, mut right) = (Cylinder::at(0.0, 0.0), Cylinder::at(1.99, 0.3));
+    left.velocity = [0.02, 0.01];
+    right.velocity = [-0.01, 0.0];
+    left.spin = 0.02;
+    let mut scene = Scene::new(vec![left, right], law(), 0.01);
+    scene.cylinder_friction = 0.7;
+    advance(&mut scene, 2000);
+    for axis in 0..2 {
+        let total: f64 = scene.cylinders.iter().map(|body| body.velocity[axis]).sum();
+        assert!((total - [0.01, 0.01][axis]).abs() < 1e-16);
+    }
+    assert_ne!(scene.cylinders[1].spin, 0.0, "friction turns the other one");
+}
+
+#[test]
+fn a_cylinder_that_slides_ends_up_rolling() {
+    let mut body = Cylinder::at(0.0, 1.0 - 1e-3);
+    body.velocity = [0.1, 0.0];
+    let mut scene = Scene::new(vec![body], law(), 0.05);
+    scene.gravity = 1e-3;
+    scene.add_wall(floor(0.5));
+    advance(&mut scene, 100_000);
+    let body = &scene.cylinders[0];
+    // Angular momentum about the line of contact is conserved: v falls to 2/3.
+    assert!(
+        (body.velocity[0] - 0.1 * 2.0 / 3.0).abs() < 1e-4,
+        "{}",
+        body.velocity[0]
+    );
+    assert!(
+        (body.velocity[0] + body.spin).abs() < 1e-6,
+        "v = -r omega when rolling to the right"
+    );
+}
+
+#[test]
+fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
+    let mut cylinders = Vec::new();
+    for row in 0..4 {
+        for column in 0..4 - row {
+            let x = f64::from(2 * column + row);
+            cylinders.push(Cylinder::at(x, 1.0 + f64::from(row) * 3f64.sqrt()));
+        }
+    }
+    let count = cylinders.len();
+    let mut scene = Scene::new(cylinders, law(), 0.1);
+    scene.cylinder_friction = 0.7;
+    let floor = scene.add_wall(floor(0.7));
+    for (normal, offset) in [([1.0, 0.0], -1.0), ([-1.0, 0.0], -7.0)] {
+        scene.add_wall(PlaneWall {
+            normal,
+            offset,
+            speed: 0.0,
+            friction: 0.0,
+        });
+    }
+    scene.gravity = 1e-4;
+    advance(&mut scene, 200_000);
+    let weight: f64 = (0..count)
+        .map(|body| scene.wall_contact(floor, body).normal_force)
+        .sum();
+    assert!((weight - 10.0 * 1e-4).abs() < 1e-9, "{weight:e}");
+    let fastest = scene
+        .cylinders
+        .iter()
+        .map(|body| body.velocity[0].abs())
+        .fold(0.0, f64::max);
+    assert!(fastest < 1e-9, "{fastest:e}");
+}
+
+#[test]
+fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sliding() {
+    for stack in [Stack::paper(0.12, 1e2), Stack::paper(0.3, 1e4)] {
+        let case = plan(EngineName::Native, &stack, Convention::PAPER).cases[1];
+        let trace = compress_stack(&case).expect("a finite series");
+        let start = trace.samples()[0];
+        assert!(start.x2 - start.x3 > 2.0);
+        let weight = 3.0 * stack.epsilon();
+        assert!((start.floor_n2 + start.floor_n3 - weight).abs() < 1e-6 * weight);
+        assert!(start.floor_t2.abs() < stack.floor_friction * start.floor_n2);
+        // In equilibrium e/d = T/3, hardly more than mu_c/3 under gravity alone.
+        assert!((start.floor_t2.abs() / start.floor_n2 - 0.0893).abs() < 2e-3);
+    }
+}
+
+#[test]
+fn left_and_right_stay_mirror_images_up_to_the_yield() {
+    let case = plan(
+        EngineName::Native,
+        &Stack::paper(0.3, 1e2),
+        Convention::PAPER,
+    )
+    .cases[0];
+    let trace = compress_stack(&case).expect("a finite series");
+    for sample in trace.samples() {
+        assert!((sample.x2 + sample.x3).abs() < 1e-12, "{}", sample.step);
+        assert!((sample.theta2 + sample.theta3).abs() < 1e-12);
+        assert!(sample.x1.abs() < 1e-12);
+    }
+}
+
+/// Pinned on x86-64 Linux, release build of version 0.1.0; it must be the same on every machine and in
+/// every build, because the stepping uses correctly rounded operations alone.
+#[test]
+fn series_has_the_same_bits_everywhere() {
+    let case = plan(
+        EngineName::Native,
+        &Stack::paper(0.3, 1e3),
+        Convention::PAPER,
+    )
+    .cases[0];
+    let trace = compress_stack(&case).expect("a finite series");
+    let expected = "e6cc20d5f6a4a7b490bb97ce43d018c8d16891bc8b95aea61806c44e40aba7be";
+    assert_eq!(sha256_hex(&trace.to_csv()), expected);
+}

@@ -8,7 +8,9 @@ use crate::crosscheck::{
     Judgement, Measurement, Participant, Profile, Source, Verdict, measure, plan,
 };
 use crate::engine::EngineName;
-use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
+use crate::report::{
+    crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
+};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -98,7 +100,10 @@ pub(super) fn conclude(judgements: &[Judgement], participants: &[Participant]) -
         for note in &judgement.notes {
             eprintln!(
                 "{}: {} mu={} stiffness={}: {note}",
-                row.verdict, row.engine, row.mu, row.stiffness
+                row.verdict,
+                row.engine,
+                friction(row.mu),
+                row.stiffness
             );
         }
     }

@@ -3,6 +3,7 @@
 use crate::archive::Run;
 use crate::crosscheck::Progress;
 use crate::engine::{EngineName, Failure};
+use crate::report::friction;
 use crate::stack::Case;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -53,7 +54,7 @@ impl Progress for Reporter {
         self.lines.inc(1);
         let subject = format!(
             "{engine} mu={} stiffness={} speed={:.2e} dt={}",
-            case.stack.floor_friction,
+            friction(case.stack.floor_friction),
             case.stack.stiffness,
             case.protocol.wall_speed,
             case.protocol.time_step

@@ -21,9 +21,9 @@ pub fn crosscheck_json(judgements: &[Judgement]) -> String {
     serde_json::to_string_pretty(&rows).expect("plain rows have a JSON form") + "\n"
 }
 
-/// The rows for a terminal.
+/// The engines and the rows for a terminal.
 pub fn crosscheck_table(judgements: &[Judgement]) -> String {
-    table(judgements).terminal()
+    engines(judgements).terminal() + &rows(judgements).terminal()
 }
 
 /// A page with the rows, what they mean, and what explains every verdict that is not `agrees`.
@@ -32,12 +32,15 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
         "# Crosscheck of the three-cylinder stack\n\n\
          Made by tristack {} with `{command}`.\n\n\
          Yield force F = f/(m g) at vanishing wall speed, against the exact quasi-static limit under the \
-         same contact convention. `error`, `tolerance` and `model form` are relative to F + 3; the \
-         uncertainty (wall speed, time step, preparation, sampling, round-off) is in m g. The tolerance is the \
-         uncertainty, but at least {FLOOR:e} and at most {BAR:e}.\n\n",
+         same contact convention. The uncertainty ± (wall speed, time step, preparation, sampling, \
+         round-off) is in m g like F; error, tolerance and model form are relative to F + 3. The tolerance \
+         is the uncertainty, but at least {FLOOR:e} and at most {BAR:e}. Model form is the distance of the \
+         limit under the engine's convention from the one under the paper's.\n\n",
         env!("CARGO_PKG_VERSION")
     );
-    page += &table(judgements).markdown();
+    page += &engines(judgements).markdown();
+    page += "\n";
+    page += &rows(judgements).markdown();
     let explained = judgements
         .iter()
         .filter(|judgement| !judgement.notes.is_empty());
@@ -63,16 +66,39 @@ fn remark(judgement: &Judgement) -> String {
     format!("- **{subject}**\n\n  {notes}\n")
 }
 
-fn table(judgements: &[Judgement]) -> Table {
+/// The engines in the order of their first rows, with what all their rows share.
+fn engines(judgements: &[Judgement]) -> Table {
+    let mut table = Table::new(&["engine", "version", "source", "pair arm>", "floor arm>"]);
+    let mut seen = Vec::new();
+    for Judgement { row, .. } in judgements {
+        let version = if row.version.is_empty() {
+            "-"
+        } else {
+            &row.version
+        };
+        let cells = vec![
+            row.engine.to_string(),
+            version.to_owned(),
+            row.source.as_str().to_owned(),
+            row.pair_arm.to_string(),
+            row.floor_arm.to_string(),
+        ];
+        if !seen.contains(&cells) {
+            table.push(cells.clone());
+            seen.push(cells);
+        }
+    }
+    table
+}
+
+fn rows(judgements: &[Judgement]) -> Table {
     let mut table = Table::new(&[
         "stiffness>",
         "mu>",
         "engine",
-        "version",
         "source",
-        "arms>",
         "yield force>",
-        "uncertainty>",
+        "±>",
         "exact limit>",
         "error>",
         "tolerance>",
@@ -84,9 +110,7 @@ fn table(judgements: &[Judgement]) -> Table {
             row.stiffness.to_string(),
             friction(row.mu),
             row.engine.to_string(),
-            row.version.clone(),
             row.source.as_str().to_owned(),
-            format!("{}, {}", row.pair_arm, row.floor_arm),
             optional(row.yield_force, |force| significant(force, 9)),
             optional(row.uncertainty, |uncertainty| format!("{uncertainty:.0e}")),
             optional(row.reference_force, |force| significant(force, 9)),

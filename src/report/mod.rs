@@ -9,7 +9,7 @@ mod theory;
 
 pub use crosscheck::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
-pub use number::significant;
+pub use number::{friction, significant};
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};

@@ -18,6 +18,9 @@ pub fn significant(value: f64, digits: usize) -> String {
 
 /// A relative deviation: sign, two digits, exponent.
 pub fn relative(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
     format!("{value:+.1e}")
 }
 

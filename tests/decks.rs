@@ -1,0 +1,54 @@
+//! What the decks of the external codes are told, and which deck it is.
+
+use insta::assert_snapshot;
+use tristack::crosscheck::plan;
+use tristack::engine::{DeckParameters, EngineName};
+use tristack::stack::Stack;
+
+fn parameters() -> DeckParameters {
+    let convention = EngineName::Yade.convention();
+    let cases = plan(EngineName::Yade, &Stack::paper(0.3, 1e2), convention).cases;
+    DeckParameters::new(&cases[1])
+}
+
+#[test]
+fn yade_is_told_in_json() {
+    assert_snapshot!(parameters().to_json());
+}
+
+#[test]
+fn liggghts_is_told_in_string_variables() {
+    assert_snapshot!(parameters().to_liggghts());
+}
+
+/// A change here means that the recorded runs have to be made again.
+#[test]
+fn decks_are_the_ones_that_were_recorded() {
+    let hashes = [EngineName::Liggghts, EngineName::Yade].map(EngineName::deck_hash);
+    assert_snapshot!(hashes.join("\n"));
+}
+
+/// The examples beside the decks name every parameter that the program would give.
+#[test]
+fn examples_for_running_by_hand_are_complete() {
+    let names = |text: &str| {
+        let value: serde_json::Value = serde_json::from_str(text).expect("JSON");
+        let object = value.as_object().expect("an object").clone();
+        let mut names: Vec<String> = object.keys().cloned().collect();
+        names.sort();
+        names
+    };
+    let given = names(&parameters().to_json());
+    assert_eq!(
+        names(include_str!("../yade_scripts/parameters.json")),
+        given
+    );
+    let example = include_str!("../liggghts_inputs/parameters.in");
+    let mut in_example: Vec<&str> = example
+        .lines()
+        .filter(|line| line.starts_with("variable"))
+        .filter_map(|line| line.split_whitespace().nth(1))
+        .collect();
+    in_example.sort_unstable();
+    assert_eq!(in_example, given);
+}

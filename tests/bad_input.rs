@@ -68,7 +68,7 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
         ),
         (
             "simulate --engine native --mu 0.3 --stiffness 100 --dt 9",
-            ["--dt", "9", "at most 0.4"],
+            ["--dt", "9", "from 1e-6 to 0.4"],
         ),
         (
             "simulate --engine native --mu 0.3 --stiffness 100 --speed 0",

@@ -52,7 +52,9 @@ fn record(participant: Participant, settings: &Settings) -> Result<ExitStatus, C
         .map(|stack| plan(name, stack, name.convention()))
         .collect();
     let reporter = Reporter::new();
-    let results = run_all(&measurements, &[participant], settings, &reporter);
+    let results = run_all(&measurements, &[participant], settings, &reporter, |run| {
+        run
+    });
     drop(reporter);
     let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
     match runs {

@@ -16,7 +16,8 @@ pub struct Budget {
     pub preparation: f64,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
-    /// A few units in the last place of the positions, as the extrapolation amplifies them.
+    /// A few units in the last place of the positions, as the extrapolation amplifies them. Series are
+    /// printed with every digit, so that print precision adds nothing to it.
     pub round_off: f64,
 }
 

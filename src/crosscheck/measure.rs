@@ -20,6 +20,26 @@ pub struct Judgement {
     pub notes: Vec<String>,
 }
 
+/// What is kept of a run.
+struct Reading {
+    version: String,
+    estimates: YieldEstimates,
+    /// Wall force at the end, in m g.
+    last_force: f64,
+}
+
+impl Reading {
+    fn new(run: Run) -> Self {
+        let stack = &run.case.stack;
+        let last = run.trace.samples().last();
+        Self {
+            estimates: YieldEstimates::read(&run.trace, stack),
+            last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
+            version: run.provenance.identity.version,
+        }
+    }
+}
+
 /// Carries out `measurements` and judges each by its own limit. The order is kept.
 pub fn measure(
     measurements: &[Measurement],
@@ -27,7 +47,7 @@ pub fn measure(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Judgement> {
-    let results = run_all(measurements, participants, settings, progress);
+    let results = run_all(measurements, participants, settings, progress, Reading::new);
     let judged = measurements
         .iter()
         .zip(results)
@@ -52,7 +72,7 @@ fn judge(
     measurement: &Measurement,
     source: Source,
     version: String,
-    results: Vec<Result<Run, RunError>>,
+    results: Vec<Result<Reading, RunError>>,
 ) -> Judgement {
     let mut judgement = Judgement {
         row: blank_row(measurement, source, version),
@@ -65,10 +85,10 @@ fn judge(
         judgement.notes.extend(measurement.limit.reason.clone());
         return judgement;
     }
-    let mut runs = Vec::new();
+    let mut readings: Vec<Reading> = Vec::new();
     for result in results {
         match result {
-            Ok(run) => runs.push(run),
+            Ok(reading) => readings.push(reading),
             Err(error) => {
                 let failed = matches!(error, RunError::Failed(_));
                 judgement.row.verdict = if failed {
@@ -80,14 +100,11 @@ fn judge(
             }
         }
     }
-    if let Some(run) = runs.first() {
-        judgement
-            .row
-            .version
-            .clone_from(&run.provenance.identity.version);
+    if let Some(reading) = readings.first() {
+        judgement.row.version.clone_from(&reading.version);
     }
-    if runs.len() == measurement.cases.len() {
-        judge_runs(measurement, &runs, &mut judgement);
+    if readings.len() == measurement.cases.len() {
+        judge_readings(measurement, &readings, &mut judgement);
     }
     judgement
 }
@@ -113,19 +130,16 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
     }
 }
 
-fn judge_runs(measurement: &Measurement, runs: &[Run], judgement: &mut Judgement) {
+fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &mut Judgement) {
     let stack = &measurement.stack;
-    let estimates: Vec<YieldEstimates> = runs
-        .iter()
-        .map(|run| YieldEstimates::read(&run.trace, stack))
-        .collect();
+    let estimates: Vec<YieldEstimates> = readings.iter().map(|reading| reading.estimates).collect();
     let slip = extrapolate(&estimates, stack.stiffness, |run| run.slip);
     let peak = extrapolate(&estimates, stack.stiffness, |run| run.peak);
     (judgement.slip, judgement.peak) = (slip, peak);
     let (Some(slip), Some(peak), Some(reference)) = (slip, peak, measurement.limit.yield_force)
     else {
         judgement.row.verdict = Verdict::NoYield;
-        judgement.notes.push(no_yield_note(runs, stack.stiffness));
+        judgement.notes.push(no_yield_note(readings));
         return;
     };
     let load = reference + 3.0;
@@ -168,11 +182,9 @@ fn contradiction(
     })
 }
 
-fn no_yield_note(runs: &[Run], stiffness: f64) -> String {
-    let last = runs.iter().filter_map(|run| run.trace.samples().last());
-    let highest = last
-        .map(|sample| sample.wall_force * stiffness)
-        .fold(0.0, f64::max);
+fn no_yield_note(readings: &[Reading]) -> String {
+    let last = readings.iter().map(|reading| reading.last_force);
+    let highest = last.fold(0.0, f64::max);
     format!(
         "no slip followed by a peak within the planned wall travel; the wall force ends at {highest:.6}"
     )

@@ -73,23 +73,32 @@ struct Task {
     case: usize,
 }
 
-type Slot = Mutex<Option<Result<Run, RunError>>>;
+type Slot<T> = Mutex<Option<Result<T, RunError>>>;
 
-/// Results, case by case, of every measurement.
-pub fn run_all(
+/// What `keep` makes of each run, case by case, of every measurement. Runs themselves are not held longer
+/// than that, so that memory does not grow with their number.
+pub fn run_all<T: Send>(
     measurements: &[Measurement],
     participants: &[Participant],
     settings: &Settings,
     progress: &dyn Progress,
-) -> Vec<Vec<Result<Run, RunError>>> {
-    let slots: Vec<Vec<Slot>> = measurements
+    keep: impl Fn(Run) -> T + Sync,
+) -> Vec<Vec<Result<T, RunError>>> {
+    let slots: Vec<Vec<Slot<T>>> = measurements
         .iter()
-        .map(|measurement| measurement.cases.iter().map(|_| Slot::default()).collect())
+        .map(|measurement| {
+            measurement
+                .cases
+                .iter()
+                .map(|_| Slot::<T>::default())
+                .collect()
+        })
         .collect();
     let floor = Floor {
         measurements,
         settings,
         progress,
+        keep,
         slots,
     };
     let jobs = floor.jobs(participants);
@@ -112,21 +121,22 @@ struct Job<'a> {
 }
 
 /// Everything the workers share.
-struct Floor<'a> {
+struct Floor<'a, T, Keep> {
     measurements: &'a [Measurement],
     settings: &'a Settings<'a>,
     progress: &'a dyn Progress,
-    slots: Vec<Vec<Slot>>,
+    keep: Keep,
+    slots: Vec<Vec<Slot<T>>>,
 }
 
-impl Floor<'_> {
+impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
     fn case(&self, task: Task) -> &Case {
         &self.measurements[task.measurement].cases[task.case]
     }
 
     fn fill(&self, task: Task, result: Result<Run, RunError>) {
         if let Ok(mut slot) = self.slots[task.measurement][task.case].lock() {
-            *slot = Some(result);
+            *slot = Some(result.map(&self.keep));
         }
     }
 

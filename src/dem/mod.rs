@@ -9,4 +9,4 @@ mod stack_run;
 
 pub use contact::{ContactLaw, ContactState, TangentialStep};
 pub use scene::{Cylinder, PlaneWall, Scene};
-pub use stack_run::{SOURCE_DIGEST, compress_stack};
+pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_while};

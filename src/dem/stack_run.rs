@@ -28,6 +28,15 @@ const LEFT: usize = 2;
 /// # Errors
 /// If the motion leaves the finite numbers.
 pub fn compress_stack(case: &Case) -> Result<Trace, SeriesError> {
+    compress_stack_while(case, || true)
+}
+
+/// The same as [`compress_stack`], but gives up at the first row at which `wanted` is false; the series is
+/// then reported as truncated.
+///
+/// # Errors
+/// If the motion leaves the finite numbers, or is no longer wanted.
+pub fn compress_stack_while(case: &Case, wanted: impl Fn() -> bool) -> Result<Trace, SeriesError> {
     let schedule = case.protocol.schedule();
     let (mut scene, floor) = stress_free_stack(case);
     for step in 0..schedule.ramp_steps + schedule.rest_steps {
@@ -49,6 +58,9 @@ pub fn compress_stack(case: &Case) -> Result<Trace, SeriesError> {
         if planned.next_if_eq(&step).is_some() {
             let time = step as f64 * case.protocol.time_step;
             samples.push(sample(&scene, floor, top_wall, step, time));
+            if !wanted() {
+                break;
+            }
         }
         scene.advance();
     }

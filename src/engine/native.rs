@@ -2,7 +2,7 @@
 
 use super::{Engine, EngineName, Failure, FailureKind, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::compress_stack;
+use crate::dem::compress_stack_while;
 use crate::stack::Case;
 use std::time::Instant;
 
@@ -24,19 +24,26 @@ impl Native {
     }
 
     fn run_one(&self, case: &Case, workplace: &Workplace) -> Result<Run, FailureKind> {
-        if workplace.interrupt.requested() {
-            return Err(FailureKind::Interrupted);
-        }
         let start = Instant::now();
-        let trace = compress_stack(case)?;
+        let interrupted = || workplace.interrupt.requested();
+        let trace = compress_stack_while(case, || !interrupted()).map_err(|error| {
+            if interrupted() {
+                FailureKind::Interrupted
+            } else {
+                error.into()
+            }
+        })?;
         let seconds = start.elapsed().as_secs_f64();
         let steps = case.protocol.schedule().total_steps();
-        let command = vec![
-            "tristack".to_owned(),
-            "simulate".to_owned(),
-            "--case".to_owned(),
-            "case.json".to_owned(),
+        let command = [
+            "tristack",
+            "simulate",
+            "--engine",
+            "native",
+            "--case",
+            "case.json",
         ];
+        let command = command.map(str::to_owned).to_vec();
         Ok(Run {
             case: *case,
             trace,

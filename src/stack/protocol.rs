@@ -5,8 +5,10 @@ use serde::{Deserialize, Serialize};
 
 /// Time steps must stay well below 2/ω of the stiffest mode (ω ≈ 2.5), where leapfrog becomes unstable.
 const LARGEST_TIME_STEP: f64 = 0.4;
-const LONGEST_TIME: f64 = 1e9;
+const SMALLEST_TIME_STEP: f64 = 1e-6;
+const LONGEST_TIME: f64 = 1e12;
 const MOST_STEPS: f64 = 1e12;
+const MOST_ROWS: u64 = 1_000_000;
 
 /// How the stack is brought to rest under gravity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -76,6 +78,12 @@ impl Schedule {
         coarse.chain(fine)
     }
 
+    /// How many they are.
+    pub fn rows(&self) -> u64 {
+        let fine = (self.compression_steps - self.fine_from_step) / self.fine_every;
+        self.fine_from_step / self.coarse_every + fine + 1
+    }
+
     /// All steps of the run, preparation included.
     pub fn total_steps(&self) -> u64 {
         self.ramp_steps + self.rest_steps + self.compression_steps
@@ -115,7 +123,12 @@ impl Protocol {
         let sampling = &self.sampling;
         positive("protocol.preparation.ramp_time", ramp_time, LONGEST_TIME)?;
         positive("protocol.preparation.rest_time", rest_time, LONGEST_TIME)?;
-        positive("protocol.time_step", self.time_step, LARGEST_TIME_STEP)?;
+        within(
+            "protocol.time_step",
+            self.time_step,
+            SMALLEST_TIME_STEP,
+            LARGEST_TIME_STEP,
+        )?;
         positive("protocol.wall_speed", self.wall_speed, 1.0)?;
         positive("protocol.wall_travel", self.wall_travel, 2.0)?;
         positive(
@@ -139,15 +152,20 @@ impl Protocol {
 
     fn validate_length(&self) -> Result<(), InvalidValue> {
         let steps = self.wall_travel / (self.wall_speed * self.time_step);
-        if steps <= MOST_STEPS {
-            return Ok(());
+        if steps > MOST_STEPS {
+            let slowest = self.wall_travel / (MOST_STEPS * self.time_step);
+            let accepted =
+                format!("at least {slowest:e}, so that the run takes at most {MOST_STEPS:e} steps");
+            let key = "protocol.wall_speed";
+            return Err(InvalidValue::new(key, self.wall_speed, accepted));
         }
-        let slowest = self.wall_travel / (MOST_STEPS * self.time_step);
-        Err(InvalidValue::new(
-            "protocol.wall_speed",
-            self.wall_speed,
-            format!("at least {slowest:e}, so that the run takes at most {MOST_STEPS:e} steps"),
-        ))
+        let rows = self.schedule().rows();
+        if rows > MOST_ROWS {
+            let key = "protocol.sampling";
+            let accepted = format!("such that the series has at most {MOST_ROWS} rows");
+            return Err(InvalidValue::new(key, format!("{rows} rows"), accepted));
+        }
+        Ok(())
     }
 }
 
@@ -183,6 +201,7 @@ mod tests {
         assert_eq!(&steps[..2], &[0, 28]);
         assert_eq!(&steps[26..31], &[728, 756, 784, 791, 798]);
         assert_eq!(steps.last(), Some(&1008));
+        assert_eq!(schedule.rows(), steps.len() as u64);
     }
 
     #[test]
@@ -204,5 +223,14 @@ mod tests {
         slow.wall_speed = 1e-15;
         let error = slow.validate().unwrap_err();
         assert_eq!(error.key, "protocol.wall_speed");
+    }
+
+    #[test]
+    fn a_series_that_would_fill_the_memory_is_refused() {
+        let mut long = protocol();
+        long.wall_speed = 1e-10;
+        long.sampling.fine_interval = 0.1;
+        let error = long.validate().unwrap_err();
+        assert_eq!(error.key, "protocol.sampling");
     }
 }

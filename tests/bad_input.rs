@@ -67,8 +67,8 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
             ["--pair-arm", "7", "from -1 to 1"],
         ),
         (
-            "simulate --engine native --mu 0.3 --stiffness 100 --dt 9",
-            ["--dt", "9", "from 1e-6 to 0.4"],
+            "simulate --engine native --mu 0.3 --stiffness 100 --dt 0.9",
+            ["--dt", "0.9", "at most 4.05e-1"],
         ),
         (
             "simulate --engine native --mu 0.3 --stiffness 100 --speed 0",

@@ -8,6 +8,7 @@ use common::{Bench, json, standard_error};
 use std::fs;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
+use tristack::dem::compress_stack;
 use tristack::stack::Case;
 
 const CROSSCHECK: &str = "crosscheck --engines yade --format json";
@@ -76,10 +77,8 @@ fn with_victim(disturbance: impl Fn() -> Disturbance, options: &str, expected: &
         .nth(1)
         .expect("a directory");
     let directory = directory.lines().next().expect("a line");
-    assert!(
-        fs::exists(format!("{directory}/stack.py")).expect("readable"),
-        "{directory}"
-    );
+    let evidence = format!("{directory}/parameters.json");
+    assert!(fs::exists(evidence).expect("readable"), "{directory}");
 }
 
 #[test]
@@ -119,7 +118,7 @@ fn a_case_that_is_skipped_fails_alone() {
     with_victim(
         || Disturbance::Instead("echo skipped"),
         "",
-        &["without a series"],
+        &["delivered no series for this case and went on"],
     );
 }
 
@@ -220,48 +219,164 @@ fn a_code_that_is_wrong_by_a_thousandth_differs() {
 }
 
 fn scale_wall_force(series: &str, factor: f64) -> String {
-    let lines = series.lines().enumerate().map(|(index, line)| {
-        if index == 0 {
-            return line.to_owned();
-        }
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+    change_rows(series, |cells| {
         let force: f64 = cells[2].parse().expect("a number");
         cells[2] = (force * factor).to_string();
+    })
+}
+
+/// Applies `change` to the cells of every row but the header.
+fn change_rows(series: &str, change: impl Fn(&mut Vec<String>)) -> String {
+    let lines = series.lines().enumerate().map(|(index, line)| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if index > 0 {
+            change(&mut cells);
+        }
         cells.join(",")
     });
     lines.collect::<Vec<_>>().join("\n")
 }
 
-#[test]
-fn a_code_that_never_slips_has_no_yield_and_is_no_pass() {
+/// A crosscheck in which all series of stiffness 1e4 are changed.
+fn with_changed_stiff_rows(change: fn(String) -> String) -> Outcome {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |case| {
         if case.stack.stiffness == 1e4 {
-            Disturbance::Change(|series| {
-                let cut_tangential = |line: &str| {
-                    let mut cells: Vec<&str> = line.split(',').collect();
-                    if cells[0] != "step" {
-                        (cells[13], cells[15]) = ("0.0", "0.0");
-                    }
-                    cells.join(",")
-                };
-                series
-                    .lines()
-                    .map(cut_tangential)
-                    .collect::<Vec<_>>()
-                    .join("\n")
-            })
+            Disturbance::Change(change)
         } else {
             Disturbance::None
         }
     });
-    let outcome = crosscheck(&bench, "");
+    crosscheck(&bench, "")
+}
+
+#[test]
+fn a_code_that_never_yields_is_no_pass() {
+    let outcome =
+        with_changed_stiff_rows(|series| change_rows(&series, |cells| cells[2] = cells[1].clone()));
     assert_eq!(outcome.status, Some(2), "{}", outcome.message);
     assert_eq!(outcome.count("no-yield"), 6);
     assert!(
         outcome.message.contains("no slip followed by a peak"),
         "{}",
         outcome.message
+    );
+}
+
+#[test]
+fn a_code_without_floor_friction_in_its_series_is_inconclusive() {
+    let outcome = with_changed_stiff_rows(|series| {
+        change_rows(&series, |cells| {
+            for column in [13, 15] {
+                cells[column] = "0.0".to_owned();
+            }
+        })
+    });
+    assert_eq!(outcome.status, Some(4), "{}", outcome.message);
+    assert_eq!(outcome.count("inconclusive"), 6);
+    assert!(
+        outcome.message.contains("no onset of slip"),
+        "{}",
+        outcome.message
+    );
+}
+
+#[test]
+fn a_friction_wrong_by_a_ten_thousandth_differs_and_is_named() {
+    for factor in [1.0001, 0.9999] {
+        let bench = Bench::with_system_programs();
+        replay::install(&bench, |case| {
+            if case.stack.floor_friction != 0.3 || case.stack.stiffness != 100.0 {
+                return Disturbance::None;
+            }
+            let mut wrong = *case;
+            wrong.stack.floor_friction *= factor;
+            let trace = compress_stack(&wrong).expect("a finite series");
+            Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
+        });
+        let outcome = crosscheck(&bench, "");
+        assert_eq!(outcome.status, Some(2), "{}", outcome.message);
+        assert_eq!(outcome.count("differs"), 1, "{}", outcome.message);
+        assert_eq!(outcome.count("agrees"), 17);
+        let named = "the floor slides at |t|/n = ";
+        assert!(outcome.message.contains(named), "{}", outcome.message);
+    }
+}
+
+#[test]
+fn an_engine_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
+    let bench = Bench::with_system_programs();
+    replay::install_with_ending(&bench, "sleep 600");
+    let outcome = crosscheck(&bench, "--time-limit 1");
+    assert_eq!(outcome.status, Some(0), "{}", outcome.message);
+    assert_eq!(outcome.count("agrees"), 18);
+}
+
+#[test]
+fn another_program_of_the_same_version_meets_no_old_results() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    assert_eq!(crosscheck(&bench, "").status, Some(0));
+    replay::install_with_ending(&bench, "# rebuilt");
+    let outcome = crosscheck(&bench, "");
+    assert_eq!(outcome.status, Some(0), "{}", outcome.message);
+    assert!(
+        !outcome.message.contains("there already"),
+        "{}",
+        outcome.message
+    );
+}
+
+#[test]
+fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let recorded = format!("{}/reference/yade", env!("CARGO_MANIFEST_DIR"));
+    let entry = fs::read_dir(recorded)
+        .expect("recorded runs")
+        .flatten()
+        .next();
+    let case = entry.expect("a run").path().join("case.json");
+    let line = format!("simulate --engine yade --out run --case {}", case.display());
+    bench.tristack(&line).assert().code(0);
+    assert!(bench.path("run/series.csv").exists());
+    bench.install("yade", "exit 0");
+    bench.tristack(&line).assert().code(3).stdout("");
+    for name in ["case.json", "series.csv", "summary.json"] {
+        assert!(
+            !bench.path("run").join(name).exists(),
+            "{name} is left from the first run"
+        );
+    }
+}
+
+#[test]
+fn an_engine_that_does_not_say_its_version_is_listed_without_one() {
+    let bench = Bench::with_system_programs();
+    bench.install("yade", "sleep 600");
+    let list = json(&common::standard_output(
+        &mut bench.tristack("engines --format json"),
+    ));
+    let yade = list
+        .as_array()
+        .expect("a list")
+        .iter()
+        .find(|engine| engine["engine"] == "yade");
+    assert_eq!(yade.expect("yade")["version"], "unknown");
+}
+
+#[test]
+fn a_liggghts_log_with_a_value_that_is_not_a_number_fails() {
+    let bench = Bench::with_system_programs();
+    let log =
+        " step time wall_for\n0 0 nan 0 2.7 0 1 0.9 0 -1 0.9 0 0.1 -0.02 0.1 0.02\nLoop time of 1";
+    bench.install("liggghts", &format!("printf '%s\n' '{log}' > log.liggghts"));
+    let line = "simulate --engine liggghts --mu 0.3 --stiffness 100";
+    let message = standard_error(&mut bench.tristack(line));
+    bench.tristack(line).assert().code(3);
+    assert!(
+        message.contains("row 1 (step 0): `wall_force` is NaN"),
+        "{message}"
     );
 }
 
@@ -343,10 +458,7 @@ fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(130));
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        message.contains("interrupted; what was finished is kept"),
-        "{message}"
-    );
+    assert!(message.contains("interrupted with "), "{message}");
     let gone = || (!fs::exists(format!("/proc/{}", engine.trim())).unwrap_or(true)).then_some(());
     wait_for(gone);
 }

@@ -130,12 +130,16 @@ impl Archive {
             let path = draft.path().join(file);
             fs::write(&path, content).map_err(ArchiveError::writing(&path))?;
         }
+        let old = draft.path().with_extension("old");
         if target.exists() {
-            fs::remove_dir_all(&target).map_err(ArchiveError::writing(&target))?;
+            fs::rename(&target, &old).map_err(ArchiveError::writing(&target))?;
         }
         fs::rename(draft.path(), &target).map_err(ArchiveError::writing(&target))?;
         // The draft is now the entry; there is nothing left to clean up.
         let _ = draft.keep();
+        if old.exists() {
+            fs::remove_dir_all(&old).map_err(ArchiveError::writing(&old))?;
+        }
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use crate::stack::{Case, sha256_hex};
 use serde::{Deserialize, Serialize};
 
-/// What decides the numbers of an engine, apart from the case.
+/// The program that computes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
@@ -13,14 +13,14 @@ pub struct Identity {
     pub version: String,
     /// Distribution package and its version, if the binary belongs to one.
     pub package: Option<String>,
-    /// SHA-256 of the deck or script; of its sources for the native engine.
-    pub deck_hash: String,
+    /// SHA-256 of the program file; absent for the native engine, whose sources are hashed like a deck.
+    pub program_hash: Option<String>,
 }
 
 impl Identity {
-    /// Content address of the run of `case` by this engine.
-    pub fn address(&self, case: &Case) -> String {
-        let parts = serde_json::json!([case.content_hash(), self]);
+    /// Content address of the run of `case` by this program with the deck that has `deck_hash`.
+    pub fn address(&self, case: &Case, deck_hash: &str) -> String {
+        let parts = serde_json::json!([case.content_hash(), self, deck_hash]);
         sha256_hex(parts.to_string().as_bytes())
     }
 }
@@ -31,6 +31,9 @@ impl Identity {
 pub struct Provenance {
     /// Who computed it.
     pub identity: Identity,
+    /// SHA-256 of all that the program was given to read: deck and parameters; of the sources of the
+    /// native engine.
+    pub deck_hash: String,
     /// Version of tristack that drove it.
     pub tristack: String,
     /// The command that repeats the run in a directory with the deck and the parameters of the case, as
@@ -48,9 +51,16 @@ pub struct Provenance {
 
 impl Provenance {
     /// Provenance of a run that has just finished here.
-    pub fn now(identity: Identity, command: Vec<String>, steps: u64, seconds: f64) -> Self {
+    pub fn now(
+        identity: Identity,
+        deck_hash: String,
+        command: Vec<String>,
+        steps: u64,
+        seconds: f64,
+    ) -> Self {
         Self {
             identity,
+            deck_hash,
             tristack: env!("CARGO_PKG_VERSION").to_owned(),
             command,
             date: jiff::Timestamp::now()

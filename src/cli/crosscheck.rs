@@ -11,7 +11,7 @@ use crate::engine::EngineName;
 use crate::report::{
     crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// The main job: run, compare, judge, write tables
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let reporter = Reporter::new();
     let judgements = measure(&measurements, &participants, &settings, &reporter);
     drop(reporter);
-    if let Some(directory) = &arguments.out {
+    if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, &command_line(arguments))?;
     }
     super::print(&match arguments.format {
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => crosscheck_json(&judgements).into_bytes(),
         Format::Csv => crosscheck_csv(&judgements),
     })?;
-    Ok(conclude(&judgements, &participants))
+    Ok(conclude(&judgements, measurements.len(), &participants))
 }
 
 /// The measurements of `profile`, stack by stack, by each of the `participants`.
@@ -85,7 +85,9 @@ fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<()
 
 /// The command that gives the same rows again; where it writes them does not matter.
 fn command_line(arguments: &Arguments) -> String {
-    let mut line = "tristack crosscheck --profile quick".to_owned();
+    let profile = arguments.profile.to_possible_value();
+    let profile = profile.as_ref().map_or("", |value| value.get_name());
+    let mut line = format!("tristack crosscheck --profile {profile}");
     if !arguments.engines.is_empty() {
         let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
         line += &format!(" --engines {}", names.join(","));
@@ -94,7 +96,11 @@ fn command_line(arguments: &Arguments) -> String {
 }
 
 /// Says on standard error what the rows amount to, and returns the exit status.
-pub(super) fn conclude(judgements: &[Judgement], participants: &[Participant]) -> ExitStatus {
+pub(super) fn conclude(
+    judgements: &[Judgement],
+    planned: usize,
+    participants: &[Participant],
+) -> ExitStatus {
     for judgement in judgements {
         let row = &judgement.row;
         for note in &judgement.notes {
@@ -116,7 +122,11 @@ pub(super) fn conclude(judgements: &[Judgement], participants: &[Participant]) -
     }
     eprintln!("{}", summary(judgements));
     if INTERRUPT.requested() {
-        eprintln!("interrupted; what was finished is kept, the same command goes on from here");
+        eprintln!(
+            "interrupted with {} of {planned} rows complete; every finished run is kept, and the same \
+             command goes on from here",
+            judgements.len()
+        );
         return ExitStatus::Interrupted;
     }
     ExitStatus::of(judgements)

@@ -65,8 +65,9 @@ impl ArmOptions {
     pub fn convention(&self, engine: EngineName) -> Result<Convention, InvalidValue> {
         let own = engine.convention();
         let convention = Convention {
-            pair_arm: self.pair_arm.unwrap_or(own.pair_arm),
-            floor_arm: self.floor_arm.unwrap_or(own.floor_arm),
+            // Adding zero turns -0 into 0, which is the same arm and must be the same case.
+            pair_arm: self.pair_arm.unwrap_or(own.pair_arm) + 0.0,
+            floor_arm: self.floor_arm.unwrap_or(own.floor_arm) + 0.0,
             ..own
         };
         convention.validate().map_err(as_flag)?;
@@ -109,19 +110,17 @@ impl RunOptions {
     }
 
     fn store_directory(&self) -> Result<PathBuf, InvalidValue> {
-        let from_environment = || std::env::var_os("TRISTACK_STORE").map(PathBuf::from);
+        let from_environment = || directory_from("TRISTACK_STORE");
         let from_cache = || dirs::cache_dir().map(|cache| cache.join("tristack"));
         let chosen = self
             .store
             .clone()
             .or_else(from_environment)
             .or_else(from_cache);
-        chosen.ok_or_else(|| {
-            InvalidValue::new(
-                "--store",
-                "absent",
-                "a directory: there is no cache directory here",
-            )
+        chosen.ok_or_else(|| InvalidValue {
+            key: "--store".to_owned(),
+            value: "absent".to_owned(),
+            accepted: "a directory: there is no cache directory here".to_owned(),
         })
     }
 }
@@ -142,10 +141,14 @@ pub fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue
 /// The recorded runs of the checkout that this program was built from, or those of
 /// `TRISTACK_REFERENCE`.
 pub fn reference_directory() -> PathBuf {
-    std::env::var_os("TRISTACK_REFERENCE").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"),
-        PathBuf::from,
-    )
+    directory_from("TRISTACK_REFERENCE")
+        .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"))
+}
+
+/// The directory that an environment variable names; an empty one names none.
+fn directory_from(variable: &str) -> Option<PathBuf> {
+    let value = std::env::var_os(variable).filter(|value| !value.is_empty());
+    value.map(PathBuf::from)
 }
 
 /// The engines named, each of which must be installed; all engines if none is named.

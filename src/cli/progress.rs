@@ -59,7 +59,9 @@ impl Progress for Reporter {
             case.protocol.wall_speed,
             case.protocol.time_step
         );
-        if let Err(failure) = result {
+        if let Err(failure) = result
+            && !failure.is_interrupted()
+        {
             self.say(&format!("failed: {failure}"));
         }
         match (&self.bar, result) {

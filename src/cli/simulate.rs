@@ -4,7 +4,7 @@ use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_l
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, Run, write_atomically};
 use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
-use crate::engine::{EngineName, Failure, Workplace};
+use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::report::{Simulation, simulation_csv, simulation_json, simulation_table};
 use crate::stack::{Case, Stack};
 use crate::theory::quasistatic_limit;
@@ -64,9 +64,12 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
+    let name = arguments.engine;
+    let engine = name.find().ok_or(CliError::MissingEngine(name))?;
     let scratch = match &arguments.out {
         Some(directory) => {
             writable(directory)?;
+            clear(directory)?;
             None
         }
         None => Some(tempfile::tempdir().map_err(ArchiveError::writing(&std::env::temp_dir()))?),
@@ -80,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         time_limit: limit,
         interrupt: &INTERRUPT,
     };
-    let run = match execute(arguments.engine, &case, &workplace)? {
+    let run = match execute(engine.as_ref(), &case, &workplace) {
         Ok(run) => run,
         Err(failure) => {
             // What the engine wrote is evidence, and the failure names the place.
@@ -124,24 +127,34 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     Ok(case)
 }
 
-fn execute(
-    name: EngineName,
-    case: &Case,
-    workplace: &Workplace,
-) -> Result<Result<Run, Failure>, CliError> {
-    let engine = name.find().ok_or(CliError::MissingEngine(name))?;
+fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Run, Failure> {
     let mut outcome = None;
-    engine.run(std::slice::from_ref(case), workplace, &mut |_, result| {
-        outcome = Some(result)
-    });
-    Ok(outcome.expect("an engine reports every case"))
+    let case = std::slice::from_ref(case);
+    engine.run(case, workplace, &mut |_, result| outcome = Some(result));
+    outcome.expect("an engine reports every case")
+}
+
+const RESULTS: [&str; 3] = ["case.json", "series.csv", "summary.json"];
+
+/// Removes the results of an earlier run, which must not stand beside the deck of this one.
+fn clear(directory: &Path) -> Result<(), ArchiveError> {
+    for name in RESULTS {
+        let path = directory.join(name);
+        if path.exists() {
+            std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
+        }
+    }
+    Ok(())
 }
 
 fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), ArchiveError> {
-    write_atomically(&directory.join("case.json"), run.case.to_json().as_bytes())?;
-    write_atomically(&directory.join("series.csv"), &run.trace.to_csv())?;
-    write_atomically(
-        &directory.join("summary.json"),
-        simulation_json(simulation).as_bytes(),
-    )
+    let contents = [
+        run.case.to_json().into_bytes(),
+        run.trace.to_csv(),
+        simulation_json(simulation).into_bytes(),
+    ];
+    for (name, content) in RESULTS.iter().zip(contents) {
+        write_atomically(&directory.join(name), &content)?;
+    }
+    Ok(())
 }

@@ -5,7 +5,7 @@ use super::options::{
     ArmOptions, Format, RunOptions, StackOptions, friction, participants, writable,
 };
 use super::progress::Reporter;
-use super::{CliError, ExitStatus};
+use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::write_atomically;
 use crate::crosscheck::{measure, plan};
 use crate::engine::EngineName;
@@ -73,8 +73,8 @@ impl Frictions {
         if !(step > 0.0 && (0.0..MOST_FRICTIONS).contains(&count)) {
             return Err(accepted.to_owned());
         }
-        let values = (0..=count as u32).map(|index| rounded(from + step * f64::from(index)));
-        Ok(Self(values.collect()))
+        let further = (1..=count as u32).map(|index| rounded(from + step * f64::from(index)));
+        Ok(Self(std::iter::once(from).chain(further).collect()))
     }
 }
 
@@ -86,6 +86,7 @@ fn rounded(value: f64) -> f64 {
 /// Measures the curve, prints and writes its rows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(arguments.engine)?;
+    let participants = participants(&[arguments.engine])?;
     let mut measurements = Vec::new();
     for &stiffness in &arguments.stiffness {
         for &mu in &arguments.mu.0 {
@@ -93,7 +94,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             measurements.push(plan(arguments.engine, &stack, convention));
         }
     }
-    let participants = participants(&[arguments.engine])?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
@@ -105,7 +105,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         crosscheck_csv(&judgements),
         crosscheck_json(&judgements).into_bytes(),
     );
-    if let Some(directory) = &arguments.out {
+    if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write_atomically(&directory.join("sweep.csv"), &csv)?;
         write_atomically(&directory.join("sweep.json"), &json)?;
     }
@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => json,
         Format::Csv => csv,
     })?;
-    Ok(conclude(&judgements, &participants))
+    Ok(conclude(&judgements, measurements.len(), &participants))
 }
 
 #[cfg(test)]

@@ -90,6 +90,7 @@ mod tests {
             .map(|force| YieldEstimates {
                 slip: estimate(force),
                 peak: None,
+                sliding_friction: None,
             })
             .to_vec()
     }

@@ -40,7 +40,12 @@ impl Reading {
     }
 }
 
-/// Carries out `measurements` and judges each by its own limit. The order is kept.
+fn is_interrupted<T>(result: &Result<T, RunError>) -> bool {
+    matches!(result, Err(RunError::Failed(failure)) if failure.is_interrupted())
+}
+
+/// Carries out `measurements` and judges each by its own limit. The order is kept; those that an interrupt
+/// has cut short are left out.
 pub fn measure(
     measurements: &[Measurement],
     participants: &[Participant],
@@ -48,23 +53,23 @@ pub fn measure(
     progress: &dyn Progress,
 ) -> Vec<Judgement> {
     let results = run_all(measurements, participants, settings, progress, Reading::new);
-    let judged = measurements
+    let complete = measurements
         .iter()
         .zip(results)
-        .map(|(measurement, results)| {
-            let participant = participants
-                .iter()
-                .find(|who| who.name == measurement.engine);
-            let engine = participant.and_then(|participant| participant.engine.as_deref());
-            let source = if engine.is_some() {
-                Source::Live
-            } else {
-                Source::Recorded
-            };
-            let version =
-                engine.map_or_else(String::new, |engine| engine.identity().version.clone());
-            judge(measurement, source, version, results)
-        });
+        .filter(|(_, results)| !results.iter().any(is_interrupted));
+    let judged = complete.map(|(measurement, results)| {
+        let participant = participants
+            .iter()
+            .find(|who| who.name == measurement.engine);
+        let engine = participant.and_then(|participant| participant.engine.as_deref());
+        let source = if engine.is_some() {
+            Source::Live
+        } else {
+            Source::Recorded
+        };
+        let version = engine.map_or_else(String::new, |engine| engine.identity().version.clone());
+        judge(measurement, source, version, results)
+    });
     judged.collect()
 }
 
@@ -100,8 +105,13 @@ fn judge(
             }
         }
     }
-    if let Some(reading) = readings.first() {
-        judgement.row.version.clone_from(&reading.version);
+    let mut versions: Vec<&str> = readings
+        .iter()
+        .map(|reading| reading.version.as_str())
+        .collect();
+    versions.dedup();
+    if !versions.is_empty() {
+        judgement.row.version = versions.join(", ");
     }
     if readings.len() == measurement.cases.len() {
         judge_readings(measurement, &readings, &mut judgement);
@@ -131,55 +141,86 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
 }
 
 fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &mut Judgement) {
-    let stack = &measurement.stack;
+    let stiffness = measurement.stack.stiffness;
     let estimates: Vec<YieldEstimates> = readings.iter().map(|reading| reading.estimates).collect();
-    let slip = extrapolate(&estimates, stack.stiffness, |run| run.slip);
-    let peak = extrapolate(&estimates, stack.stiffness, |run| run.peak);
-    (judgement.slip, judgement.peak) = (slip, peak);
-    let (Some(slip), Some(peak), Some(reference)) = (slip, peak, measurement.limit.yield_force)
+    judgement.slip = extrapolate(&estimates, stiffness, |run| run.slip);
+    judgement.peak = extrapolate(&estimates, stiffness, |run| run.peak);
+    judgement
+        .notes
+        .extend(friction_note(measurement, &estimates));
+    let Some(reference) = measurement.limit.yield_force else {
+        return;
+    };
+    let (Some(peak), Some(allowance)) = (judgement.peak, peak_allowance(measurement, reference))
     else {
         judgement.row.verdict = Verdict::NoYield;
         judgement.notes.push(no_yield_note(readings));
         return;
     };
-    let load = reference + 3.0;
+    let peak_uncertainty = peak.budget.total() + allowance;
+    let Some(slip) = judgement.slip else {
+        judgement.decide(peak.force, peak_uncertainty, reference);
+        judgement
+            .doubt("no onset of slip was found before the peak; judged by the peak".to_owned());
+        return;
+    };
     let uncertainty = slip.budget.total();
-    let error = (slip.force - reference) / load;
-    let row = &mut judgement.row;
-    row.yield_force = Some(slip.force);
-    row.uncertainty = Some(uncertainty);
-    row.error = Some(error);
-    row.tolerance = Some(tolerance(uncertainty / load));
-    row.verdict = Verdict::judge(error, uncertainty / load);
-    if let Some(note) = contradiction(&slip, &peak, measurement) {
-        judgement.notes.push(note);
-        if row.verdict == Verdict::Agrees {
-            row.verdict = Verdict::Inconclusive;
+    judgement.decide(slip.force, uncertainty, reference);
+    if (peak.force - slip.force).abs() > uncertainty + peak_uncertainty {
+        judgement.doubt(format!(
+            "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainties {:.1e}",
+            slip.force,
+            peak.force,
+            uncertainty + peak_uncertainty
+        ));
+    }
+}
+
+impl Judgement {
+    /// Enters a yield force and what follows from it.
+    fn decide(&mut self, force: f64, uncertainty: f64, reference: f64) {
+        let load = reference + 3.0;
+        let error = (force - reference) / load;
+        self.row.yield_force = Some(force);
+        self.row.uncertainty = Some(uncertainty);
+        self.row.error = Some(error);
+        self.row.tolerance = Some(tolerance(uncertainty / load));
+        self.row.verdict = Verdict::judge(error, uncertainty / load);
+    }
+
+    /// Notes what speaks against an agreement.
+    fn doubt(&mut self, note: String) {
+        self.notes.push(note);
+        if self.row.verdict == Verdict::Agrees {
+            self.row.verdict = Verdict::Inconclusive;
         }
     }
+}
+
+/// A friction measured this close, relatively, to the one asked for is the same.
+const SAME_FRICTION: f64 = 1e-9;
+
+fn friction_note(measurement: &Measurement, estimates: &[YieldEstimates]) -> Option<String> {
+    let asked = measurement.stack.floor_friction;
+    let measured = estimates.iter().filter_map(|run| run.sliding_friction);
+    let other = measured
+        .into_iter()
+        .find(|friction| (friction / asked - 1.0).abs() > SAME_FRICTION)?;
+    Some(format!(
+        "the floor slides at |t|/n = {other}, not at mu = {asked}"
+    ))
 }
 
 /// The peak is grainy: it comes while the floor slips and sticks from step to step, so that it is off by
 /// the load that some steps add.
 const GRAINY_STEPS: f64 = 4.0;
 
-/// Slip onset and peak have the same limit; here they are further apart than their uncertainties allow.
-fn contradiction(
-    slip: &Extrapolation,
-    peak: &Extrapolation,
-    measurement: &Measurement,
-) -> Option<String> {
+/// Uncertainty of the extrapolated peak beyond its budget, in m g.
+fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
     let travel = measurement.limit.wall_travel?;
     let fastest = &measurement.cases.first()?.protocol;
-    let load_per_step = (slip.force + 3.0) * fastest.wall_speed * fastest.time_step / travel;
-    let allowed = slip.budget.total() + peak.budget.total() + GRAINY_STEPS * load_per_step;
-    let distance = (peak.force - slip.force).abs();
-    (distance > allowed).then(|| {
-        format!(
-            "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainty {:.1e}",
-            slip.force, peak.force, allowed
-        )
-    })
+    let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
+    Some(GRAINY_STEPS * load_per_step)
 }
 
 fn no_yield_note(readings: &[Reading]) -> String {

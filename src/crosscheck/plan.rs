@@ -5,7 +5,7 @@ use crate::stack::{CRITICAL_FRICTION, Case, Convention, Preparation, Protocol, S
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
-/// Wall speeds in units of the predicted displacement z, fastest first, each half the one before.
+/// Wall speeds in units of the predicted displacement (see [`planned_protocol`]), fastest first, each half the one before.
 pub const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
 
 /// Position of the run at the middle speed, with which the two further runs are compared.
@@ -93,11 +93,7 @@ pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measur
         .yield_force
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / (paper + 3.0));
-    let yields = limit.yield_force.is_some();
-    let protocols = planned_protocols(&limit)
-        .filter(|_| yields)
-        .into_iter()
-        .flatten();
+    let protocols = planned_protocols(&limit).into_iter().flatten();
     let cases = protocols.map(|protocol| Case {
         stack: *stack,
         convention,
@@ -134,18 +130,17 @@ fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     Some(protocols)
 }
 
-/// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time.
-/// `None` where the floor does not slip.
+/// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time, or
+/// times its own predicted travel where that is smaller, so that no yield comes too soon after the start.
+/// `None` where nothing yields.
 pub fn planned_protocol(limit: &Limit, speed: f64, time_step: f64) -> Option<Protocol> {
-    protocol_at_speed(limit, speed * limit.z?, time_step)
+    let scale = limit.z?.min(limit.wall_travel?);
+    protocol_at_speed(limit, speed * scale, time_step)
 }
 
-/// The protocol of a run with a given wall speed in r √(k_n/m). `None` where the floor does not slip; where
-/// the bottom cylinders touch first it still slips later, near the force that ignores this.
+/// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
 pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
-    if !matches!(limit.event, Event::FloorSlip | Event::ContactCloses) {
-        return None;
-    }
+    limit.yield_force?;
     let travel = limit.wall_travel?;
     let fine_from_travel = FINE_FROM * travel;
     Some(Protocol {

@@ -16,7 +16,7 @@ pub struct Recorded {
 #[derive(Debug, Error)]
 pub enum RecordedError {
     /// Nobody recorded it.
-    #[error("{engine} is not installed, and there is no recorded run at {}; install it ({}) or record it where it is installed (tristack record --engines {engine})", path.display(), engine.installation_hint())]
+    #[error("{engine} is not installed, and there is no recorded run at {}; install it ({}), record it where it is installed (tristack record --engines {engine}), or let TRISTACK_REFERENCE name the directory of the recorded runs", path.display(), engine.installation_hint())]
     Absent {
         /// The engine.
         engine: EngineName,
@@ -56,15 +56,17 @@ impl Recorded {
         let name = name(engine, case);
         let path = self.archive.root().join(&name);
         let run = self.archive.load(&name)?;
-        let Some(run) = run.filter(|run| run.case == *case) else {
+        let Some(run) = run
+            .filter(|run| run.case == *case && run.provenance.identity.engine == engine.as_str())
+        else {
             return Err(RecordedError::Absent { engine, path });
         };
-        let current = engine.deck_hash();
-        if run.provenance.identity.deck_hash != current {
+        let current = engine.deck_hash(case);
+        if run.provenance.deck_hash != current {
             return Err(RecordedError::OtherDeck {
                 engine,
                 path,
-                recorded: run.provenance.identity.deck_hash,
+                recorded: run.provenance.deck_hash,
                 current,
             });
         }

@@ -202,7 +202,9 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
         }
         let mut open = Vec::new();
         for task in tasks {
-            match self.settings.store.get(engine.identity(), self.case(task)) {
+            let case = self.case(task);
+            let deck_hash = engine.name().deck_hash(case);
+            match self.settings.store.get(engine.identity(), case, &deck_hash) {
                 Ok(Some(run)) => self.fill(task, Ok(run)),
                 Ok(None) => open.push(task),
                 Err(error) => {
@@ -244,7 +246,9 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
         };
         let mut failed = false;
         job.engine.run(&cases, &workplace, &mut |index, result| {
-            failed |= matches!(&result, Err(failure) if !matches!(failure.kind, FailureKind::Interrupted));
+            failed |= result
+                .as_ref()
+                .is_err_and(|failure| !failure.is_interrupted());
             self.accept(job, index, result);
         });
         if failed {

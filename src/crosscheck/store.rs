@@ -1,6 +1,6 @@
 //! The store of finished runs, addressed by case, engine, version and deck.
 
-use crate::archive::{Archive, ArchiveError, Identity, Run};
+use crate::archive::{Archive, ArchiveError, Identity, Provenance, Run};
 use crate::stack::Case;
 use std::path::{Path, PathBuf};
 
@@ -29,9 +29,18 @@ impl Store {
     ///
     /// # Errors
     /// If there is one, but damaged.
-    pub fn get(&self, identity: &Identity, case: &Case) -> Result<Option<Run>, ArchiveError> {
-        let run = self.archive.load(&name(identity, case))?;
-        Ok(run.filter(|run| run.case == *case && run.provenance.identity == *identity))
+    pub fn get(
+        &self,
+        identity: &Identity,
+        case: &Case,
+        deck_hash: &str,
+    ) -> Result<Option<Run>, ArchiveError> {
+        let run = self.archive.load(&name(identity, case, deck_hash))?;
+        Ok(run.filter(|run| {
+            let provenance = &run.provenance;
+            let same = provenance.identity == *identity && provenance.deck_hash == deck_hash;
+            same && run.case == *case
+        }))
     }
 
     /// Keeps a finished run.
@@ -39,8 +48,13 @@ impl Store {
     /// # Errors
     /// If it cannot be written.
     pub fn put(&self, run: &Run) -> Result<(), ArchiveError> {
+        let Provenance {
+            identity,
+            deck_hash,
+            ..
+        } = &run.provenance;
         self.archive
-            .save(&name(&run.provenance.identity, &run.case), run)
+            .save(&name(identity, &run.case, deck_hash), run)
     }
 
     /// Where run directories are made; those of failed runs stay.
@@ -49,7 +63,7 @@ impl Store {
     }
 }
 
-fn name(identity: &Identity, case: &Case) -> PathBuf {
-    let address = identity.address(case);
+fn name(identity: &Identity, case: &Case, deck_hash: &str) -> PathBuf {
+    let address = identity.address(case, deck_hash);
     Path::new("runs").join(&address[..2]).join(&address[2..])
 }

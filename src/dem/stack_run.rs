@@ -13,11 +13,12 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
         include_str!("contact.rs"),
         include_str!("scene.rs"),
         include_str!("stack_run.rs"),
-        include_str!("../stack/protocol.rs"),
-        include_str!("../stack/convention.rs"),
     ];
     sha256_hex(sources.concat().as_bytes())
 });
+
+/// Some milliseconds.
+const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
 const TOP: usize = 0;
 const RIGHT: usize = 1;
@@ -31,15 +32,19 @@ pub fn compress_stack(case: &Case) -> Result<Trace, SeriesError> {
     compress_stack_while(case, || true)
 }
 
-/// The same as [`compress_stack`], but gives up at the first row at which `wanted` is false; the series is
-/// then reported as truncated.
+/// The same as [`compress_stack`], but gives up once `wanted` is false; the series is then reported as
+/// truncated.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers, or is no longer wanted.
 pub fn compress_stack_while(case: &Case, wanted: impl Fn() -> bool) -> Result<Trace, SeriesError> {
     let schedule = case.protocol.schedule();
+    let given_up = |step: u64| step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) && !wanted();
     let (mut scene, floor) = stress_free_stack(case);
     for step in 0..schedule.ramp_steps + schedule.rest_steps {
+        if given_up(step) {
+            break;
+        }
         scene.gravity = case.stack.epsilon() * smooth_step(step, schedule.ramp_steps);
         scene.evaluate_forces();
         scene.advance();
@@ -54,13 +59,13 @@ pub fn compress_stack_while(case: &Case, wanted: impl Fn() -> bool) -> Result<Tr
     let mut samples = Vec::new();
     let mut planned = schedule.sampled_steps().peekable();
     for step in 0..=schedule.compression_steps {
+        if given_up(step) {
+            break;
+        }
         scene.evaluate_forces();
         if planned.next_if_eq(&step).is_some() {
             let time = step as f64 * case.protocol.time_step;
             samples.push(sample(&scene, floor, top_wall, step, time));
-            if !wanted() {
-                break;
-            }
         }
         scene.advance();
     }

@@ -10,7 +10,6 @@ use std::ffi::OsString;
 use std::fs;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
 /// Some thirty times the start-up and the slowest step that were ever seen.
@@ -51,9 +50,12 @@ pub struct Adapter {
 }
 
 impl Adapter {
-    pub(super) fn deck_hash(&self) -> String {
-        let content: Vec<&str> = self.deck.iter().map(|&(_, content)| content).collect();
-        sha256_hex(content.concat().as_bytes())
+    pub(super) fn static_deck_hash(&self) -> String {
+        let files = self
+            .deck
+            .iter()
+            .map(|(name, content)| format!("{name}\n{content}\n"));
+        sha256_hex(files.collect::<String>().as_bytes())
     }
 }
 
@@ -71,7 +73,7 @@ impl ExternalEngine {
             engine: adapter.name.as_str().to_owned(),
             version: installation.version.clone(),
             package: installation.package.clone(),
-            deck_hash: adapter.deck_hash(),
+            program_hash: Some(installation.hash.clone()),
         };
         Some(Box::new(Self {
             adapter,
@@ -127,7 +129,7 @@ impl Engine for ExternalEngine {
             let mut batch = Batch::new(self, &cases[next..end], directory);
             let mut report = |index: usize, result| finished(next + index, result);
             batch.run(workplace, &mut report);
-            next += batch.next;
+            next += batch.settled();
         }
     }
 }
@@ -139,8 +141,8 @@ struct Batch<'a> {
     directory: PathBuf,
     /// Directories of the cases, relative to `directory`.
     case_directories: Vec<String>,
-    /// First case whose result has not been reported yet.
-    next: usize,
+    /// Which cases have been reported.
+    reported: Vec<bool>,
     last_report: Instant,
 }
 
@@ -159,30 +161,47 @@ impl<'a> Batch<'a> {
             cases,
             directory,
             case_directories,
-            next: 0,
+            reported: vec![false; cases.len()],
             last_report: Instant::now(),
         }
     }
 
-    /// Runs the process and reports cases from the first one on, at least one of them. Those that are not
-    /// reported have had no chance: an earlier case took the process down.
+    /// Number of cases up to the last one that has been reported. Those beyond have had no chance.
+    fn settled(&self) -> usize {
+        let last = self.reported.iter().rposition(|&reported| reported);
+        last.map_or(0, |index| index + 1)
+    }
+
+    /// Runs the process and reports cases, at least the first one. Those beyond the last reported one have
+    /// had no chance, because it took the process down.
     fn run(&mut self, workplace: &Workplace, report: Report) {
         let outcome = match self.prepare() {
             Ok(()) => self.run_process(workplace, report),
             Err(kind) => Err(kind),
         };
+        self.harvest(report);
+        let delivered = self.settled();
+        for index in 0..delivered {
+            if !self.reported[index] {
+                self.fail(index, FailureKind::Skipped, report);
+            }
+        }
+        if delivered == self.cases.len() {
+            return;
+        }
         match outcome {
-            Ok(Ending::Exited(status)) => self.conclude(status, report),
+            Ok(Ending::Exited(status)) if status.success() => self.read(delivered, report),
+            Ok(Ending::Exited(status)) => self.fail(delivered, FailureKind::Ended(status), report),
             Ok(Ending::TimedOut) => {
                 let limit = self.time_limit(workplace);
-                self.fail(FailureKind::TimedOut(limit), report);
+                self.fail(delivered, FailureKind::TimedOut(limit), report);
             }
             Ok(Ending::Interrupted) => {
-                while self.next < self.cases.len() {
-                    self.fail(FailureKind::Interrupted, report);
+                for index in delivered..self.cases.len() {
+                    self.fail(index, FailureKind::Interrupted, report);
                 }
             }
-            Err(kind) => self.fail(kind, report),
+            Err(kind) => self.fail(delivered, kind, report),
         }
     }
 
@@ -195,6 +214,10 @@ impl<'a> Batch<'a> {
             fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
             let content = (adapter.parameters)(&DeckParameters::new(case));
             write(&directory.join(adapter.parameter_file), &content)?;
+            // What an earlier run left behind must not pass for the result of this one.
+            for stale in adapter.completion_file.iter().chain(adapter.logs) {
+                remove(&directory.join(stale))?;
+            }
         }
         for (name, content) in adapter.deck {
             write(&self.directory.join(name), content)?;
@@ -231,76 +254,69 @@ impl<'a> Batch<'a> {
         workplace.time_limit.unwrap_or(longest)
     }
 
-    /// Reports, in order, the cases that are complete; says whether there was one.
+    /// Reports the cases that have become complete; says whether there was one.
     fn harvest(&mut self, report: Report) -> bool {
-        let before = self.next;
-        while self.next < self.cases.len() && self.is_complete(self.next) {
-            self.read(report);
+        let complete = |index: &usize| !self.reported[*index] && self.is_complete(*index);
+        let complete: Vec<usize> = (0..self.cases.len()).filter(complete).collect();
+        for &index in &complete {
+            self.read(index, report);
         }
-        self.next > before
+        !complete.is_empty()
     }
 
     fn is_complete(&self, index: usize) -> bool {
-        self.engine.adapter.completion_file.is_some_and(|file| {
-            let directory = self.directory.join(&self.case_directories[index]);
-            directory.join(file).is_file()
-        })
+        let file = self.engine.adapter.completion_file;
+        file.is_some_and(|file| self.case_directory(index).join(file).is_file())
     }
 
-    /// Reports what is left when the process has ended by itself.
-    fn conclude(&mut self, status: ExitStatus, report: Report) {
-        self.harvest(report);
-        while (self.next..self.cases.len()).any(|index| self.is_complete(index)) {
-            self.fail(FailureKind::Ended(status), report);
-            self.harvest(report);
-        }
-        if self.next == self.cases.len() {
-            return;
-        }
-        if status.success() {
-            self.read(report);
-        } else {
-            self.fail(FailureKind::Ended(status), report);
+    fn case_directory(&self, index: usize) -> PathBuf {
+        match self.case_directories[index].as_str() {
+            "." => self.directory.clone(),
+            name => self.directory.join(name),
         }
     }
 
-    fn read(&mut self, report: Report) {
-        let case = &self.cases[self.next];
-        let directory = self.directory.join(&self.case_directories[self.next]);
-        match (self.engine.adapter.read_series)(&directory, case) {
+    fn read(&mut self, index: usize, report: Report) {
+        let case = &self.cases[index];
+        let adapter = self.engine.adapter;
+        match (adapter.read_series)(&self.case_directory(index), case) {
             Ok(trace) => {
-                let seconds = self.last_report.elapsed().as_secs_f64();
-                let steps = case.protocol.schedule().total_steps();
-                let identity = self.engine.identity.clone();
-                let command = self.engine.command(&[".".to_owned()]);
-                let provenance = Provenance::now(identity, command, steps, seconds);
+                let provenance = Provenance::now(
+                    self.engine.identity.clone(),
+                    adapter.name.deck_hash(case),
+                    self.engine.command(&[".".to_owned()]),
+                    case.protocol.schedule().total_steps(),
+                    self.last_report.elapsed().as_secs_f64(),
+                );
+                let case = *case;
                 self.report(
+                    index,
                     Ok(Run {
-                        case: *case,
+                        case,
                         trace,
                         provenance,
                     }),
                     report,
                 );
             }
-            Err(error) => self.fail(FailureKind::Series(error), report),
+            Err(error) => self.fail(index, FailureKind::Series(error), report),
         }
     }
 
-    fn fail(&mut self, kind: FailureKind, report: Report) {
+    fn fail(&mut self, index: usize, kind: FailureKind, report: Report) {
         let failure = Failure {
             engine: self.engine.adapter.name,
-            case: Box::new(self.cases[self.next]),
+            case: Box::new(self.cases[index]),
             kind,
-            run_directory: Some(self.directory.clone()),
+            run_directory: Some(self.case_directory(index)),
             last_lines: self.last_lines(),
         };
-        self.report(Err(failure), report);
+        self.report(index, Err(failure), report);
     }
 
-    fn report(&mut self, result: Result<Run, Failure>, report: Report) {
-        report(self.next, result);
-        self.next += 1;
+    fn report(&mut self, index: usize, result: Result<Run, Failure>, report: Report) {
+        report(index, result);
+        self.reported[index] = true;
         self.last_report = Instant::now();
     }
 
@@ -317,6 +333,15 @@ impl<'a> Batch<'a> {
 
 fn write(path: &Path, content: &str) -> Result<(), FailureKind> {
     fs::write(path, content).map_err(|error| ArchiveError::writing(path)(error).into())
+}
+
+fn remove(path: &Path) -> Result<(), FailureKind> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(ArchiveError::writing(path)(error).into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The last lines of a file that are not blank; bytes that are not text are replaced.

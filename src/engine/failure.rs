@@ -24,6 +24,9 @@ pub enum FailureKind {
     /// The program ended before the case was done.
     #[error("the program ended without a series: {0}")]
     Ended(ExitStatus),
+    /// The program went on to other cases.
+    #[error("the program delivered no series for this case and went on")]
+    Skipped,
     /// The program did not finish in time and was killed.
     #[error("no series after {:.1} s; the program was killed", .0.as_secs_f64())]
     TimedOut(Duration),
@@ -53,6 +56,13 @@ pub struct Failure {
     pub run_directory: Option<PathBuf>,
     /// The end of what the program wrote.
     pub last_lines: Vec<String>,
+}
+
+impl Failure {
+    /// Whether nothing is wrong but that the user did not want to wait.
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self.kind, FailureKind::Interrupted)
+    }
 }
 
 fn describe(case: &Case) -> String {

@@ -1,7 +1,13 @@
 //! Which binary an engine is, and which version.
 
+use super::process::{Ending, Interrupt, Job, STANDARD_OUTPUT, run};
+use crate::stack::sha256_hex;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// A program that takes longer to say its version does not say it at all.
+const LONGEST_ANSWER: Duration = Duration::from_secs(5);
 
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,6 +18,8 @@ pub struct Installation {
     pub version: String,
     /// Distribution package and its version, if the program belongs to one.
     pub package: Option<String>,
+    /// SHA-256 of the program file.
+    pub hash: String,
 }
 
 /// Looks for `program` in the search path and asks the package manager, else the program itself with
@@ -23,8 +31,10 @@ pub fn find(program: &str, version_arguments: &[&str]) -> Option<Installation> {
         Some((_, version)) => upstream(version).to_owned(),
         None => own_version(&program, version_arguments),
     };
+    let hash = sha256_hex(&std::fs::read(&program).ok()?);
     Some(Installation {
         program,
+        hash,
         version,
         package: package.map(|(name, version)| format!("{name} {version}")),
     })
@@ -33,7 +43,7 @@ pub fn find(program: &str, version_arguments: &[&str]) -> Option<Installation> {
 fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path)
-        .map(|directory| directory.join(program))
+        .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
         .find(|candidate| is_executable(candidate))
 }
 
@@ -51,11 +61,16 @@ fn is_executable(path: &Path) -> bool {
 
 /// Debian package and version that the program, links followed, belongs to.
 fn owning_package(program: &Path) -> Option<(String, String)> {
-    let resolved = program.canonicalize().ok()?;
-    let search = output(Command::new("dpkg-query").arg("--search").arg(resolved))?;
-    let name = search.lines().next()?.split(':').next()?.to_owned();
+    let resolved = program.canonicalize().ok()?.into_os_string();
+    let ask = |arguments: Vec<OsString>| {
+        let mut command = vec![OsString::from("dpkg-query")];
+        command.extend(arguments);
+        answer(command)
+    };
+    let owner = ask(vec!["--search".into(), resolved])?;
+    let name = owner.lines().next()?.split(':').next()?.to_owned();
     let format = "--showformat=${Version}";
-    let version = output(Command::new("dpkg-query").args(["--show", format, &name]))?;
+    let version = ask(vec!["--show".into(), format.into(), name.clone().into()])?;
     Some((name, version))
 }
 
@@ -71,21 +86,33 @@ fn upstream(version: &str) -> &str {
 }
 
 fn own_version(program: &Path, arguments: &[&str]) -> String {
-    let text = output(Command::new(program).args(arguments)).unwrap_or_default();
+    let mut command = vec![program.as_os_str().to_owned()];
+    command.extend(arguments.iter().map(OsString::from));
+    let text = answer(command).unwrap_or_default();
     let first = text.lines().find(|line| !line.trim().is_empty());
     first.map_or("unknown", str::trim).to_owned()
 }
 
-fn output(command: &mut Command) -> Option<String> {
-    let output = command
-        .stdin(Stdio::null())
-        .stderr(Stdio::null())
-        .output()
-        .ok()?;
-    output
-        .status
+/// What a command that succeeds writes to its standard output.
+fn answer(command: Vec<OsString>) -> Option<String> {
+    let directory = tempfile::tempdir().ok()?;
+    let ending = run(
+        &Job {
+            command: &command,
+            directory: directory.path(),
+            environment: &[],
+            time_limit: LONGEST_ANSWER,
+            interrupt: &Interrupt::new(),
+        },
+        || false,
+    );
+    let Ok(Ending::Exited(status)) = ending else {
+        return None;
+    };
+    let text = std::fs::read(directory.path().join(STANDARD_OUTPUT)).ok()?;
+    status
         .success()
-        .then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+        .then(|| String::from_utf8_lossy(&text).into_owned())
 }
 
 #[cfg(test)]

@@ -35,11 +35,6 @@ pub static LIGGGHTS: Adapter = Adapter {
     read_series,
 };
 
-/// Hash of the deck.
-pub fn deck_hash() -> String {
-    LIGGGHTS.deck_hash()
-}
-
 fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
     let log = std::fs::read(directory.join(LOG)).map_err(|error| SeriesError::Absent {
         message: format!("cannot read {LOG}: {error}"),

@@ -15,7 +15,7 @@ pub use failure::{Failure, FailureKind};
 pub use process::Interrupt;
 
 use crate::archive::{Identity, Run};
-use crate::stack::{Case, Convention, InvalidValue};
+use crate::stack::{Case, Convention, InvalidValue, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -71,11 +71,15 @@ impl EngineName {
         self == Self::Native
     }
 
-    /// Refuses arms that are not those of the code.
+    /// Refuses arms that are not those of the code, and a restitution that it does not understand.
     ///
     /// # Errors
-    /// If an arm differs; it names the key, the value and the code's own.
+    /// It names the key, the value and what the code can do.
     pub fn check_convention(self, asked: &Convention) -> Result<(), InvalidValue> {
+        if self == Self::Yade && asked.restitution == 1.0 {
+            let accepted = "below 1 for yade, which ignores a damping of zero";
+            return Err(InvalidValue::new("convention.restitution", 1.0, accepted));
+        }
         let own = self.convention();
         let arms = [
             ("convention.pair_arm", asked.pair_arm, own.pair_arm),
@@ -90,21 +94,34 @@ impl EngineName {
         }
     }
 
-    /// Hash of the deck or sources that this version of tristack would run.
-    pub fn deck_hash(self) -> String {
-        match self {
-            Self::Native => crate::dem::SOURCE_DIGEST.clone(),
-            Self::Liggghts => liggghts::deck_hash(),
-            Self::Yade => yade::deck_hash(),
+    /// Hash of everything that this version of tristack would give the engine to read for `case`: deck and
+    /// parameters. For the native engine its sources take the place of the deck.
+    pub fn deck_hash(self, case: &Case) -> String {
+        let parameters = DeckParameters::new(case).to_json();
+        sha256_hex(format!("{}\n{parameters}", self.static_deck_hash()).as_bytes())
+    }
+
+    /// Hash of the deck alone, or of the sources of the native engine.
+    pub fn static_deck_hash(self) -> String {
+        match self.adapter() {
+            None => crate::dem::SOURCE_DIGEST.clone(),
+            Some(adapter) => adapter.static_deck_hash(),
         }
     }
 
     /// The engine as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn Engine>> {
+        match self.adapter() {
+            None => Some(Box::new(native::Native::new())),
+            Some(adapter) => external::ExternalEngine::find(adapter),
+        }
+    }
+
+    fn adapter(self) -> Option<&'static external::Adapter> {
         match self {
-            Self::Native => Some(Box::new(native::Native::new())),
-            Self::Liggghts => external::ExternalEngine::find(&liggghts::LIGGGHTS),
-            Self::Yade => external::ExternalEngine::find(&yade::YADE),
+            Self::Native => None,
+            Self::Liggghts => Some(&liggghts::LIGGGHTS),
+            Self::Yade => Some(&yade::YADE),
         }
     }
 

@@ -18,20 +18,20 @@ impl Native {
                 engine: EngineName::Native.as_str().to_owned(),
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 package: None,
-                deck_hash: EngineName::Native.deck_hash(),
+                program_hash: None,
             },
         }
     }
 
     fn run_one(&self, case: &Case, workplace: &Workplace) -> Result<Run, FailureKind> {
         let start = Instant::now();
-        let interrupted = || workplace.interrupt.requested();
-        let trace = compress_stack_while(case, || !interrupted()).map_err(|error| {
-            if interrupted() {
-                FailureKind::Interrupted
-            } else {
-                error.into()
-            }
+        let limit = workplace.time_limit;
+        let late = || limit.is_some_and(|limit| start.elapsed() > limit);
+        let stopped = || workplace.interrupt.requested() || late();
+        let trace = compress_stack_while(case, || !stopped()).map_err(|error| match limit {
+            _ if workplace.interrupt.requested() => FailureKind::Interrupted,
+            Some(limit) if late() => FailureKind::TimedOut(limit),
+            _ => error.into(),
         })?;
         let seconds = start.elapsed().as_secs_f64();
         let steps = case.protocol.schedule().total_steps();
@@ -44,10 +44,11 @@ impl Native {
             "case.json",
         ];
         let command = command.map(str::to_owned).to_vec();
+        let (identity, deck_hash) = (self.identity.clone(), EngineName::Native.deck_hash(case));
         Ok(Run {
             case: *case,
             trace,
-            provenance: Provenance::now(self.identity.clone(), command, steps, seconds),
+            provenance: Provenance::now(identity, deck_hash, command, steps, seconds),
         })
     }
 }

@@ -35,11 +35,6 @@ pub static YADE: Adapter = Adapter {
     read_series,
 };
 
-/// Hash of the script.
-pub fn deck_hash() -> String {
-    YADE.deck_hash()
-}
-
 fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
     let file = File::open(directory.join(SERIES)).map_err(|error| SeriesError::Absent {
         message: format!("cannot read {SERIES}: {error}"),

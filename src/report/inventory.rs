@@ -37,7 +37,7 @@ impl Inventory {
             package: identity.and_then(|identity| identity.package.clone()),
             pair_arm: engine.convention().pair_arm,
             floor_arm: engine.convention().floor_arm,
-            deck_hash: engine.deck_hash(),
+            deck_hash: engine.static_deck_hash(),
             install: engine.installation_hint(),
         }
     }

@@ -57,7 +57,25 @@ impl Case {
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.stack.validate()?;
         self.convention.validate()?;
-        self.protocol.validate()
+        self.protocol.validate()?;
+        self.validate_stability()
+    }
+
+    /// Leapfrog is stable up to 2/ω of the stiffest mode. For the stack with all its contacts
+    /// ω² ≤ 4 + 12/κ, in units of k_n/m (largest eigenvalue, computed for κ from 1e-3 to 100).
+    fn validate_stability(&self) -> Result<(), InvalidValue> {
+        const SAFETY: f64 = 0.6;
+        let fastest = (4.0 + 12.0 / self.stack.stiffness_ratio).sqrt();
+        let largest = SAFETY * 2.0 / fastest;
+        if self.protocol.time_step <= largest {
+            return Ok(());
+        }
+        let accepted = format!(
+            "at most {largest:.2e} for a stable integration at stiffness ratio {}",
+            self.stack.stiffness_ratio
+        );
+        let key = "protocol.time_step";
+        Err(InvalidValue::new(key, self.protocol.time_step, accepted))
     }
 
     /// SHA-256, in hexadecimal, of the case as compact JSON with its keys in the order of the fields

@@ -16,10 +16,10 @@ pub struct InvalidValue {
 
 impl InvalidValue {
     /// An error for `key` with the `value` given and a description of what is `accepted`.
-    pub fn new(key: &str, value: impl ToString, accepted: impl Into<String>) -> Self {
+    pub fn new(key: &str, value: f64, accepted: impl Into<String>) -> Self {
         Self {
             key: key.to_owned(),
-            value: value.to_string(),
+            value: short(value),
             accepted: accepted.into(),
         }
     }

@@ -363,7 +363,8 @@ impl<Law: SpringLaw> Path for FollowedPath<Law> {
     fn point(&self, parameter: f64) -> PathPoint {
         let after = self.knots.partition_point(|&(knot, _)| knot <= parameter);
         let knot = self.knots[after.saturating_sub(1)];
-        let state = self.advance(knot, parameter).unwrap_or(knot.1);
+        let lost = State::from_array([f64::NAN; 6]);
+        let state = self.advance(knot, parameter).unwrap_or(lost);
         self.contacts.point(&state, self.leg_at(parameter))
     }
 }

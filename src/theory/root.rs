@@ -7,7 +7,7 @@ const MOST_ITERATIONS: usize = 400;
 /// Chandrupatla's method (Advances in Engineering Software 28 (1997) 145): inverse quadratic
 /// interpolation where it is safe, bisection elsewhere. It converges in the argument's own relative
 /// precision, so a root near zero is found to as many digits as any other. `None` without a change of
-/// sign.
+/// sign, or where the function is not a number.
 pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     let (mut x1, mut x2) = (high, low);
     let (mut f1, mut f2) = (function(x1), function(x2));
@@ -19,6 +19,9 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     for _ in 0..MOST_ITERATIONS {
         let x = x1 + fraction * (x2 - x1);
         let f = function(x);
+        if f.is_nan() {
+            return None;
+        }
         let (x3, f3);
         if (f > 0.0) == (f1 > 0.0) {
             (x3, f3) = (x1, f1);
@@ -38,7 +41,7 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
         }
         fraction = next_fraction([x1, x2, x3], [f1, f2, f3]).clamp(smallest, 1.0 - smallest);
     }
-    Some(x1)
+    None
 }
 
 /// Where to look next between x1 and x2, as a fraction of the way.

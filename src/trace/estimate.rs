@@ -5,6 +5,9 @@ use super::series::{Sample, Trace};
 use crate::stack::Stack;
 use serde::{Deserialize, Serialize};
 
+/// Rows needed on both sides of the peak.
+const ROWS_AROUND_PEAK: usize = 4;
+
 /// A force read off a series, with what the spacing of the rows may have cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
@@ -17,10 +20,12 @@ pub struct Estimate {
 /// Both estimators; absent where the series does not show what they look for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct YieldEstimates {
-    /// Wall force when a floor contact first reaches the Coulomb limit, e = μ d.
+    /// Wall force when a floor contact begins to slide.
     pub slip: Option<Estimate>,
     /// Largest wall force, the paper's definition of the yield force.
     pub peak: Option<Estimate>,
+    /// |t|/n of the floor contacts while they slide, as measured.
+    pub sliding_friction: Option<f64>,
 }
 
 impl YieldEstimates {
@@ -31,38 +36,63 @@ impl YieldEstimates {
             sampling: estimate.sampling * stack.stiffness,
         };
         let samples = trace.samples();
-        let Some(highest) = highest(samples) else {
-            return Self {
-                slip: None,
-                peak: None,
-            };
-        };
+        let peak_row = peak_row(samples);
+        let sliding_friction = peak_row.and_then(|row| sliding_friction(samples, row));
+        let slip = peak_row
+            .zip(sliding_friction)
+            .and_then(|(row, friction)| slip_onset(&samples[..=row], friction));
         Self {
-            slip: slip_onset(&samples[..=highest], stack.floor_friction).map(in_weights),
-            peak: peak(samples, highest).map(in_weights),
+            slip: slip.map(in_weights),
+            peak: peak_row.map(|row| in_weights(peak(samples, row))),
+            sliding_friction,
         }
     }
 }
 
-/// Index of the row with the largest wall force.
-fn highest(samples: &[Sample]) -> Option<usize> {
+/// Index of the row with the largest wall force, if the series goes on for some rows on both sides.
+fn peak_row(samples: &[Sample]) -> Option<usize> {
     let force = |index: usize| samples[index].wall_force;
-    (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))
+    let highest = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
+    (highest >= ROWS_AROUND_PEAK && highest + ROWS_AROUND_PEAK < samples.len()).then_some(highest)
+}
+
+/// Normal and tangential force of both floor contacts.
+fn floor_contacts(sample: &Sample) -> [(f64, f64); 2] {
+    [
+        (sample.floor_n2, sample.floor_t2.abs()),
+        (sample.floor_n3, sample.floor_t3.abs()),
+    ]
+}
+
+/// Largest |t|/n of the floor contacts at the peak and in the rows after it, when they slide and their
+/// force is capped. What the code does counts, not what it was told: a wrong friction in the code must
+/// show in the yield force.
+fn sliding_friction(samples: &[Sample], peak_row: usize) -> Option<f64> {
+    let rows = &samples[peak_row..=peak_row + ROWS_AROUND_PEAK];
+    let contacts = rows.iter().flat_map(floor_contacts);
+    let ratios = contacts
+        .filter(|&(normal, _)| normal > 0.0)
+        .map(|(normal, tangential)| tangential / normal);
+    let largest = ratios.fold(0.0, f64::max);
+    (largest > 0.0).then_some(largest)
 }
 
 /// μ n − |t| of the floor contact that is closer to sliding.
 fn slip_margin(sample: &Sample, friction: f64) -> f64 {
-    let margin = |normal: f64, tangential: f64| friction * normal - tangential.abs();
-    margin(sample.floor_n2, sample.floor_t2).min(margin(sample.floor_n3, sample.floor_t3))
+    let [right, left] =
+        floor_contacts(sample).map(|(normal, tangential)| friction * normal - tangential);
+    right.min(left)
 }
 
 /// Wall force as a function of the slip margin, extrapolated to margin 0 from four rows that certainly
-/// still stick: rows at which the contact slides say nothing about when it began to.
+/// still stick, all before the peak: rows at which the contact slides say nothing about when it began to.
 ///
 /// The margin falls smoothly while the contact sticks. The onset lies before the first row at which the
 /// straight line through the two rows before it has reached zero; the last of these is left out too, since
 /// it may lie just beyond. A threshold on the margin itself would not do, because a contact whose spring
 /// is frozen while it slides (the paper's law) sticks again now and then as the normal force grows.
+///
+/// A force outside the rows that enclose the onset is no onset but noise continued, and is refused.
 fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
     let margins: Vec<f64> = samples
         .iter()
@@ -75,6 +105,8 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
     };
     let beyond = (2..samples.len()).find(line_reaches_zero)?;
     let rows = beyond.checked_sub(5)?..beyond - 1;
+    let last_sticking = samples[rows.end - 1].wall_force;
+    let after = samples[(beyond + 1).min(samples.len() - 1)].wall_force;
     let margins = &margins[rows.clone()];
     let forces: Vec<f64> = samples[rows]
         .iter()
@@ -82,7 +114,8 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
         .collect();
     let force = value_at_zero(margins, &forces);
     let lower_order = value_at_zero(&margins[1..], &forces[1..]);
-    Some(Estimate {
+    let enclosed = (last_sticking..=after).contains(&force);
+    enclosed.then(|| Estimate {
         force,
         sampling: (force - lower_order).abs(),
     })
@@ -90,10 +123,7 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
 
 /// Vertex of the parabola through the highest row and its neighbours, compared with the one through the
 /// neighbours one further away.
-fn peak(samples: &[Sample], highest: usize) -> Option<Estimate> {
-    if highest < 2 || highest + 2 >= samples.len() {
-        return None;
-    }
+fn peak(samples: &[Sample], highest: usize) -> Estimate {
     let vertex = |reach: usize| {
         parabola_vertex([highest - reach, highest, highest + reach].map(|index| {
             let sample = &samples[index];
@@ -101,10 +131,10 @@ fn peak(samples: &[Sample], highest: usize) -> Option<Estimate> {
         }))
     };
     let (near, far) = (vertex(1), vertex(2));
-    Some(Estimate {
+    Estimate {
         force: near,
         sampling: (near - far).abs(),
-    })
+    }
 }
 
 /// Largest value of the parabola through three points, the middle one at argument 0 and highest.

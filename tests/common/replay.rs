@@ -13,6 +13,8 @@ pub enum Disturbance {
     None,
     /// It is delivered changed.
     Change(fn(String) -> String),
+    /// Another series is delivered.
+    Series(String),
     /// A shell command is executed instead.
     Instead(&'static str),
 }
@@ -33,15 +35,22 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
         match disturb(&case) {
             Disturbance::None => write("csv", &series),
             Disturbance::Change(change) => write("csv", &change(series)),
+            Disturbance::Series(other) => write("csv", &other),
             Disturbance::Instead(command) => write("sh", command),
         }
         count += 1;
     }
-    bench.install("yade", &script(&replay));
+    bench.install("yade", &script(&replay, ""));
     count
 }
 
-fn script(replay: &Path) -> String {
+/// The fake with something to do after the last case.
+pub fn install_with_ending(bench: &Bench, ending: &str) {
+    install(bench, |_| Disturbance::None);
+    bench.install("yade", &script(&bench.path("replay"), ending));
+}
+
+fn script(replay: &Path, ending: &str) -> String {
     let replay = replay.display();
     format!(
         r#"
@@ -53,6 +62,7 @@ for directory in "$@"; do
     cp "{replay}/$address.csv" "$directory/series.csv.part" || exit 9
     mv "$directory/series.csv.part" "$directory/series.csv"
 done
+{ending}
 "#
     )
 }

@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Err(failure) => {
             // What the engine wrote is evidence, and the failure names the place.
             scratch.map(tempfile::TempDir::keep);
-            return Err(Box::new(failure).into());
+            return Err(failure.into());
         }
     };
     let simulation = Simulation::new(&run, YieldEstimates::read(&run.trace, &case.stack));
@@ -127,11 +127,13 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     Ok(case)
 }
 
-fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Run, Failure> {
+fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Run, Box<Failure>> {
     let mut outcome = None;
     let case = std::slice::from_ref(case);
     engine.run(case, workplace, &mut |_, result| outcome = Some(result));
-    outcome.expect("an engine reports every case")
+    outcome
+        .expect("an engine reports every case")
+        .map_err(Box::new)
 }
 
 const RESULTS: [&str; 3] = ["case.json", "series.csv", "summary.json"];

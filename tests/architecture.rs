@@ -12,6 +12,7 @@ fn paths_in(document: &str) -> Vec<String> {
         "reference/",
         "liggghts_inputs/",
         "yade_scripts/",
+        "lammps_inputs/",
         "docs/",
     ];
     text.split('`')

@@ -28,7 +28,7 @@ fn every_row_agrees_and_says_where_it_comes_from() {
         "{message}"
     );
     assert!(
-        message.contains("54 of 54 rows agree; 36 rows are recorded, not live"),
+        message.contains("72 of 72 rows agree; 54 rows are recorded, not live"),
         "{message}"
     );
 }
@@ -40,7 +40,7 @@ fn rows_meet_the_accuracy_that_is_promised() {
         &mut bench.tristack("crosscheck --format json"),
     ));
     let rows = rows.as_array().expect("a list");
-    assert_eq!(rows.len(), 54);
+    assert_eq!(rows.len(), 72);
     for row in rows {
         let error = row["error"].as_f64().expect("an error").abs();
         let promised = if row["engine"] == "native" {

@@ -17,14 +17,15 @@ fn yade_is_told_in_json() {
 }
 
 #[test]
-fn liggghts_is_told_in_string_variables() {
-    assert_snapshot!(parameters().to_liggghts());
+fn lammps_and_liggghts_are_told_in_string_variables() {
+    assert_snapshot!(parameters().to_lammps());
 }
 
 /// A change here means that the recorded runs have to be made again.
 #[test]
 fn decks_are_the_ones_that_were_recorded() {
-    let hashes = [EngineName::Liggghts, EngineName::Yade].map(EngineName::static_deck_hash);
+    let hashes = [EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]
+        .map(EngineName::static_deck_hash);
     assert_snapshot!(hashes.join("\n"));
 }
 
@@ -43,12 +44,16 @@ fn examples_for_running_by_hand_are_complete() {
         names(include_str!("../yade_scripts/parameters.json")),
         given
     );
-    let example = include_str!("../liggghts_inputs/parameters.in");
-    let mut in_example: Vec<&str> = example
-        .lines()
-        .filter(|line| line.starts_with("variable"))
-        .filter_map(|line| line.split_whitespace().nth(1))
-        .collect();
-    in_example.sort_unstable();
-    assert_eq!(in_example, given);
+    for example in [
+        include_str!("../liggghts_inputs/parameters.in"),
+        include_str!("../lammps_inputs/parameters.in"),
+    ] {
+        let mut in_example: Vec<&str> = example
+            .lines()
+            .filter(|line| line.starts_with("variable"))
+            .filter_map(|line| line.split_whitespace().nth(1))
+            .collect();
+        in_example.sort_unstable();
+        assert_eq!(in_example, given);
+    }
 }

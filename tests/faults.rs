@@ -89,7 +89,7 @@ fn undisturbed_replay_agrees_everywhere() {
     let outcome = crosscheck(&bench, "");
     assert_eq!(outcome.status, Some(0), "{}", outcome.message);
     assert_eq!(outcome.count("agrees"), 18);
-    let replayed = |row: &serde_json::Value| row["version"] == "Yade version: replayed";
+    let replayed = |row: &serde_json::Value| row["version"] == "replayed";
     assert!(outcome.rows.iter().all(replayed));
 }
 

@@ -1,4 +1,4 @@
-//! The real codes. Runs whenever they are installed; with TRISTACK_REQUIRE_ENGINES=liggghts,yade a missing
+//! The real codes. Runs whenever they are installed; with TRISTACK_REQUIRE_ENGINES=liggghts,yade,lammps a missing
 //! one fails the suite.
 
 mod common;
@@ -8,7 +8,7 @@ use common::{Bench, assert_only, json};
 use std::fs;
 use tristack::engine::EngineName;
 
-const EXTERNAL: [EngineName; 2] = [EngineName::Liggghts, EngineName::Yade];
+const EXTERNAL: [EngineName; 3] = [EngineName::Liggghts, EngineName::Yade, EngineName::Lammps];
 
 /// The external engines that are installed; fails if one that is required is not.
 fn installed() -> Vec<EngineName> {
@@ -65,6 +65,7 @@ fn all_installed_engines_agree_with_their_limit_on_the_quick_profile() {
 fn a_live_run_leaves_deck_output_and_series_for_inspection() {
     let deck = |engine| match engine {
         EngineName::Liggghts => vec!["log.liggghts", "parameters.in", "stack.in", "wall.stl"],
+        EngineName::Lammps => vec!["log.lammps", "parameters.in", "stack.in"],
         _ => vec!["parameters.json", "stack.py"],
     };
     for engine in installed() {

@@ -68,7 +68,7 @@ pub enum CliError {
     #[error(transparent)]
     Files(#[from] ArchiveError),
     /// An engine was asked for by name, but is not installed.
-    #[error("{0} is not installed: no `{0}` in the search path; install it with: {hint}", hint = .0.installation_hint())]
+    #[error("{0} is not installed: its program is not in the search path; install it with: {hint}", hint = .0.installation_hint())]
     MissingEngine(EngineName),
     /// An engine failed.
     #[error(transparent)]

@@ -69,8 +69,8 @@ impl DeckParameters {
             + "\n"
     }
 
-    /// As LIGGGHTS variables. String style, because it alone passes every digit.
-    pub fn to_liggghts(&self) -> String {
+    /// As variables of LAMMPS and LIGGGHTS. String style, because it alone passes every digit.
+    pub fn to_lammps(&self) -> String {
         let value = serde_json::to_value(self).expect("a struct of finite numbers has a JSON form");
         let entries = value.as_object().into_iter().flatten();
         entries

@@ -1,8 +1,8 @@
 //! An external code as an engine: run directories, the shared runner, the series read back.
 
-use super::installation::{self, Installation};
+use super::installation::{self, Installation, VersionQuestion};
 use super::process::{Ending, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
-use super::{DeckParameters, Engine, EngineName, Failure, FailureKind, Workplace};
+use super::{DeckParameters, Engine, EngineName, Environment, Failure, FailureKind, Workplace};
 use crate::archive::{ArchiveError, Identity, Provenance, Run};
 use crate::stack::{Case, sha256_hex};
 use crate::trace::{SeriesError, Trace};
@@ -29,12 +29,12 @@ pub struct Adapter {
     pub(super) name: EngineName,
     /// Program in the search path.
     pub(super) program: &'static str,
-    /// Arguments that make it print its version.
-    pub(super) version_arguments: &'static [&'static str],
+    /// How it says its version.
+    pub(super) version: VersionQuestion,
     /// Files of the deck, by name and content.
     pub(super) deck: &'static [(&'static str, &'static str)],
     /// Variables of its environment.
-    pub(super) environment: &'static [(&'static str, &'static str)],
+    pub(super) environment: Environment,
     /// Files of its own, in the working directory, that say what went wrong.
     pub(super) logs: &'static [&'static str],
     /// Name of the parameter file, and its content.
@@ -68,7 +68,8 @@ pub struct ExternalEngine {
 
 impl ExternalEngine {
     pub(super) fn find(adapter: &'static Adapter) -> Option<Box<dyn Engine>> {
-        let installation = installation::find(adapter.program, adapter.version_arguments)?;
+        let installation =
+            installation::find(adapter.program, &adapter.version, adapter.environment)?;
         let identity = Identity {
             engine: adapter.name.as_str().to_owned(),
             version: installation.version.clone(),

@@ -1,5 +1,6 @@
 //! Which binary an engine is, and which version.
 
+use super::Environment;
 use super::process::{Ending, Interrupt, Job, STANDARD_OUTPUT, run};
 use crate::stack::sha256_hex;
 use std::ffi::OsString;
@@ -22,14 +23,28 @@ pub struct Installation {
     pub hash: String,
 }
 
-/// Looks for `program` in the search path and asks the package manager, else the program itself with
-/// `version_arguments`, for its version.
-pub fn find(program: &str, version_arguments: &[&str]) -> Option<Installation> {
+/// How a program says its version.
+pub struct VersionQuestion {
+    /// Arguments that make it print the version.
+    pub arguments: &'static [&'static str],
+    /// What stands before the version in the first line it prints.
+    pub before_version: &'static str,
+    /// Whether the version of its package, which is quicker to know, is as good.
+    pub package_says_it: bool,
+}
+
+/// Looks for `program` in the search path and asks the package manager, or the program itself in its
+/// `environment`, for its version.
+pub fn find(
+    program: &str,
+    question: &VersionQuestion,
+    environment: Environment,
+) -> Option<Installation> {
     let program = in_search_path(program)?;
     let package = owning_package(&program);
     let version = match &package {
-        Some((_, version)) => upstream(version).to_owned(),
-        None => own_version(&program, version_arguments),
+        Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
+        _ => own_version(&program, question, environment),
     };
     let hash = sha256_hex(&std::fs::read(&program).ok()?);
     Some(Installation {
@@ -65,7 +80,7 @@ fn owning_package(program: &Path) -> Option<(String, String)> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
         command.extend(arguments);
-        answer(command)
+        answer(command, &[])
     };
     let owner = ask(vec!["--search".into(), resolved])?;
     let name = owner.lines().next()?.split(':').next()?.to_owned();
@@ -85,22 +100,26 @@ fn upstream(version: &str) -> &str {
         .map_or(version, |(upstream, _)| upstream)
 }
 
-fn own_version(program: &Path, arguments: &[&str]) -> String {
+fn own_version(program: &Path, question: &VersionQuestion, environment: Environment) -> String {
     let mut command = vec![program.as_os_str().to_owned()];
-    command.extend(arguments.iter().map(OsString::from));
-    let text = answer(command).unwrap_or_default();
+    command.extend(question.arguments.iter().map(OsString::from));
+    let text = answer(command, environment).unwrap_or_default();
     let first = text.lines().find(|line| !line.trim().is_empty());
-    first.map_or("unknown", str::trim).to_owned()
+    first
+        .map_or("unknown", |line| {
+            line.trim().trim_start_matches(question.before_version)
+        })
+        .to_owned()
 }
 
 /// What a command that succeeds writes to its standard output.
-fn answer(command: Vec<OsString>) -> Option<String> {
+fn answer(command: Vec<OsString>, environment: Environment) -> Option<String> {
     let directory = tempfile::tempdir().ok()?;
     let ending = run(
         &Job {
             command: &command,
             directory: directory.path(),
-            environment: &[],
+            environment,
             time_limit: LONGEST_ANSWER,
             interrupt: &Interrupt::new(),
         },
@@ -128,6 +147,11 @@ mod tests {
 
     #[test]
     fn a_program_that_does_not_exist_is_not_installed() {
-        assert_eq!(find("tristack-has-no-such-engine", &[]), None);
+        let question = VersionQuestion {
+            arguments: &[],
+            before_version: "",
+            package_says_it: false,
+        };
+        assert_eq!(find("tristack-has-no-such-engine", &question, &[]), None);
     }
 }

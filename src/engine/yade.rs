@@ -3,6 +3,7 @@
 use super::EngineName;
 use super::deck::DeckParameters;
 use super::external::Adapter;
+use super::installation::VersionQuestion;
 use crate::stack::{Case, Convention};
 use crate::trace::{SeriesError, Trace};
 use std::fs::File;
@@ -18,7 +19,11 @@ const SERIES: &str = "series.csv";
 pub static YADE: Adapter = Adapter {
     name: EngineName::Yade,
     program: "yade",
-    version_arguments: &["--version"],
+    version: VersionQuestion {
+        arguments: &["--version"],
+        before_version: "Yade version: ",
+        package_says_it: true,
+    },
     deck: &[("stack.py", include_str!("../../yade_scripts/stack.py"))],
     environment: &[],
     logs: &[],

@@ -43,12 +43,7 @@ fn rows_meet_the_accuracy_that_is_promised() {
     assert_eq!(rows.len(), 72);
     for row in rows {
         let error = row["error"].as_f64().expect("an error").abs();
-        let promised = if row["engine"] == "native" {
-            1e-6
-        } else {
-            2e-5
-        };
-        assert!(error < promised, "{row}");
+        assert!(error < 1e-7, "{row}");
         let load = row["reference_force"].as_f64().expect("a force") + 3.0;
         let uncertainty = row["uncertainty"].as_f64().expect("an uncertainty") / load;
         assert!(

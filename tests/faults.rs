@@ -128,7 +128,7 @@ fn a_hang_is_killed_at_the_time_limit() {
     with_victim(
         hang,
         "--time-limit 1",
-        &["no series after 1.0 s", "stdout.txt: waiting"],
+        &["no series after 1s", "stdout.txt: waiting"],
     );
 }
 
@@ -304,6 +304,23 @@ fn a_friction_wrong_by_a_ten_thousandth_differs_and_is_named() {
 }
 
 #[test]
+fn a_friction_that_is_hardly_wrong_is_no_agreement() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |case| {
+        if case.stack.floor_friction != 0.3 || case.stack.stiffness != 100.0 {
+            return Disturbance::None;
+        }
+        let mut wrong = *case;
+        wrong.stack.floor_friction *= 1.0 + 5e-8;
+        let trace = compress_stack(&wrong).expect("a finite series");
+        Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
+    });
+    let outcome = crosscheck(&bench, "");
+    assert_eq!(outcome.status, Some(4), "{}", outcome.message);
+    assert_eq!(outcome.count("inconclusive"), 1);
+}
+
+#[test]
 fn an_engine_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
     let bench = Bench::with_system_programs();
     replay::install_with_ending(&bench, "sleep 600");
@@ -342,12 +359,62 @@ fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
     assert!(bench.path("run/series.csv").exists());
     bench.install("yade", "exit 0");
     bench.tristack(&line).assert().code(3).stdout("");
-    for name in ["case.json", "series.csv", "summary.json"] {
+    assert!(bench.path("run/case.json").exists());
+    for name in ["series.csv", "summary.json"] {
         assert!(
             !bench.path("run").join(name).exists(),
             "{name} is left from the first run"
         );
     }
+}
+
+#[test]
+fn a_case_that_the_engine_cannot_run_touches_nothing() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let native = "simulate --engine native --mu 0.3 --stiffness 100 --out run";
+    bench.tristack(native).assert().code(0);
+    let line = "simulate --engine yade --case run/case.json --out run";
+    bench.tristack(line).assert().code(1).stdout("");
+    for name in ["case.json", "series.csv", "summary.json"] {
+        assert!(bench.path("run").join(name).exists(), "{name} is gone");
+    }
+}
+
+#[test]
+fn nothing_is_started_after_an_interrupt() {
+    let bench = Bench::with_system_programs();
+    let starts = bench.path("starts");
+    bench.install(
+        "lmp",
+        &format!(
+            "[ \"$1\" = -help ] && exit 0; echo $$ >> {}; sleep 600",
+            starts.display()
+        ),
+    );
+    let child = bench
+        .process("crosscheck --engines lammps --jobs 2")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let both = || {
+        fs::read_to_string(&starts)
+            .ok()
+            .filter(|text| text.lines().count() == 2)
+    };
+    wait_for(both);
+    send_interrupt(child.id());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(
+        fs::read_to_string(&starts)
+            .expect("the log")
+            .lines()
+            .count(),
+        2
+    );
+    common::assert_only(&bench.path("store/work"), &[]);
 }
 
 #[test]

@@ -56,7 +56,8 @@ fn all_installed_engines_agree_with_their_limit_on_the_quick_profile() {
         });
         let worst = errors.fold(0.0, f64::max);
         println!("{engine}: largest error {worst:.1e} of F + 3");
-        assert!(worst < 2e-5, "{engine}: {worst:e}");
+        // Far below what an agreement needs: 4e-8 is what was seen of every code.
+        assert!(worst < 1e-7, "{engine}: {worst:e}");
     }
     assert_only(&bench.path("store/work"), &[]);
 }

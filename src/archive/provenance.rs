@@ -13,7 +13,8 @@ pub struct Identity {
     pub version: String,
     /// Distribution package and its version, if the binary belongs to one.
     pub package: Option<String>,
-    /// SHA-256 of the program file; absent for the native engine, whose sources are hashed like a deck.
+    /// SHA-256 of the program file, its libraries not included; absent for the native engine, whose sources
+    /// are hashed like a deck.
     pub program_hash: Option<String>,
 }
 
@@ -31,8 +32,8 @@ impl Identity {
 pub struct Provenance {
     /// Who computed it.
     pub identity: Identity,
-    /// SHA-256 of all that the program was given to read: deck and parameters; of the sources of the
-    /// native engine.
+    /// SHA-256 of all that the program was given: deck, parameters, arguments, environment; of sources and
+    /// parameters for the native engine.
     pub deck_hash: String,
     /// Version of tristack that drove it.
     pub tristack: String,

@@ -53,6 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         write(directory, &judgements, &command_line(arguments))?;
     }
     super::print(&match arguments.format {
+        Format::Table if judgements.is_empty() => Vec::new(),
         Format::Table => crosscheck_table(&judgements).into_bytes(),
         Format::Json => crosscheck_json(&judgements).into_bytes(),
         Format::Csv => crosscheck_csv(&judgements),

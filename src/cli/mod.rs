@@ -65,15 +65,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
     }
 }
 
-/// The first interrupt stops the engines and lets what is done be written; the second one ends at once.
+/// An interrupt stops the engines; what is done is printed, and kept in the store.
 fn listen_for_interrupts() {
-    let stop = || {
-        if INTERRUPT.requested() {
-            std::process::exit(i32::from(ExitStatus::Interrupted.code()));
-        }
-        INTERRUPT.request();
-    };
-    if let Err(error) = ctrlc::set_handler(stop) {
+    if let Err(error) = ctrlc::set_handler(|| INTERRUPT.request()) {
         eprintln!("warning: interrupts will end the program at once: {error}");
     }
 }

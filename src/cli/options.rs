@@ -88,7 +88,8 @@ pub struct RunOptions {
     /// Runs at the same time [default: the number of cores]
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
-    /// Longest time in seconds that an engine may take for one run [default: 30 times the expected]
+    /// Longest time in seconds without a finished run [default: 30 s and 100 us a step for external
+    /// engines, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time_limit: Option<f64>,
 }

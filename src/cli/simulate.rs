@@ -52,7 +52,7 @@ pub struct Arguments {
     /// Directory for case, series, summary, deck and captured output
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Longest time in seconds that the engine may take [default: 30 times the expected]
+    /// Longest time in seconds [default: 30 s and 100 us a step for external engines, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
     /// How to print the result
@@ -69,10 +69,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let scratch = match &arguments.out {
         Some(directory) => {
             writable(directory)?;
-            clear(directory)?;
+            begin(directory, &case)?;
             None
         }
-        None => Some(tempfile::tempdir().map_err(ArchiveError::writing(&std::env::temp_dir()))?),
+        None => Some(
+            tempfile::Builder::new()
+                .prefix("tristack-")
+                .tempdir()
+                .map_err(ArchiveError::writing(&std::env::temp_dir()))?,
+        ),
     };
     let directory = arguments
         .out
@@ -86,8 +91,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let run = match execute(engine.as_ref(), &case, &workplace) {
         Ok(run) => run,
         Err(failure) => {
-            // What the engine wrote is evidence, and the failure names the place.
-            scratch.map(tempfile::TempDir::keep);
+            if failure.left_evidence() {
+                scratch.map(tempfile::TempDir::keep);
+            }
             return Err(failure.into());
         }
     };
@@ -104,7 +110,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
-        return Ok(Case::read(path)?);
+        let case = Case::read(path)?;
+        arguments.engine.check_convention(&case.convention)?;
+        return Ok(case);
     }
     let (mu, stiffness) = (
         arguments.mu.unwrap_or(f64::NAN),
@@ -136,11 +144,15 @@ fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Ru
         .map_err(Box::new)
 }
 
-const RESULTS: [&str; 3] = ["case.json", "series.csv", "summary.json"];
+const CASE: &str = "case.json";
+const SERIES: &str = "series.csv";
+const SUMMARY: &str = "summary.json";
 
-/// Removes the results of an earlier run, which must not stand beside the deck of this one.
-fn clear(directory: &Path) -> Result<(), ArchiveError> {
-    for name in RESULTS {
+/// Replaces the case of an earlier run by this one and removes its results, which must not stand beside
+/// the deck of this run.
+fn begin(directory: &Path, case: &Case) -> Result<(), ArchiveError> {
+    write_atomically(&directory.join(CASE), case.to_json().as_bytes())?;
+    for name in [SERIES, SUMMARY] {
         let path = directory.join(name);
         if path.exists() {
             std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
@@ -150,13 +162,9 @@ fn clear(directory: &Path) -> Result<(), ArchiveError> {
 }
 
 fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), ArchiveError> {
-    let contents = [
-        run.case.to_json().into_bytes(),
-        run.trace.to_csv(),
-        simulation_json(simulation).into_bytes(),
-    ];
-    for (name, content) in RESULTS.iter().zip(contents) {
-        write_atomically(&directory.join(name), &content)?;
-    }
-    Ok(())
+    write_atomically(&directory.join(SERIES), &run.trace.to_csv())?;
+    write_atomically(
+        &directory.join(SUMMARY),
+        simulation_json(simulation).as_bytes(),
+    )
 }

@@ -110,6 +110,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         write_atomically(&directory.join("sweep.json"), &json)?;
     }
     super::print(&match arguments.format {
+        Format::Table if judgements.is_empty() => Vec::new(),
         Format::Table => crosscheck_table(&judgements).into_bytes(),
         Format::Json => json,
         Format::Csv => csv,

@@ -145,9 +145,6 @@ fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &m
     let estimates: Vec<YieldEstimates> = readings.iter().map(|reading| reading.estimates).collect();
     judgement.slip = extrapolate(&estimates, stiffness, |run| run.slip);
     judgement.peak = extrapolate(&estimates, stiffness, |run| run.peak);
-    judgement
-        .notes
-        .extend(friction_note(measurement, &estimates));
     let Some(reference) = measurement.limit.yield_force else {
         return;
     };
@@ -166,6 +163,9 @@ fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &m
     };
     let uncertainty = slip.budget.total();
     judgement.decide(slip.force, uncertainty, reference);
+    if let Some(note) = friction_note(measurement, &estimates) {
+        judgement.doubt(note);
+    }
     if (peak.force - slip.force).abs() > uncertainty + peak_uncertainty {
         judgement.doubt(format!(
             "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainties {:.1e}",

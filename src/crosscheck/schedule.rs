@@ -232,27 +232,31 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
     }
 
     fn carry_out(&self, job: &Job) {
+        if self.settings.interrupt.requested() {
+            return self.fail_all(job, || FailureKind::Interrupted);
+        }
         let cases: Vec<Case> = job.tasks.iter().map(|&task| *self.case(task)).collect();
         let root = self.settings.store.work_directory();
         let prefix = format!("{}-", job.engine.name());
         let directory = match tempfile::Builder::new().prefix(&prefix).tempdir_in(&root) {
             Ok(directory) => directory,
-            Err(error) => return self.fail_all(job, &error.to_string()),
+            Err(error) => {
+                let message = error.to_string();
+                let start = || FailureKind::Start(std::io::Error::other(message.clone()));
+                return self.fail_all(job, start);
+            }
         };
         let workplace = Workplace {
             directory: directory.path(),
             time_limit: self.settings.time_limit,
             interrupt: self.settings.interrupt,
         };
-        let mut failed = false;
+        let mut evidence = false;
         job.engine.run(&cases, &workplace, &mut |index, result| {
-            failed |= result
-                .as_ref()
-                .is_err_and(|failure| !failure.is_interrupted());
+            evidence |= result.as_ref().is_err_and(Failure::left_evidence);
             self.accept(job, index, result);
         });
-        if failed {
-            // What the engine wrote is evidence, and the failure names the place.
+        if evidence {
             let _ = directory.keep();
         }
     }
@@ -270,12 +274,12 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
         self.fill(task, result.map_err(|failure| Box::new(failure).into()));
     }
 
-    fn fail_all(&self, job: &Job, message: &str) {
+    fn fail_all(&self, job: &Job, kind: impl Fn() -> FailureKind) {
         for index in 0..job.tasks.len() {
             let failure = Failure {
                 engine: job.engine.name(),
                 case: Box::new(*self.case(job.tasks[index])),
-                kind: FailureKind::Start(std::io::Error::other(message.to_owned())),
+                kind: kind(),
                 run_directory: None,
                 last_lines: Vec::new(),
             };

@@ -1,4 +1,4 @@
-//! The store of finished runs, addressed by case, engine, version and deck.
+//! The store of finished runs, addressed by case, engine, version, program and all it was given.
 
 use crate::archive::{Archive, ArchiveError, Identity, Provenance, Run};
 use crate::stack::Case;

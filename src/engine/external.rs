@@ -59,6 +59,15 @@ impl Adapter {
     }
 }
 
+impl Adapter {
+    /// All but the static deck that one case is run with, as one text.
+    pub(super) fn told(&self, parameters: &DeckParameters) -> String {
+        let arguments = (self.arguments)(&[".".to_owned()]);
+        let (file, content) = (self.parameter_file, (self.parameters)(parameters));
+        format!("{file}\n{content}\n{arguments:?}\n{:?}", self.environment)
+    }
+}
+
 /// An external code that is installed.
 pub struct ExternalEngine {
     adapter: &'static Adapter,

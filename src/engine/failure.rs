@@ -27,8 +27,8 @@ pub enum FailureKind {
     /// The program went on to other cases.
     #[error("the program delivered no series for this case and went on")]
     Skipped,
-    /// The program did not finish in time and was killed.
-    #[error("no series after {:.1} s; the program was killed", .0.as_secs_f64())]
+    /// The case was not finished in time.
+    #[error("no series after {0:?}; it was stopped")]
     TimedOut(Duration),
     /// The user interrupted.
     #[error("interrupted")]
@@ -59,6 +59,11 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// Whether the run directory holds what the program wrote before it failed.
+    pub fn left_evidence(&self) -> bool {
+        self.run_directory.is_some() && !self.is_interrupted()
+    }
+
     /// Whether nothing is wrong but that the user did not want to wait.
     pub fn is_interrupted(&self) -> bool {
         matches!(self.kind, FailureKind::Interrupted)

@@ -107,7 +107,9 @@ fn own_version(program: &Path, question: &VersionQuestion, environment: Environm
     let first = text.lines().find(|line| !line.trim().is_empty());
     first
         .map_or("unknown", |line| {
-            line.trim().trim_start_matches(question.before_version)
+            let line = line.trim();
+            let rest = line.strip_prefix(question.before_version).unwrap_or(line);
+            rest.split(',').next().unwrap_or(rest)
         })
         .to_owned()
 }

@@ -109,11 +109,15 @@ impl EngineName {
         }
     }
 
-    /// Hash of everything that this version of tristack would give the engine to read for `case`: deck and
-    /// parameters. For the native engine its sources take the place of the deck.
+    /// Hash of everything that this version of tristack would give the engine for `case`: deck, parameters,
+    /// arguments and environment. For the native engine its sources take the place of the deck.
     pub fn deck_hash(self, case: &Case) -> String {
-        let parameters = DeckParameters::new(case).to_json();
-        sha256_hex(format!("{}\n{parameters}", self.static_deck_hash()).as_bytes())
+        let parameters = DeckParameters::new(case);
+        let told = match self.adapter() {
+            None => parameters.to_json(),
+            Some(adapter) => adapter.told(&parameters),
+        };
+        sha256_hex(format!("{}\n{told}", self.static_deck_hash()).as_bytes())
     }
 
     /// Hash of the deck alone, or of the sources of the native engine.

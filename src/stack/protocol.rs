@@ -8,8 +8,8 @@ const SMALLEST_TIME_STEP: f64 = 1e-6;
 const FASTEST_WALL: f64 = 0.01;
 /// The height of the stack, and a little more.
 const LONGEST_TRAVEL: f64 = 4.0;
-const LONGEST_TIME: f64 = 1e12;
-const MOST_STEPS: f64 = 1e12;
+const LONGEST_TIME: f64 = 1e9;
+const MOST_STEPS: f64 = 1e11;
 const MOST_ROWS: u64 = 1_000_000;
 
 /// How the stack is brought to rest under gravity.
@@ -163,7 +163,17 @@ impl Protocol {
             let key = "protocol.wall_speed";
             return Err(InvalidValue::new(key, self.wall_speed, accepted));
         }
-        let rows = self.schedule().rows();
+        let schedule = self.schedule();
+        if schedule.total_steps() as f64 > 2.0 * MOST_STEPS {
+            let accepted = format!("short enough for at most {MOST_STEPS:e} steps in all");
+            let key = "protocol.sampling.fine_interval";
+            return Err(InvalidValue::new(
+                key,
+                self.sampling.fine_interval,
+                accepted,
+            ));
+        }
+        let rows = schedule.rows();
         if rows > MOST_ROWS {
             let key = "protocol.sampling";
             let accepted = format!("such that the series has at most {MOST_ROWS} rows");

@@ -64,6 +64,7 @@ impl Bench {
             .args(line.split_whitespace())
             .env("PATH", self.search_path())
             .env("TRISTACK_STORE", self.path("store"))
+            .env("TMPDIR", self.root.path())
             .env_remove("TRISTACK_REFERENCE")
             .current_dir(self.root.path());
         command
@@ -76,6 +77,8 @@ impl Bench {
             .args(line.split_whitespace())
             .env("PATH", self.search_path())
             .env("TRISTACK_STORE", self.path("store"))
+            .env("TMPDIR", self.root.path())
+            .env_remove("TRISTACK_REFERENCE")
             .current_dir(self.root.path());
         command
     }

@@ -59,15 +59,7 @@ impl Bench {
 
     /// `tristack` with the arguments in `line`, which are separated by spaces.
     pub fn tristack(&self, line: &str) -> Command {
-        let mut command = assert_cmd::cargo::cargo_bin_cmd!("tristack");
-        command
-            .args(line.split_whitespace())
-            .env("PATH", self.search_path())
-            .env("TRISTACK_STORE", self.path("store"))
-            .env("TMPDIR", self.root.path())
-            .env_remove("TRISTACK_REFERENCE")
-            .current_dir(self.root.path());
-        command
+        Command::from_std(self.process(line))
     }
 
     /// The same, as a process that can be watched and interrupted.

@@ -382,6 +382,50 @@ fn a_case_that_the_engine_cannot_run_touches_nothing() {
 }
 
 #[test]
+fn record_keeps_every_run_for_machines_without_the_engine() {
+    let bench = Bench::with_system_programs();
+    let recorded = replay::install(&bench, |_| Disturbance::None);
+    let reference = bench.path("reference");
+    let mut record = bench.tristack("record --engines yade");
+    record
+        .env("TRISTACK_REFERENCE", &reference)
+        .assert()
+        .code(0);
+    let entries = fs::read_dir(reference.join("yade")).expect("recordings");
+    assert_eq!(entries.count(), recorded);
+
+    let machine = Bench::without_engines();
+    let mut crosscheck = machine.tristack("crosscheck --format json");
+    let output = crosscheck.env("TRISTACK_REFERENCE", &reference).output();
+    let rows = json(&String::from_utf8_lossy(&output.expect("it runs").stdout));
+    let rows = rows.as_array().expect("a list").iter();
+    let agreeing = rows.filter(|row| {
+        row["engine"] == "yade" && row["source"] == "recorded" && row["verdict"] == "agrees"
+    });
+    assert_eq!(agreeing.count(), 18);
+}
+
+#[test]
+fn record_keeps_the_old_recordings_if_a_run_fails() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |case| {
+        if is_victim(case) {
+            Disturbance::Instead("exit 7")
+        } else {
+            Disturbance::None
+        }
+    });
+    let reference = bench.path("reference");
+    fs::create_dir_all(reference.join("yade/old")).expect("an old recording");
+    let mut record = bench.tristack("record --engines yade");
+    record
+        .env("TRISTACK_REFERENCE", &reference)
+        .assert()
+        .code(3);
+    common::assert_only(&reference.join("yade"), &["old"]);
+}
+
+#[test]
 fn nothing_is_started_after_an_interrupt() {
     let bench = Bench::with_system_programs();
     let starts = bench.path("starts");

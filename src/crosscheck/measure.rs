@@ -197,7 +197,8 @@ impl Judgement {
     }
 }
 
-/// A friction measured this close, relatively, to the one asked for is the same.
+/// A friction measured this close, relatively, to the one asked for is the same: codes cap the force at
+/// μ n itself, some through tan(atan μ), so that only roundings of 1e-16 are between them.
 const SAME_FRICTION: f64 = 1e-9;
 
 fn friction_note(measurement: &Measurement, estimates: &[YieldEstimates]) -> Option<String> {
@@ -211,8 +212,9 @@ fn friction_note(measurement: &Measurement, estimates: &[YieldEstimates]) -> Opt
     ))
 }
 
-/// The peak is grainy: it comes while the floor slips and sticks from step to step, so that it is off by
-/// the load that some steps add.
+/// The peak is grainy: it comes while the floor slips and sticks from step to step, which may hide up to
+/// two steps of load in each run. The extrapolation adds them up with the weights 1/3, 2 and 8/3 at speeds
+/// of 1, 1/2 and 1/4 of the fastest: four steps at the fastest speed.
 const GRAINY_STEPS: f64 = 4.0;
 
 /// Uncertainty of the extrapolated peak beyond its budget, in m g.

@@ -185,10 +185,11 @@ impl<'a> Batch<'a> {
     /// Runs the process and reports cases, at least the first one. Those beyond the last reported one have
     /// had no chance, because it took the process down.
     fn run(&mut self, workplace: &Workplace, report: Report) {
-        let outcome = match self.prepare() {
-            Ok(()) => self.run_process(workplace, report),
-            Err(kind) => Err(kind),
-        };
+        if let Err(kind) = self.prepare() {
+            // Nothing may be read from directories that have not been cleared.
+            return self.fail(0, kind, report);
+        }
+        let outcome = self.run_process(workplace, report);
         self.harvest(report);
         let delivered = self.settled();
         for index in 0..delivered {

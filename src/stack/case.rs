@@ -118,3 +118,58 @@ impl Case {
         Ok(case)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stack::{Preparation, Sampling};
+
+    fn case() -> Case {
+        Case {
+            stack: Stack::paper(0.3, 100.0),
+            convention: Convention::PAPER,
+            protocol: Protocol {
+                preparation: Preparation::GravityRamp {
+                    ramp_time: 100.0,
+                    rest_time: 100.0,
+                },
+                time_step: 0.1,
+                wall_speed: 1e-4,
+                wall_travel: 0.7,
+                sampling: Sampling {
+                    coarse_interval: 60.0,
+                    fine_from_travel: 0.6,
+                    fine_interval: 2.0,
+                },
+            },
+        }
+    }
+
+    #[test]
+    fn json_and_toml_give_the_same_case_back() {
+        let json: Case = serde_json::from_str(&case().to_json()).unwrap();
+        let toml: Case = toml::from_str(&toml::to_string(&case()).unwrap()).unwrap();
+        assert_eq!([json, toml], [case(), case()]);
+    }
+
+    /// Pinned: a change of this hash orphans every stored and recorded run.
+    #[test]
+    fn content_hash_is_stable_and_sees_every_value() {
+        let hash = case().content_hash();
+        assert_eq!(
+            hash,
+            "63e0ab3020689431a5cd7f91b26290c512774174ff7767e14474f5f801d74d18"
+        );
+        let mut other = case();
+        other.stack.cylinder_friction = 0.71;
+        assert_ne!(other.content_hash(), hash);
+    }
+
+    #[test]
+    fn a_soft_tangential_spring_allows_a_longer_step_than_a_stiff_one() {
+        let mut stiff = case();
+        stiff.stack.stiffness_ratio = 0.01;
+        assert_eq!(stiff.validate().unwrap_err().key, "protocol.time_step");
+        assert_eq!(case().validate(), Ok(()));
+    }
+}

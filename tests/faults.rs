@@ -291,7 +291,7 @@ fn a_friction_wrong_by_a_ten_thousandth_differs_and_is_named() {
             }
             let mut wrong = *case;
             wrong.stack.floor_friction *= factor;
-            let trace = compress_stack(&wrong).expect("a finite series");
+            let trace = compress_stack(&wrong, || true).expect("a finite series");
             Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
         });
         let outcome = crosscheck(&bench, "");
@@ -312,7 +312,7 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
         }
         let mut wrong = *case;
         wrong.stack.floor_friction *= 1.0 + 5e-8;
-        let trace = compress_stack(&wrong).expect("a finite series");
+        let trace = compress_stack(&wrong, || true).expect("a finite series");
         Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
     });
     let outcome = crosscheck(&bench, "");

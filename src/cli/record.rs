@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let external: Vec<EngineName> = match arguments.engines.as_slice() {
         [] => EngineName::ALL
             .into_iter()
-            .filter(|name| !name.accepts_any_arms())
+            .filter(|name| !name.accepts_any_convention())
             .collect(),
         named => named.to_vec(),
     };

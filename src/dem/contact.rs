@@ -1,128 +1,290 @@
-//! The contact law of the paper: a damped normal spring, a damped and capped tangential one.
+//! The contact law: a damped normal spring, a damped and capped tangential one.
 
-/// Stiffnesses and damping coefficients of a contact, in units of k_n and √(m k_n).
+use super::real::{Real, real};
+use crate::stack::{Convention, CoulombOperand, SlidingSpring, SpringTransport};
+
+/// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactLaw {
-    /// k_n.
-    pub normal_stiffness: f64,
-    /// k_t.
-    pub tangential_stiffness: f64,
-    /// η_n.
-    pub normal_damping: f64,
-    /// η_t.
-    pub tangential_damping: f64,
-}
-
-/// What a contact remembers and exerts.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ContactState {
-    /// u, tangential displacement accumulated while the contact sticks.
-    pub spring: f64,
-    /// Normal force, positive in compression.
-    pub normal_force: f64,
-    /// Tangential force on the first body along t = (−n_y, n_x).
-    pub tangential_force: f64,
-}
-
-/// What moves a contact tangentially during one time step.
-#[derive(Debug, Clone, Copy)]
-pub struct TangentialStep {
-    /// v_t, surface velocity of the first body relative to the second along t.
-    pub velocity: f64,
+pub struct Contact<R> {
+    /// Unit normal, towards the first body.
+    pub normal: [R; 2],
+    /// Overlap δ.
+    pub overlap: R,
+    /// Velocity of the first body relative to the second.
+    pub velocity: [R; 2],
+    /// Sum of the angular velocities of the two bodies.
+    pub spin: R,
+    /// Friction coefficient.
+    pub friction: R,
+    /// Arm coefficient r₁.
+    pub arm: R,
     /// Time step.
-    pub time_step: f64,
-    /// Friction coefficient of the contact.
-    pub friction: f64,
+    pub time_step: R,
 }
 
-impl ContactLaw {
+/// What a contact exerts on its first body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce<R> {
+    /// Normal force, positive in compression.
+    pub normal: R,
+    /// Tangential force along t = (−n_y, n_x).
+    pub tangential: R,
+    /// Torque arm R; the torque on either body is −R times the tangential force.
+    pub radius: R,
+}
+
+impl<R: Real> Default for ContactForce<R> {
+    fn default() -> Self {
+        let zero = R::zero();
+        Self {
+            normal: zero,
+            tangential: zero,
+            radius: zero,
+        }
+    }
+}
+
+/// A law that gives the force of a contact from its motion, step by step.
+pub trait ContactModel<R> {
+    /// What a contact remembers from one step to the next; its default is a contact without a past.
+    type Memory: Copy + Default;
+
+    /// The force of `contact`, whose memory is advanced to the present.
+    fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
+}
+
+/// The paper's contact law, with the conventions by which other codes differ from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringDashpot<R> {
+    /// k_n.
+    pub normal_stiffness: R,
+    /// k_t.
+    pub tangential_stiffness: R,
+    /// η_n.
+    pub normal_damping: R,
+    /// η_t.
+    pub tangential_damping: R,
+    /// What Coulomb's limit is compared with.
+    pub coulomb_operand: CoulombOperand,
+    /// The spring of a sliding contact.
+    pub sliding_spring: SlidingSpring,
+    /// The spring of a turning contact.
+    pub spring_transport: SpringTransport,
+}
+
+/// What a [`SpringDashpot`] contact remembers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring<R> {
+    /// u, tangential displacement accumulated while the contact sticks.
+    pub length: R,
+    /// Normal of the contact when u was last brought up to date.
+    pub normal: [R; 2],
+}
+
+impl<R: Real> Default for Spring<R> {
+    fn default() -> Self {
+        Self {
+            length: R::zero(),
+            normal: [R::zero(); 2],
+        }
+    }
+}
+
+impl<R: Real> SpringDashpot<R> {
+    /// The law of `convention` with k_n = 1 and the given k_t.
+    pub fn new(convention: &Convention, tangential_stiffness: f64) -> Self {
+        Self {
+            normal_stiffness: R::one(),
+            tangential_stiffness: real(tangential_stiffness),
+            normal_damping: real(convention.damping(1.0)),
+            tangential_damping: real(convention.damping(tangential_stiffness)),
+            coulomb_operand: convention.coulomb_operand,
+            sliding_spring: convention.sliding_spring,
+            spring_transport: convention.spring_transport,
+        }
+    }
+
     /// h_n = k_n Δ − η_n v_n of an overlap Δ and a normal velocity v_n, positive when separating
     /// (paper, "Numerical results").
     ///
     /// ```
-    /// use tristack::dem::ContactLaw;
-    /// let law = ContactLaw {
-    ///     normal_stiffness: 1.0,
-    ///     tangential_stiffness: 0.4,
+    /// use tristack::dem::SpringDashpot;
+    /// use tristack::stack::Convention;
+    /// let law = SpringDashpot {
     ///     normal_damping: 0.25,
-    ///     tangential_damping: 0.0,
+    ///     ..SpringDashpot::new(&Convention::PAPER, 0.4)
     /// };
     /// assert_eq!(law.normal_force(0.5, -1.0), 0.75);
     /// ```
-    pub fn normal_force(&self, overlap: f64, separation_speed: f64) -> f64 {
+    pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
         self.normal_stiffness * overlap - self.normal_damping * separation_speed
     }
 
-    /// Advances the tangential spring by one step: h_t = −k_t u − η_t v_t, capped at μ |f_n|; the spring
-    /// does not grow while the contact slides (paper, "Numerical results").
-    pub fn advance(&self, state: &mut ContactState, normal_force: f64, step: TangentialStep) {
-        let stretched = state.spring + step.velocity * step.time_step;
-        let trial =
-            -(self.tangential_stiffness * stretched) - self.tangential_damping * step.velocity;
-        let limit = step.friction * normal_force.abs();
-        if trial.abs() < limit {
-            state.spring = stretched;
-            state.tangential_force = trial;
-        } else {
-            state.tangential_force = if trial < 0.0 { -limit } else { limit };
+    /// Advances the spring by one step in which the surfaces move at v_t, and returns the tangential force
+    /// h_t = −k_t u − η_t v_t, limited to μ |f_n| (paper, "Numerical results").
+    fn tangential_force(&self, spring: &mut R, limit: R, velocity: R, time_step: R) -> R {
+        let stretched = *spring + velocity * time_step;
+        let elastic = -(self.tangential_stiffness * stretched);
+        let damping = self.tangential_damping * velocity;
+        let sticking = elastic - damping;
+        let (operand, damping_in_operand) = match self.coulomb_operand {
+            CoulombOperand::SpringAndDamping => (sticking, damping),
+            CoulombOperand::Spring => (elastic, R::zero()),
+        };
+        if operand.abs() < limit {
+            *spring = stretched;
+            return sticking;
         }
-        state.normal_force = normal_force;
+        let sliding = if operand < R::zero() { -limit } else { limit };
+        if self.sliding_spring == SlidingSpring::FollowsLimit {
+            *spring = -(sliding + damping_in_operand) / self.tangential_stiffness;
+        }
+        sliding
     }
+
+    /// The factor by which the spring's length changes while the normal turns.
+    fn transport(&self, from: [R; 2], to: [R; 2]) -> R {
+        let cosine = along(from, to);
+        match self.spring_transport {
+            SpringTransport::Rotated => R::one(),
+            SpringTransport::Projected => cosine,
+            SpringTransport::Linearised => {
+                let sine = tangential(from, to);
+                cosine + sine * sine
+            }
+        }
+    }
+}
+
+impl<R: Real> ContactModel<R> for SpringDashpot<R> {
+    type Memory = Spring<R>;
+
+    fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
+        let radius = R::one() + contact.arm * contact.overlap;
+        let velocity = tangential(contact.normal, contact.velocity) - radius * contact.spin;
+        let separation_speed = along(contact.normal, contact.velocity);
+        let normal = self.normal_force(contact.overlap, separation_speed);
+        let limit = contact.friction * normal.abs();
+        if self.spring_transport != SpringTransport::Rotated {
+            memory.length *= self.transport(memory.normal, contact.normal);
+            memory.normal = contact.normal;
+        }
+        let time_step = contact.time_step;
+        ContactForce {
+            normal,
+            tangential: self.tangential_force(&mut memory.length, limit, velocity, time_step),
+            radius,
+        }
+    }
+}
+
+/// Component of `vector` along `normal`.
+pub(super) fn along<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
+    normal[0] * vector[0] + normal[1] * vector[1]
+}
+
+/// Component of `vector` along t = (−n_y, n_x).
+pub(super) fn tangential<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
+    normal[0] * vector[1] - normal[1] * vector[0]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LAW: ContactLaw = ContactLaw {
-        normal_stiffness: 1.0,
-        tangential_stiffness: 0.4,
-        normal_damping: 0.2,
-        tangential_damping: 0.1,
+    const CONTACT: Contact<f64> = Contact {
+        normal: [0.0, 1.0],
+        overlap: 1.0,
+        velocity: [-0.5, 0.0],
+        spin: 0.0,
+        friction: 0.5,
+        arm: 0.0,
+        time_step: 0.1,
     };
 
-    fn step(velocity: f64) -> TangentialStep {
-        TangentialStep {
-            velocity,
-            time_step: 0.1,
-            friction: 0.5,
+    fn law(coulomb_operand: CoulombOperand, sliding_spring: SlidingSpring) -> SpringDashpot<f64> {
+        SpringDashpot {
+            normal_damping: 0.2,
+            tangential_damping: 0.1,
+            coulomb_operand,
+            sliding_spring,
+            ..SpringDashpot::new(&Convention::PAPER, 0.4)
+        }
+    }
+
+    fn paper() -> SpringDashpot<f64> {
+        law(CoulombOperand::SpringAndDamping, SlidingSpring::Frozen)
+    }
+
+    fn stretched(length: f64) -> Spring<f64> {
+        Spring {
+            length,
+            normal: CONTACT.normal,
         }
     }
 
     #[test]
     fn normal_force_is_the_negative_slope_of_its_elastic_energy() {
-        let energy = |overlap: f64| 0.5 * LAW.normal_stiffness * overlap * overlap;
+        let energy = |overlap: f64| 0.5 * paper().normal_stiffness * overlap * overlap;
         let (overlap, width) = (0.3, 1e-3);
         let slope = (energy(overlap + width) - energy(overlap - width)) / (2.0 * width);
-        assert!((LAW.normal_force(overlap, 0.0) - slope).abs() < 1e-12);
+        assert!((paper().normal_force(overlap, 0.0) - slope).abs() < 1e-12);
     }
 
     #[test]
     fn sticking_contact_stores_the_displacement() {
-        let mut state = ContactState::default();
-        LAW.advance(&mut state, 1.0, step(0.5));
-        assert_eq!(state.spring, 0.05);
-        assert!((state.tangential_force + 0.4 * 0.05 + 0.1 * 0.5).abs() < 1e-17);
+        let mut memory = Spring::default();
+        let force = paper().evaluate(&CONTACT, &mut memory);
+        assert_eq!(memory.length, 0.05);
+        assert!((force.tangential + 0.4 * 0.05 + 0.1 * 0.5).abs() < 1e-17);
     }
 
     #[test]
     fn sliding_contact_is_capped_and_its_spring_frozen() {
-        let mut state = ContactState {
-            spring: 2.0,
-            ..ContactState::default()
-        };
-        LAW.advance(&mut state, 1.0, step(0.5));
-        assert_eq!(state.spring, 2.0);
-        assert_eq!(state.tangential_force, -0.5);
+        for sign in [1.0, -1.0] {
+            let mut memory = stretched(2.0 * sign);
+            let contact = Contact {
+                velocity: [-0.5 * sign, 0.0],
+                ..CONTACT
+            };
+            let force = paper().evaluate(&contact, &mut memory);
+            assert_eq!(memory.length, 2.0 * sign);
+            assert_eq!(force.tangential, -0.5 * sign);
+        }
     }
 
     #[test]
-    fn cap_opposes_the_spring_in_both_directions() {
-        let mut state = ContactState {
-            spring: -2.0,
-            ..ContactState::default()
+    fn a_spring_that_follows_the_limit_is_at_it_when_the_contact_sticks_again() {
+        use CoulombOperand::{Spring, SpringAndDamping};
+        for (operand, length) in [(Spring, 0.5 / 0.4), (SpringAndDamping, 0.45 / 0.4)] {
+            let mut memory = stretched(2.0);
+            let law = law(operand, SlidingSpring::FollowsLimit);
+            assert_eq!(law.evaluate(&CONTACT, &mut memory).tangential, -0.5);
+            assert!((memory.length - length).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn damping_may_lift_a_sticking_force_above_the_limit_where_the_spring_alone_counts() {
+        let law = law(CoulombOperand::Spring, SlidingSpring::FollowsLimit);
+        let force = law.evaluate(&CONTACT, &mut stretched(1.19));
+        assert!((force.tangential + 0.4 * 1.24 + 0.05).abs() < 1e-15);
+    }
+
+    #[test]
+    fn transports_differ_by_the_square_of_the_turn() {
+        let turn: f64 = 1e-3;
+        let turned = [-turn.sin(), turn.cos()];
+        let factor = |spring_transport| {
+            let law: SpringDashpot<f64> = SpringDashpot {
+                spring_transport,
+                ..paper()
+            };
+            law.transport(CONTACT.normal, turned)
         };
-        LAW.advance(&mut state, 1.0, step(-0.5));
-        assert_eq!(state.tangential_force, 0.5);
+        let half_square = 0.5 * turn * turn;
+        assert_eq!(factor(SpringTransport::Rotated), 1.0);
+        assert!((factor(SpringTransport::Projected) - 1.0 + half_square).abs() < 1e-12);
+        assert!((factor(SpringTransport::Linearised) - 1.0 - half_square).abs() < 1e-12);
     }
 }

@@ -4,9 +4,11 @@
 //! that its results are the same bits on every machine.
 
 mod contact;
+mod real;
 mod scene;
 mod stack_run;
 
-pub use contact::{ContactLaw, ContactState, TangentialStep};
-pub use scene::{Cylinder, PlaneWall, Scene};
-pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_while};
+pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
+pub use real::{Real, real};
+pub use scene::{Cylinder, Load, PlaneWall, Scene};
+pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};

@@ -1,117 +1,140 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
-use super::contact::{ContactLaw, ContactState, TangentialStep};
+use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along};
+use super::real::{Real, real};
+use crate::stack::CYLINDER_INERTIA;
 
 /// A cylinder of unit mass and radius. Velocities belong to the half step before the positions.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Cylinder {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder<R = f64> {
     /// Centre.
-    pub position: [f64; 2],
+    pub position: [R; 2],
     /// Rotation, counter-clockwise.
-    pub angle: f64,
+    pub angle: R,
     /// Velocity of the centre.
-    pub velocity: [f64; 2],
+    pub velocity: [R; 2],
     /// Angular velocity, counter-clockwise.
-    pub spin: f64,
+    pub spin: R,
 }
 
-impl Cylinder {
+impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.
-    pub fn at(x: f64, y: f64) -> Self {
+    pub fn at(x: R, y: R) -> Self {
         Self {
             position: [x, y],
-            ..Self::default()
+            angle: R::zero(),
+            velocity: [R::zero(); 2],
+            spin: R::zero(),
         }
     }
 }
 
 /// A plane wall; the cylinders are on the side its normal points to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlaneWall {
+pub struct PlaneWall<R = f64> {
     /// Unit normal n.
-    pub normal: [f64; 2],
+    pub normal: [R; 2],
     /// Offset: the plane is n · x = offset.
-    pub offset: f64,
+    pub offset: R,
     /// Velocity of the plane along its normal.
-    pub speed: f64,
+    pub speed: R,
     /// Friction coefficient against cylinders.
-    pub friction: f64,
+    pub friction: R,
 }
-
-/// Moment of inertia of a solid cylinder, m r²/2.
-const MOMENT_OF_INERTIA: f64 = 0.5;
 
 /// Cylinders, walls and the state of all their contacts.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct Scene<R = f64, Model: ContactModel<R> = SpringDashpot<R>> {
     /// The cylinders.
-    pub cylinders: Vec<Cylinder>,
+    pub cylinders: Vec<Cylinder<R>>,
     /// The walls.
-    pub walls: Vec<PlaneWall>,
+    pub walls: Vec<PlaneWall<R>>,
     /// Contact law of every contact.
-    pub law: ContactLaw,
+    pub model: Model,
     /// Friction coefficient between cylinders.
-    pub cylinder_friction: f64,
+    pub cylinder_friction: R,
     /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: f64,
+    pub pair_arm: R,
     /// Arm coefficient r₁ of cylinder–wall contacts.
-    pub wall_arm: f64,
+    pub wall_arm: R,
+    /// Moment of inertia of a cylinder.
+    pub moment_of_inertia: R,
     /// Gravity, downwards.
-    pub gravity: f64,
+    pub gravity: R,
     /// Time step.
-    pub time_step: f64,
-    pair_contacts: Vec<ContactState>,
-    wall_contacts: Vec<ContactState>,
-    loads: Vec<Load>,
+    pub time_step: R,
+    pair_contacts: Vec<ContactState<R, Model::Memory>>,
+    wall_contacts: Vec<ContactState<R, Model::Memory>>,
+    loads: Vec<Load<R>>,
+}
+
+/// What a contact remembers and exerts.
+#[derive(Debug, Clone, Copy)]
+struct ContactState<R, Memory> {
+    memory: Memory,
+    force: ContactForce<R>,
+}
+
+impl<R: Real, Memory: Default> Default for ContactState<R, Memory> {
+    fn default() -> Self {
+        Self {
+            memory: Memory::default(),
+            force: ContactForce::default(),
+        }
+    }
 }
 
 /// Force and torque on a cylinder.
-#[derive(Debug, Clone, Copy, Default)]
-struct Load {
-    force: [f64; 2],
-    torque: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load<R = f64> {
+    /// Force.
+    pub force: [R; 2],
+    /// Torque about the centre, counter-clockwise.
+    pub torque: R,
 }
 
-impl Scene {
-    /// A scene without walls and gravity, every contact stress free.
-    pub fn new(cylinders: Vec<Cylinder>, law: ContactLaw, time_step: f64) -> Self {
+impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
+    /// A scene without walls, friction between cylinders and gravity, every contact stress free.
+    pub fn new(cylinders: Vec<Cylinder<R>>, model: Model, time_step: R) -> Self {
         let count = cylinders.len();
+        let zero = R::zero();
         Self {
             pair_contacts: vec![ContactState::default(); count * count.saturating_sub(1) / 2],
             wall_contacts: Vec::new(),
-            loads: vec![Load::default(); count],
+            loads: vec![Load::weight(zero); count],
             cylinders,
             walls: Vec::new(),
-            law,
-            cylinder_friction: 0.0,
-            pair_arm: 0.0,
-            wall_arm: 0.0,
-            gravity: 0.0,
+            model,
+            cylinder_friction: zero,
+            pair_arm: zero,
+            wall_arm: zero,
+            moment_of_inertia: real(CYLINDER_INERTIA),
+            gravity: zero,
             time_step,
         }
     }
 
     /// Adds a wall and returns its index.
-    pub fn add_wall(&mut self, wall: PlaneWall) -> usize {
+    pub fn add_wall(&mut self, wall: PlaneWall<R>) -> usize {
         self.walls.push(wall);
         let all = self.walls.len() * self.cylinders.len();
         self.wall_contacts.resize(all, ContactState::default());
         self.walls.len() - 1
     }
 
-    /// State of the contact between a wall and a cylinder, as of the last evaluation of the forces.
-    pub fn wall_contact(&self, wall: usize, cylinder: usize) -> &ContactState {
-        &self.wall_contacts[wall * self.cylinders.len() + cylinder]
+    /// Force of a wall on a cylinder, as of the last evaluation of the forces.
+    pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R> {
+        &self.wall_contacts[wall * self.cylinders.len() + cylinder].force
+    }
+
+    /// Force and torque on a cylinder, as of the last evaluation of the forces.
+    pub fn load(&self, cylinder: usize) -> &Load<R> {
+        &self.loads[cylinder]
     }
 
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     pub fn evaluate_forces(&mut self) {
-        for load in &mut self.loads {
-            *load = Load {
-                force: [0.0, -self.gravity],
-                torque: 0.0,
-            };
-        }
+        self.loads.fill(Load::weight(self.gravity));
         let count = self.cylinders.len();
         let mut pair = 0;
         for first in 1..count {
@@ -136,7 +159,7 @@ impl Scene {
                 cylinder.velocity[axis] += load.force[axis] * dt;
                 cylinder.position[axis] += cylinder.velocity[axis] * dt;
             }
-            cylinder.spin += load.torque / MOMENT_OF_INERTIA * dt;
+            cylinder.spin += load.torque / self.moment_of_inertia * dt;
             cylinder.angle += cylinder.spin * dt;
         }
         for wall in &mut self.walls {
@@ -150,25 +173,23 @@ impl Scene {
         let dy = i.position[1] - j.position[1];
         let square = dx * dx + dy * dy;
         let state = &mut self.pair_contacts[pair];
-        if square >= 4.0 {
+        if square >= real(4.0) {
             *state = ContactState::default();
             return;
         }
         let distance = square.sqrt();
-        let overlap = 2.0 - distance;
-        let normal = [dx / distance, dy / distance];
-        let relative = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
-        let radius = 1.0 + self.pair_arm * overlap;
-        let velocity = tangential(normal, relative) - radius * (i.spin + j.spin);
-        let normal_force = self.law.normal_force(overlap, along(normal, relative));
-        let step = TangentialStep {
-            velocity,
-            time_step: self.time_step,
+        let contact = Contact {
+            normal: [dx / distance, dy / distance],
+            overlap: real::<R>(2.0) - distance,
+            velocity: [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]],
+            spin: i.spin + j.spin,
             friction: self.cylinder_friction,
+            arm: self.pair_arm,
+            time_step: self.time_step,
         };
-        self.law.advance(state, normal_force, step);
-        let force = contact_force(normal, state);
-        let torque = radius * state.tangential_force;
+        state.force = self.model.evaluate(&contact, &mut state.memory);
+        let force = in_the_plane(contact.normal, &state.force);
+        let torque = state.force.radius * state.force.tangential;
         self.loads[first].add(force, -torque);
         self.loads[second].add([-force[0], -force[1]], -torque);
     }
@@ -177,46 +198,48 @@ impl Scene {
         let state = &mut self.wall_contacts[wall * self.cylinders.len() + cylinder];
         let plane = &self.walls[wall];
         let body = &self.cylinders[cylinder];
-        let overlap = 1.0 - (along(plane.normal, body.position) - plane.offset);
-        if overlap <= 0.0 {
+        let overlap = R::one() - (along(plane.normal, body.position) - plane.offset);
+        if overlap <= R::zero() {
             *state = ContactState::default();
             return;
         }
-        let separation_speed = along(plane.normal, body.velocity) - plane.speed;
-        let radius = 1.0 + self.wall_arm * overlap;
-        let velocity = tangential(plane.normal, body.velocity) - radius * body.spin;
-        let normal_force = self.law.normal_force(overlap, separation_speed);
-        let step = TangentialStep {
-            velocity,
-            time_step: self.time_step,
+        let contact = Contact {
+            normal: plane.normal,
+            overlap,
+            velocity: [
+                body.velocity[0] - plane.speed * plane.normal[0],
+                body.velocity[1] - plane.speed * plane.normal[1],
+            ],
+            spin: body.spin,
             friction: plane.friction,
+            arm: self.wall_arm,
+            time_step: self.time_step,
         };
-        self.law.advance(state, normal_force, step);
-        let force = contact_force(plane.normal, state);
-        self.loads[cylinder].add(force, -(radius * state.tangential_force));
+        state.force = self.model.evaluate(&contact, &mut state.memory);
+        let force = in_the_plane(plane.normal, &state.force);
+        let torque = state.force.radius * state.force.tangential;
+        self.loads[cylinder].add(force, -torque);
     }
 }
 
-impl Load {
-    fn add(&mut self, force: [f64; 2], torque: f64) {
+impl<R: Real> Load<R> {
+    fn weight(gravity: R) -> Self {
+        Self {
+            force: [R::zero(), -gravity],
+            torque: R::zero(),
+        }
+    }
+
+    fn add(&mut self, force: [R; 2], torque: R) {
         self.force[0] += force[0];
         self.force[1] += force[1];
         self.torque += torque;
     }
 }
 
-fn along(normal: [f64; 2], vector: [f64; 2]) -> f64 {
-    normal[0] * vector[0] + normal[1] * vector[1]
-}
-
-/// Component of `vector` along t = (−n_y, n_x).
-fn tangential(normal: [f64; 2], vector: [f64; 2]) -> f64 {
-    normal[0] * vector[1] - normal[1] * vector[0]
-}
-
-fn contact_force(normal: [f64; 2], state: &ContactState) -> [f64; 2] {
+fn in_the_plane<R: Real>(normal: [R; 2], force: &ContactForce<R>) -> [R; 2] {
     [
-        state.normal_force * normal[0] - state.tangential_force * normal[1],
-        state.normal_force * normal[1] + state.tangential_force * normal[0],
+        force.normal * normal[0] - force.tangential * normal[1],
+        force.normal * normal[1] + force.tangential * normal[0],
     ]
 }

@@ -5,12 +5,16 @@ use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
 use super::thermo_log;
-use crate::stack::{Case, Convention};
+use crate::stack::{Case, Convention, SlidingSpring, SpringTransport};
 use crate::trace::{SeriesError, Trace};
 use std::path::Path;
 
-/// The paper's own: both arms end at the undeformed radius.
-pub const CONVENTION: Convention = Convention::PAPER;
+/// The paper's own arms, both end at the undeformed radius; the spring is treated differently.
+pub const CONVENTION: Convention = Convention {
+    sliding_spring: SlidingSpring::FollowsLimit,
+    spring_transport: SpringTransport::Projected,
+    ..Convention::PAPER
+};
 
 const LOG: &str = "log.lammps";
 

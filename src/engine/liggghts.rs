@@ -5,12 +5,20 @@ use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
 use super::thermo_log;
-use crate::stack::{Case, Convention};
+use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
 use crate::trace::{SeriesError, Trace};
 use std::path::Path;
 
-/// Both arms end halfway into the overlap.
-pub const CONVENTION: Convention = Convention::with_arms(-0.5, -0.5);
+/// Both arms end halfway into the overlap; the cylinders are spheres.
+pub const CONVENTION: Convention = Convention {
+    pair_arm: -0.5,
+    floor_arm: -0.5,
+    coulomb_operand: CoulombOperand::Spring,
+    sliding_spring: SlidingSpring::FollowsLimit,
+    spring_transport: SpringTransport::Projected,
+    moment_of_inertia: 0.4,
+    ..Convention::PAPER
+};
 
 const LOG: &str = "log.liggghts";
 

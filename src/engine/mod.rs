@@ -81,32 +81,34 @@ impl EngineName {
         }
     }
 
-    /// Whether the torque arms are part of the case rather than of the code.
-    pub fn accepts_any_arms(self) -> bool {
+    /// Whether the convention is part of the case rather than of the code.
+    pub fn accepts_any_convention(self) -> bool {
         self == Self::Native
     }
 
-    /// Refuses arms that are not those of the code, and a restitution that it does not understand.
+    /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
     ///
     /// # Errors
     /// It names the key, the value and what the code can do.
     pub fn check_convention(self, asked: &Convention) -> Result<(), InvalidValue> {
+        if self.accepts_any_convention() {
+            return Ok(());
+        }
         if self == Self::Yade && asked.restitution == 1.0 {
             let accepted = "below 1 for yade, which ignores a damping of zero";
             return Err(InvalidValue::new("convention.restitution", 1.0, accepted));
         }
-        let own = self.convention();
-        let arms = [
-            ("convention.pair_arm", asked.pair_arm, own.pair_arm),
-            ("convention.floor_arm", asked.floor_arm, own.floor_arm),
-        ];
-        let differing = arms.into_iter().find(|(_, asked, own)| asked != own);
-        match differing {
-            Some((key, asked, own)) if !self.accepts_any_arms() => {
-                Err(InvalidValue::new(key, asked, format!("{own} for {self}")))
-            }
-            _ => Ok(()),
-        }
+        let own = Convention {
+            restitution: asked.restitution,
+            ..self.convention()
+        };
+        asked.difference(&own).map_or(Ok(()), |(key, value, own)| {
+            Err(InvalidValue {
+                key: format!("convention.{key}"),
+                value,
+                accepted: format!("{own} for {self}"),
+            })
+        })
     }
 
     /// Hash of everything that this version of tristack would give the engine for `case`: deck, parameters,

@@ -2,7 +2,7 @@
 
 use super::{Engine, EngineName, Failure, FailureKind, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::compress_stack_while;
+use crate::dem::compress_stack;
 use crate::stack::Case;
 use std::time::Instant;
 
@@ -28,7 +28,7 @@ impl Native {
         let limit = workplace.time_limit;
         let late = || limit.is_some_and(|limit| start.elapsed() > limit);
         let stopped = || workplace.interrupt.requested() || late();
-        let trace = compress_stack_while(case, || !stopped()).map_err(|error| match limit {
+        let trace = compress_stack(case, || !stopped()).map_err(|error| match limit {
             _ if workplace.interrupt.requested() => FailureKind::Interrupted,
             Some(limit) if late() => FailureKind::TimedOut(limit),
             _ => error.into(),

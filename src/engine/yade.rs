@@ -4,14 +4,21 @@ use super::EngineName;
 use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
-use crate::stack::{Case, Convention};
+use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
 use crate::trace::{SeriesError, Trace};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 /// Both arms end halfway into the overlap, on a floor made of boxes.
-pub const CONVENTION: Convention = Convention::with_arms(-0.5, -0.5);
+pub const CONVENTION: Convention = Convention {
+    pair_arm: -0.5,
+    floor_arm: -0.5,
+    coulomb_operand: CoulombOperand::Spring,
+    sliding_spring: SlidingSpring::FollowsLimit,
+    spring_transport: SpringTransport::Linearised,
+    ..Convention::PAPER
+};
 
 const SERIES: &str = "series.csv";
 

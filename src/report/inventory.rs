@@ -72,7 +72,7 @@ pub fn inventory_table(inventory: &[Inventory]) -> String {
     for engine in inventory {
         let absent = format!("not installed ({})", engine.install);
         let arms = |arm: f64| {
-            let free = engine.engine.accepts_any_arms();
+            let free = engine.engine.accepts_any_convention();
             if free {
                 format!("{arm} (any)")
             } else {

@@ -158,7 +158,7 @@ mod tests {
         let hash = case().content_hash();
         assert_eq!(
             hash,
-            "63e0ab3020689431a5cd7f91b26290c512774174ff7767e14474f5f801d74d18"
+            "e3bfb845466dca98492b086c893239943693234962dbf8c41ec91fb677021aa8"
         );
         let mut other = case();
         other.stack.cylinder_friction = 0.71;

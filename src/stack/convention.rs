@@ -1,4 +1,4 @@
-//! What a code means by "contact": where the torque acts and how much a collision dissipates.
+//! What a code means by "contact": where the torque acts, what friction limits, and what dissipates.
 
 use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
@@ -6,39 +6,86 @@ use serde::{Deserialize, Serialize};
 /// Restitution coefficient e_r of the paper (supplement I.A).
 pub const PAPER_RESTITUTION: f64 = 0.7;
 
+/// Moment of inertia of a solid cylinder, m r²/2.
+pub const CYLINDER_INERTIA: f64 = 0.5;
+
+/// What Coulomb's limit μ |f_n| is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CoulombOperand {
+    /// The whole tangential force, spring and damping.
+    SpringAndDamping,
+    /// The force of the spring alone; damping is added while the contact sticks, and left out while it
+    /// slides.
+    Spring,
+}
+
+/// What becomes of the tangential spring while the contact slides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlidingSpring {
+    /// It keeps the length it had when the sliding began.
+    Frozen,
+    /// It is set, in every step, to the length at which the Coulomb operand is at the limit.
+    FollowsLimit,
+}
+
+/// What becomes of the tangential spring when the contact turns by dψ in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpringTransport {
+    /// It turns with the contact and keeps its length.
+    Rotated,
+    /// It is projected onto the new tangent, which shortens it by the factor cos dψ.
+    Projected,
+    /// It is turned by the vector product with the turn, which stretches it by the factor
+    /// cos dψ + sin² dψ.
+    Linearised,
+}
+
 /// Contact convention of a code.
 ///
 /// The torque arm of a contact is R = r + r₁ δ with the overlap δ; the same arm enters the torque and
 /// the surface velocity. The paper sets r₁ = 0; other codes do not, and above μ_c that alone moves the
-/// yield force by up to 20 %.
+/// yield force by up to 20 %. Nothing else in a convention moves its quasi-static limit, but it moves
+/// trajectories. What a case file leaves out is the paper's.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Convention {
     /// Arm coefficient r₁ of cylinder–cylinder contacts.
     pub pair_arm: f64,
     /// Arm coefficient r₁ of cylinder–floor contacts.
     pub floor_arm: f64,
     /// Restitution coefficient e_r, in (0, 1], of normal and tangential damping.
-    #[serde(default = "paper_restitution")]
     pub restitution: f64,
+    /// What Coulomb's limit is compared with.
+    pub coulomb_operand: CoulombOperand,
+    /// The spring of a sliding contact.
+    pub sliding_spring: SlidingSpring,
+    /// The spring of a turning contact.
+    pub spring_transport: SpringTransport,
+    /// Moment of inertia of a cylinder in m r².
+    pub moment_of_inertia: f64,
 }
 
-fn paper_restitution() -> f64 {
-    PAPER_RESTITUTION
+impl Default for Convention {
+    fn default() -> Self {
+        Self::PAPER
+    }
 }
 
 impl Convention {
-    /// The paper's convention: arms 0 and 0, restitution 0.7.
-    pub const PAPER: Self = Self::with_arms(0.0, 0.0);
-
-    /// A convention with the given arms and the paper's restitution.
-    pub const fn with_arms(pair_arm: f64, floor_arm: f64) -> Self {
-        Self {
-            pair_arm,
-            floor_arm,
-            restitution: PAPER_RESTITUTION,
-        }
-    }
+    /// The paper's convention: arms 0 and 0, restitution 0.7, the whole tangential force limited, the
+    /// spring frozen while sliding and turning with the contact.
+    pub const PAPER: Self = Self {
+        pair_arm: 0.0,
+        floor_arm: 0.0,
+        restitution: PAPER_RESTITUTION,
+        coulomb_operand: CoulombOperand::SpringAndDamping,
+        sliding_spring: SlidingSpring::Frozen,
+        spring_transport: SpringTransport::Rotated,
+        moment_of_inertia: CYLINDER_INERTIA,
+    };
 
     /// Damping coefficient η = −2 ln e_r √(m k/(π² + ln² e_r)) of a spring with stiffness k, in
     /// √(m k_n) (paper, Eqs. S1 and S2).
@@ -48,12 +95,37 @@ impl Convention {
         2.0 * log.abs() * (stiffness / (pi * pi + log * log)).sqrt()
     }
 
+    /// The first key in which this convention is not `other`, with both values.
+    pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
+        let values = |convention: &Self| {
+            let value = serde_json::to_value(convention);
+            value.expect("a convention has only named fields and finite numbers")
+        };
+        let (own, theirs) = (values(self), values(other));
+        let mut entries = own.as_object()?.iter();
+        let (key, value) = entries.find(|(key, value)| theirs[*key] != **value)?;
+        Some((key.clone(), plain(value), plain(&theirs[key])))
+    }
+
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         within("convention.pair_arm", self.pair_arm, -1.0, 1.0)?;
         within("convention.floor_arm", self.floor_arm, -1.0, 1.0)?;
-        within("convention.restitution", self.restitution, 1e-3, 1.0)
+        within("convention.restitution", self.restitution, 1e-3, 1.0)?;
+        // From a solid sphere to a hoop.
+        within(
+            "convention.moment_of_inertia",
+            self.moment_of_inertia,
+            0.4,
+            1.0,
+        )
     }
+}
+
+/// A value as it is written in a case file, without quotation marks.
+fn plain(value: &serde_json::Value) -> String {
+    let text = value.as_str().map(str::to_owned);
+    text.unwrap_or_else(|| value.to_string())
 }
 
 #[cfg(test)]
@@ -76,5 +148,11 @@ mod tests {
             ..Convention::PAPER
         };
         assert_eq!(elastic.damping(1.0).to_bits(), 0);
+    }
+
+    #[test]
+    fn what_a_case_leaves_out_is_the_paper_s() {
+        let convention: Convention = serde_json::from_str("{}").unwrap();
+        assert_eq!(convention, Convention::PAPER);
     }
 }

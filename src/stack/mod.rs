@@ -12,7 +12,9 @@ mod protocol;
 mod validity;
 
 pub use case::{Case, CaseError};
-pub use convention::{Convention, PAPER_RESTITUTION};
+pub use convention::{
+    CYLINDER_INERTIA, Convention, CoulombOperand, PAPER_RESTITUTION, SlidingSpring, SpringTransport,
+};
 pub use digest::sha256_hex;
 pub use groups::{
     CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,

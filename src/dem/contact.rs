@@ -1,7 +1,7 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
 use super::real::{Real, real};
-use crate::stack::{Convention, CoulombOperand, SlidingSpring, SpringTransport};
+use crate::stack::{Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport};
 
 /// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +70,8 @@ pub struct SpringDashpot<R> {
     pub sliding_spring: SlidingSpring,
     /// The spring of a turning contact.
     pub spring_transport: SpringTransport,
+    /// The normal force of a separating contact.
+    pub separating_force: SeparatingForce,
 }
 
 /// What a [`SpringDashpot`] contact remembers.
@@ -101,6 +103,7 @@ impl<R: Real> SpringDashpot<R> {
             coulomb_operand: convention.coulomb_operand,
             sliding_spring: convention.sliding_spring,
             spring_transport: convention.spring_transport,
+            separating_force: convention.separating_force,
         }
     }
 
@@ -117,7 +120,11 @@ impl<R: Real> SpringDashpot<R> {
     /// assert_eq!(law.normal_force(0.5, -1.0), 0.75);
     /// ```
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        self.normal_stiffness * overlap - self.normal_damping * separation_speed
+        let force = self.normal_stiffness * overlap - self.normal_damping * separation_speed;
+        match self.separating_force {
+            SeparatingForce::MayPull => force,
+            SeparatingForce::NeverPulls => force.max(R::zero()),
+        }
     }
 
     /// Advances the spring by one step in which the surfaces move at v_t, and returns the tangential force

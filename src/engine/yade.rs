@@ -4,7 +4,9 @@ use super::EngineName;
 use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
-use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
+use crate::stack::{
+    Case, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
+};
 use crate::trace::{SeriesError, Trace};
 use std::fs::File;
 use std::io::BufReader;
@@ -17,6 +19,7 @@ pub const CONVENTION: Convention = Convention {
     coulomb_operand: CoulombOperand::Spring,
     sliding_spring: SlidingSpring::FollowsLimit,
     spring_transport: SpringTransport::Linearised,
+    separating_force: SeparatingForce::NeverPulls,
     ..Convention::PAPER
 };
 

@@ -43,6 +43,16 @@ pub enum SpringTransport {
     Linearised,
 }
 
+/// What the normal damping may do while two surfaces separate fast.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SeparatingForce {
+    /// The normal force may become negative and pull.
+    MayPull,
+    /// A negative normal force is set to zero.
+    NeverPulls,
+}
+
 /// Contact convention of a code.
 ///
 /// The torque arm of a contact is R = r + r₁ δ with the overlap δ; the same arm enters the torque and
@@ -64,6 +74,8 @@ pub struct Convention {
     pub sliding_spring: SlidingSpring,
     /// The spring of a turning contact.
     pub spring_transport: SpringTransport,
+    /// The normal force of a contact that separates.
+    pub separating_force: SeparatingForce,
     /// Moment of inertia of a cylinder in m r².
     pub moment_of_inertia: f64,
 }
@@ -84,6 +96,7 @@ impl Convention {
         coulomb_operand: CoulombOperand::SpringAndDamping,
         sliding_spring: SlidingSpring::Frozen,
         spring_transport: SpringTransport::Rotated,
+        separating_force: SeparatingForce::MayPull,
         moment_of_inertia: CYLINDER_INERTIA,
     };
 

@@ -13,7 +13,8 @@ mod validity;
 
 pub use case::{Case, CaseError};
 pub use convention::{
-    CYLINDER_INERTIA, Convention, CoulombOperand, PAPER_RESTITUTION, SlidingSpring, SpringTransport,
+    CYLINDER_INERTIA, Convention, CoulombOperand, PAPER_RESTITUTION, SeparatingForce,
+    SlidingSpring, SpringTransport,
 };
 pub use digest::sha256_hex;
 pub use groups::{

@@ -2,23 +2,23 @@
 
 use insta::assert_snapshot;
 use tristack::crosscheck::plan;
-use tristack::engine::{DeckParameters, EngineName};
+use tristack::engine::{EngineName, ParameterFile, Task};
 use tristack::stack::Stack;
 
-fn parameters() -> DeckParameters {
+fn parameters() -> serde_json::Value {
     let convention = EngineName::Yade.convention();
     let cases = plan(EngineName::Yade, &Stack::paper(0.3, 1e2), convention).cases;
-    DeckParameters::new(&cases[1])
+    cases[1].parameters()
 }
 
 #[test]
 fn yade_is_told_in_json() {
-    assert_snapshot!(parameters().to_json());
+    assert_snapshot!(ParameterFile::Json.content(&parameters()));
 }
 
 #[test]
 fn lammps_and_liggghts_are_told_in_string_variables() {
-    assert_snapshot!(parameters().to_lammps());
+    assert_snapshot!(ParameterFile::Lammps.content(&parameters()));
 }
 
 /// A change here means that the recorded runs have to be made again.
@@ -39,7 +39,7 @@ fn examples_for_running_by_hand_are_complete() {
         names.sort();
         names
     };
-    let given = names(&parameters().to_json());
+    let given = names(&ParameterFile::Json.content(&parameters()));
     assert_eq!(
         names(include_str!("../yade_scripts/parameters.json")),
         given

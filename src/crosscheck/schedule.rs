@@ -278,7 +278,7 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
         for index in 0..job.tasks.len() {
             let failure = Failure {
                 engine: job.engine.name(),
-                case: Box::new(*self.case(job.tasks[index])),
+                subject: self.case(job.tasks[index]).to_string(),
                 kind: kind(),
                 run_directory: None,
                 last_lines: Vec::new(),

@@ -4,11 +4,13 @@
 //! that its results are the same bits on every machine.
 
 mod contact;
+mod contact_run;
 mod real;
 mod scene;
 mod stack_run;
 
 pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
+pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use real::{Real, real};
 pub use scene::{Cylinder, Load, PlaneWall, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};

@@ -13,6 +13,7 @@ use twofloat::TwoFloat;
 pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
     let sources = [
         include_str!("contact.rs"),
+        include_str!("contact_run.rs"),
         include_str!("real.rs"),
         include_str!("scene.rs"),
         include_str!("stack_run.rs"),

@@ -1,7 +1,8 @@
 //! What a deck has to be told, under the same names in every code.
 
-use crate::stack::Case;
+use crate::stack::{Case, ContactTest, Launch};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The parameters of a case as the decks of the external codes read them. Stiffness and damping are those
 /// of the contact itself; units r = m = k_n = 1.
@@ -62,19 +63,57 @@ impl DeckParameters {
             fine_every: schedule.fine_every,
         }
     }
+}
 
-    /// As a JSON object, numbers in their shortest exact form.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("a struct of finite numbers has a JSON form")
-            + "\n"
-    }
+/// The parameters of a micro-test as the decks of the external codes read them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProbeParameters {
+    /// k_n.
+    pub normal_stiffness: f64,
+    /// k_t.
+    pub tangential_stiffness: f64,
+    /// η_n.
+    pub damping_normal: f64,
+    /// η_t.
+    pub damping_tangential: f64,
+    /// Friction of the floor.
+    pub floor_friction: f64,
+    /// Friction between cylinders.
+    pub cylinder_friction: f64,
+    /// Time step.
+    pub time_step: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Height of the top wall at step 0.
+    pub wall_height: f64,
+    /// Speed of the top wall, downwards.
+    pub wall_speed: f64,
+    /// Position, velocity and spin of cylinders 1 and 2, as x1, y1, vx1, vy1, spin1, x2, …
+    #[serde(flatten)]
+    pub launches: BTreeMap<String, f64>,
+}
 
-    /// As variables of LAMMPS and LIGGGHTS. String style, because it alone passes every digit.
-    pub fn to_lammps(&self) -> String {
-        let value = serde_json::to_value(self).expect("a struct of finite numbers has a JSON form");
-        let entries = value.as_object().into_iter().flatten();
-        entries
-            .map(|(name, number)| format!("variable {name} string {number}\n"))
-            .collect()
+impl ProbeParameters {
+    /// The parameters of `test`.
+    pub fn new(test: &ContactTest) -> Self {
+        let tangential_stiffness = test.tangential_stiffness();
+        let launches = test.launches.iter().zip(1..).flat_map(|(launch, body)| {
+            let Launch { x, y, vx, vy, spin } = *launch;
+            let values = [("x", x), ("y", y), ("vx", vx), ("vy", vy), ("spin", spin)];
+            values.map(|(name, value)| (format!("{name}{body}"), value))
+        });
+        Self {
+            normal_stiffness: 1.0,
+            tangential_stiffness,
+            damping_normal: test.convention.damping(1.0),
+            damping_tangential: test.convention.damping(tangential_stiffness),
+            floor_friction: test.floor_friction,
+            cylinder_friction: test.cylinder_friction,
+            time_step: test.time_step,
+            steps: test.steps,
+            wall_height: test.wall_height,
+            wall_speed: test.wall_speed,
+            launches: launches.collect(),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::EngineName;
 use crate::archive::ArchiveError;
-use crate::stack::{Case, InvalidValue};
+use crate::stack::InvalidValue;
 use crate::trace::SeriesError;
 use std::path::PathBuf;
 use std::process::ExitStatus;
@@ -41,15 +41,14 @@ pub enum FailureKind {
 /// A failed run.
 #[derive(Debug, Error)]
 #[error(
-    "{engine} failed on {}: {kind}{}",
-    describe(case),
+    "{engine} failed on {subject}: {kind}{}",
     context(run_directory, last_lines)
 )]
 pub struct Failure {
     /// Who failed.
     pub engine: EngineName,
     /// On what.
-    pub case: Box<Case>,
+    pub subject: String,
     /// Why.
     pub kind: FailureKind,
     /// Where the deck and the captured output are.
@@ -68,16 +67,6 @@ impl Failure {
     pub fn is_interrupted(&self) -> bool {
         matches!(self.kind, FailureKind::Interrupted)
     }
-}
-
-fn describe(case: &Case) -> String {
-    format!(
-        "mu = {}, stiffness = {}, wall speed = {:e}, time step = {}",
-        case.stack.floor_friction,
-        case.stack.stiffness,
-        case.protocol.wall_speed,
-        case.protocol.time_step
-    )
 }
 
 fn context(run_directory: &Option<PathBuf>, last_lines: &[String]) -> String {

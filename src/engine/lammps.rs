@@ -1,13 +1,11 @@
 //! LAMMPS: one process a case, the series in the last table of its log.
 
 use super::EngineName;
-use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
+use super::task::{Deck, ParameterFile};
 use super::thermo_log;
-use crate::stack::{Case, Convention, SlidingSpring, SpringTransport};
-use crate::trace::{SeriesError, Trace};
-use std::path::Path;
+use crate::stack::{Convention, SlidingSpring, SpringTransport};
 
 /// The paper's own arms, both end at the undeformed radius; the spring is treated differently.
 pub const CONVENTION: Convention = Convention {
@@ -28,20 +26,42 @@ pub static LAMMPS: Adapter = Adapter {
         before_version: "Large-scale Atomic/Molecular Massively Parallel Simulator - ",
         package_says_it: false,
     },
-    deck: &[("stack.in", include_str!("../../lammps_inputs/stack.in"))],
     environment: super::QUICK_OPEN_MPI,
     logs: &[LOG],
-    parameter_file: "parameters.in",
-    parameters: DeckParameters::to_lammps,
-    arguments: |_| {
-        ["-in", "stack.in", "-log", LOG, "-screen", "none"]
-            .map(str::to_owned)
-            .to_vec()
+    parameter_file: ParameterFile::Lammps,
+    stack: Deck {
+        files: &[
+            ("stack.in", include_str!("../../lammps_inputs/stack.in")),
+            CONTACTS,
+            TOP_WALL,
+        ],
+        arguments: |_| arguments("stack.in"),
+        completion_file: None,
+        read: |directory, case| thermo_log::read_series(directory, LOG, ["v_step", "v_time"], case),
     },
-    completion_file: None,
-    read_series,
+    probe: Deck {
+        files: &[
+            ("probe.in", include_str!("../../lammps_inputs/probe.in")),
+            CONTACTS,
+            TOP_WALL,
+        ],
+        arguments: |_| arguments("probe.in"),
+        completion_file: None,
+        read: |directory, test| thermo_log::read_motion(directory, LOG, ["v_step", "v_x1"], test),
+    },
 };
 
-fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
-    thermo_log::read_series(directory, LOG, ["v_step", "v_time"], case)
+const CONTACTS: (&str, &str) = (
+    "contacts.in",
+    include_str!("../../lammps_inputs/contacts.in"),
+);
+const TOP_WALL: (&str, &str) = (
+    "top_wall.in",
+    include_str!("../../lammps_inputs/top_wall.in"),
+);
+
+fn arguments(deck: &str) -> Vec<String> {
+    ["-in", deck, "-log", LOG, "-screen", "none"]
+        .map(str::to_owned)
+        .to_vec()
 }

@@ -1,13 +1,11 @@
 //! LIGGGHTS: one process a case, the series in the last table of its log.
 
 use super::EngineName;
-use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
+use super::task::{Deck, ParameterFile};
 use super::thermo_log;
-use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
-use crate::trace::{SeriesError, Trace};
-use std::path::Path;
+use crate::stack::{Convention, CoulombOperand, SlidingSpring, SpringTransport};
 
 /// Both arms end halfway into the overlap; the cylinders are spheres.
 pub const CONVENTION: Convention = Convention {
@@ -32,19 +30,43 @@ pub static LIGGGHTS: Adapter = Adapter {
         before_version: "LIGGGHTS (Version LIGGGHTS-PUBLIC ",
         package_says_it: true,
     },
-    deck: &[
-        ("stack.in", include_str!("../../liggghts_inputs/stack.in")),
-        ("wall.stl", include_str!("../../liggghts_inputs/wall.stl")),
-    ],
     environment: super::QUICK_OPEN_MPI,
     logs: &[LOG],
-    parameter_file: "parameters.in",
-    parameters: DeckParameters::to_lammps,
-    arguments: |_| ["-in", "stack.in", "-log", LOG].map(str::to_owned).to_vec(),
-    completion_file: None,
-    read_series,
+    parameter_file: ParameterFile::Lammps,
+    stack: Deck {
+        files: &[
+            ("stack.in", include_str!("../../liggghts_inputs/stack.in")),
+            CONTACTS,
+            TOP_WALL,
+            WALL,
+        ],
+        arguments: |_| arguments("stack.in"),
+        completion_file: None,
+        read: |directory, case| thermo_log::read_series(directory, LOG, ["step", "time"], case),
+    },
+    probe: Deck {
+        files: &[
+            ("probe.in", include_str!("../../liggghts_inputs/probe.in")),
+            CONTACTS,
+            TOP_WALL,
+            WALL,
+        ],
+        arguments: |_| arguments("probe.in"),
+        completion_file: None,
+        read: |directory, test| thermo_log::read_motion(directory, LOG, ["step", "x1"], test),
+    },
 };
 
-fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
-    thermo_log::read_series(directory, LOG, ["step", "time"], case)
+const CONTACTS: (&str, &str) = (
+    "contacts.in",
+    include_str!("../../liggghts_inputs/contacts.in"),
+);
+const TOP_WALL: (&str, &str) = (
+    "top_wall.in",
+    include_str!("../../liggghts_inputs/top_wall.in"),
+);
+const WALL: (&str, &str) = ("wall.stl", include_str!("../../liggghts_inputs/wall.stl"));
+
+fn arguments(deck: &str) -> Vec<String> {
+    ["-in", deck, "-log", LOG].map(str::to_owned).to_vec()
 }

@@ -1,5 +1,6 @@
 //! Whoever turns a case into a time series: the native DEM, and the external codes behind one runner.
 
+mod batch;
 mod deck;
 mod external;
 mod failure;
@@ -8,16 +9,19 @@ mod lammps;
 mod liggghts;
 mod native;
 mod process;
+mod task;
 mod thermo_log;
 mod yade;
 
-pub use deck::DeckParameters;
-pub use external::time_limit;
+pub use batch::time_limit;
+pub use deck::{DeckParameters, ProbeParameters};
 pub use failure::{Failure, FailureKind};
 pub use process::Interrupt;
+pub use task::{ParameterFile, Task};
 
 use crate::archive::{Identity, Run};
-use crate::stack::{Case, Convention, InvalidValue, sha256_hex};
+use crate::stack::{Case, ContactTest, Convention, InvalidValue, sha256_hex};
+use crate::trace::Motion;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -45,7 +49,7 @@ const QUICK_OPEN_MPI: Environment = &[
     Deserialize,
     clap::ValueEnum,
 )]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum EngineName {
     /// The DEM of this program.
     Native,
@@ -53,13 +57,24 @@ pub enum EngineName {
     Liggghts,
     /// YADE 2023.02a, ViscElPhys_Basic on a box floor.
     Yade,
+    /// The same on a floor of facets.
+    YadeFacet,
+    /// The same on a floor that is a YADE wall, where the floor arm is another one.
+    YadeWall,
     /// LAMMPS 29 Sep 2021, gran/hooke/history.
     Lammps,
 }
 
 impl EngineName {
     /// Every engine.
-    pub const ALL: [Self; 4] = [Self::Native, Self::Liggghts, Self::Yade, Self::Lammps];
+    pub const ALL: [Self; 6] = [
+        Self::Native,
+        Self::Liggghts,
+        Self::Yade,
+        Self::YadeFacet,
+        Self::YadeWall,
+        Self::Lammps,
+    ];
 
     /// The name on the command line and in tables.
     pub fn as_str(self) -> &'static str {
@@ -67,6 +82,8 @@ impl EngineName {
             Self::Native => "native",
             Self::Liggghts => "liggghts",
             Self::Yade => "yade",
+            Self::YadeFacet => "yade-facet",
+            Self::YadeWall => "yade-wall",
             Self::Lammps => "lammps",
         }
     }
@@ -76,7 +93,8 @@ impl EngineName {
         match self {
             Self::Native => Convention::PAPER,
             Self::Liggghts => liggghts::CONVENTION,
-            Self::Yade => yade::CONVENTION,
+            Self::Yade | Self::YadeFacet => yade::CONVENTION,
+            Self::YadeWall => yade::ON_WALL,
             Self::Lammps => lammps::CONVENTION,
         }
     }
@@ -94,7 +112,10 @@ impl EngineName {
         if self.accepts_any_convention() {
             return Ok(());
         }
-        if self == Self::Yade && asked.restitution == 1.0 {
+        let is_yade = self
+            .adapter()
+            .is_some_and(|adapter| adapter.program == "yade");
+        if is_yade && asked.restitution == 1.0 {
             let accepted = "below 1 for yade, which ignores a damping of zero";
             return Err(InvalidValue::new("convention.restitution", 1.0, accepted));
         }
@@ -114,10 +135,9 @@ impl EngineName {
     /// Hash of everything that this version of tristack would give the engine for `case`: deck, parameters,
     /// arguments and environment. For the native engine its sources take the place of the deck.
     pub fn deck_hash(self, case: &Case) -> String {
-        let parameters = DeckParameters::new(case);
         let told = match self.adapter() {
-            None => parameters.to_json(),
-            Some(adapter) => adapter.told(&parameters),
+            None => ParameterFile::Json.content(&case.parameters()),
+            Some(adapter) => adapter.told(&adapter.stack, case),
         };
         sha256_hex(format!("{}\n{told}", self.static_deck_hash()).as_bytes())
     }
@@ -126,7 +146,7 @@ impl EngineName {
     pub fn static_deck_hash(self) -> String {
         match self.adapter() {
             None => crate::dem::SOURCE_DIGEST.clone(),
-            Some(adapter) => adapter.static_deck_hash(),
+            Some(adapter) => adapter.static_hash(&adapter.stack),
         }
     }
 
@@ -142,7 +162,9 @@ impl EngineName {
         match self {
             Self::Native => None,
             Self::Liggghts => Some(&liggghts::LIGGGHTS),
-            Self::Yade => Some(&yade::YADE),
+            Self::Yade => Some(&yade::BOX),
+            Self::YadeFacet => Some(&yade::FACET),
+            Self::YadeWall => Some(&yade::WALL),
             Self::Lammps => Some(&lammps::LAMMPS),
         }
     }
@@ -152,7 +174,9 @@ impl EngineName {
         match self {
             Self::Native => "part of tristack",
             Self::Liggghts => "apt-get install --no-install-recommends liggghts",
-            Self::Yade => "apt-get install --no-install-recommends yade",
+            Self::Yade | Self::YadeFacet | Self::YadeWall => {
+                "apt-get install --no-install-recommends yade"
+            }
             Self::Lammps => "apt-get install --no-install-recommends lammps",
         }
     }
@@ -175,6 +199,9 @@ pub struct Workplace<'a> {
     pub interrupt: &'a Interrupt,
 }
 
+/// Receives results, each with its index, as soon as they are there.
+pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
+
 /// A code that runs cases.
 pub trait Engine: Send + Sync {
     /// Which one it is.
@@ -187,10 +214,11 @@ pub trait Engine: Send + Sync {
     fn prefers_many_cases(&self) -> bool;
 
     /// Runs `cases` in order and hands each result, with its index, to `finished` as soon as it is there.
-    fn run(
-        &self,
-        cases: &[Case],
-        workplace: &Workplace,
-        finished: &mut dyn FnMut(usize, Result<Run, Failure>),
-    );
+    fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>);
+
+    /// Carries out micro-tests, in order.
+    ///
+    /// # Errors
+    /// The first failure, if there is one.
+    fn probe(&self, tests: &[ContactTest], workplace: &Workplace) -> Result<Vec<Motion>, Failure>;
 }

@@ -1,9 +1,10 @@
 //! The native DEM behind the same interface as the external codes.
 
-use super::{Engine, EngineName, Failure, FailureKind, Workplace};
+use super::{Engine, EngineName, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::compress_stack;
-use crate::stack::Case;
+use crate::dem::{compress_stack, run_contact_test};
+use crate::stack::{Case, ContactTest};
+use crate::trace::Motion;
 use std::time::Instant;
 
 /// The DEM of this program.
@@ -66,21 +67,29 @@ impl Engine for Native {
         false
     }
 
-    fn run(
-        &self,
-        cases: &[Case],
-        workplace: &Workplace,
-        finished: &mut dyn FnMut(usize, Result<Run, Failure>),
-    ) {
+    fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
             let result = self.run_one(case, workplace).map_err(|kind| Failure {
                 engine: EngineName::Native,
-                case: Box::new(*case),
+                subject: case.to_string(),
                 kind,
                 run_directory: None,
                 last_lines: Vec::new(),
             });
             finished(index, result);
         }
+    }
+
+    fn probe(&self, tests: &[ContactTest], _workplace: &Workplace) -> Result<Vec<Motion>, Failure> {
+        let motions = tests.iter().map(|test| {
+            run_contact_test(test).map_err(|error| Failure {
+                engine: EngineName::Native,
+                subject: test.to_string(),
+                kind: error.into(),
+                run_directory: None,
+                last_lines: Vec::new(),
+            })
+        });
+        motions.collect()
     }
 }

@@ -1,26 +1,45 @@
-//! Time series in the log of LAMMPS and of LIGGGHTS, which descends from it.
+//! Tables in the log of LAMMPS and of LIGGGHTS, which descends from it.
 
-use crate::stack::Case;
-use crate::trace::{Sample, SeriesError, Trace};
+use crate::stack::{Case, ContactTest};
+use crate::trace::{Motion, Sample, SeriesError, Trace};
+use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Reads the series from the last table of the log `name` in `directory`, whose header begins with the
-/// two words `header`. Further words of the header do not count: LIGGGHTS cuts them to eight characters.
+/// Reads the series of `case` from the last table of the log `name` in `directory`, whose header begins
+/// with the two words `header`. Further words of the header do not count: LIGGGHTS cuts them to eight
+/// characters.
 pub fn read_series(
     directory: &Path,
     name: &str,
     header: [&str; 2],
     case: &Case,
 ) -> Result<Trace, SeriesError> {
-    let log = std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
-        message: format!("cannot read {name}: {error}"),
-    })?;
-    let samples = last_table(&String::from_utf8_lossy(&log), header)?;
+    let samples: Vec<Sample> = last_table(&read(directory, name)?, header)?;
     Trace::new(samples, &case.protocol.schedule(), case.protocol.time_step)
 }
 
+/// Reads the motion of a micro-test in the same way.
+pub fn read_motion(
+    directory: &Path,
+    name: &str,
+    header: [&str; 2],
+    test: &ContactTest,
+) -> Result<Motion, SeriesError> {
+    Motion::new(last_table(&read(directory, name)?, header)?, test.steps)
+}
+
+fn read(directory: &Path, name: &str) -> Result<String, SeriesError> {
+    let log = std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
+        message: format!("cannot read {name}: {error}"),
+    })?;
+    Ok(String::from_utf8_lossy(&log).into_owned())
+}
+
 /// The rows between the header and `Loop time`.
-fn last_table(log: &str, header: [&str; 2]) -> Result<Vec<Sample>, SeriesError> {
+fn last_table<Row: DeserializeOwned>(
+    log: &str,
+    header: [&str; 2],
+) -> Result<Vec<Row>, SeriesError> {
     let is_header = |line: &str| line.split_whitespace().take(2).eq(header);
     let lines: Vec<&str> = log.lines().collect();
     let start = lines
@@ -40,7 +59,7 @@ fn last_table(log: &str, header: [&str; 2]) -> Result<Vec<Sample>, SeriesError> 
         .collect()
 }
 
-fn parse_row(row: usize, line: &str) -> Result<Sample, SeriesError> {
+fn parse_row<Row: DeserializeOwned>(row: usize, line: &str) -> Result<Row, SeriesError> {
     let fields: csv::StringRecord = line.split_whitespace().collect();
     fields
         .deserialize(None)
@@ -62,7 +81,7 @@ mod tests {
         let log = format!(
             "Step KinEng\n 1 2\nLoop time of 1\n step time wall_for\n {ROW}\nLoop time of 2\n"
         );
-        let samples = last_table(&log, HEADER).unwrap();
+        let samples: Vec<Sample> = last_table(&log, HEADER).unwrap();
         assert_eq!(samples.len(), 1);
         assert_eq!(samples[0].wall_force, 1.5e-3);
         assert_eq!(samples[0].floor_t3, 0.02);
@@ -70,12 +89,13 @@ mod tests {
 
     #[test]
     fn a_row_that_is_cut_off_is_refused_with_its_number() {
-        let error = last_table(&format!("step time\n{ROW}\n20 2 0.1 0"), HEADER).unwrap_err();
+        let error =
+            last_table::<Sample>(&format!("step time\n{ROW}\n20 2 0.1 0"), HEADER).unwrap_err();
         assert!(error.to_string().starts_with("row 2: "), "{error}");
     }
 
     #[test]
     fn a_log_without_a_table_is_refused() {
-        assert!(last_table("ERROR: Invalid model", HEADER).is_err());
+        assert!(last_table::<Sample>("ERROR: Invalid model", HEADER).is_err());
     }
 }

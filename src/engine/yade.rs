@@ -1,18 +1,19 @@
-//! YADE: many cases a process, because its start takes longer than most cases.
+//! YADE: one process for many tasks, because it takes a second to start; each writes its own file. On each of
+//! its three floors it is an engine of its own.
 
 use super::EngineName;
-use super::deck::DeckParameters;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
+use super::task::{Deck, ParameterFile};
 use crate::stack::{
-    Case, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
+    Case, ContactTest, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
 };
-use crate::trace::{SeriesError, Trace};
+use crate::trace::{Motion, SeriesError, Trace};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// Both arms end halfway into the overlap, on a floor made of boxes.
+/// On a box or a facet: both arms end halfway into the overlap.
 pub const CONVENTION: Convention = Convention {
     pair_arm: -0.5,
     floor_arm: -0.5,
@@ -23,37 +24,99 @@ pub const CONVENTION: Convention = Convention {
     ..Convention::PAPER
 };
 
-const SERIES: &str = "series.csv";
-
-/// YADE, ViscElPhys_Basic, box floor.
-pub static YADE: Adapter = Adapter {
-    name: EngineName::Yade,
-    program: "yade",
-    version: VersionQuestion {
-        arguments: &["--version"],
-        before_version: "Yade version: ",
-        package_says_it: true,
-    },
-    deck: &[("stack.py", include_str!("../../yade_scripts/stack.py"))],
-    environment: &[],
-    logs: &[],
-    parameter_file: "parameters.json",
-    parameters: DeckParameters::to_json,
-    arguments: |directories| {
-        let fixed = ["-n", "-x", "-j1", "stack.py"].map(str::to_owned);
-        fixed
-            .into_iter()
-            .chain(directories.iter().cloned())
-            .collect()
-    },
-    completion_file: Some(SERIES),
-    read_series,
+/// On a wall: the floor arm ends at the floor.
+pub const ON_WALL: Convention = Convention {
+    floor_arm: -1.0,
+    ..CONVENTION
 };
 
+const SERIES: &str = "series.csv";
+const MOTION: &str = "probe.csv";
+
+/// On a floor of boxes.
+pub static BOX: Adapter = adapter(
+    EngineName::Yade,
+    |directories| arguments("stack.py", "box", directories),
+    |directories| arguments("probe.py", "box", directories),
+);
+
+/// On a floor of facets.
+pub static FACET: Adapter = adapter(
+    EngineName::YadeFacet,
+    |directories| arguments("stack.py", "facet", directories),
+    |directories| arguments("probe.py", "facet", directories),
+);
+
+/// On a floor that is a wall.
+pub static WALL: Adapter = adapter(
+    EngineName::YadeWall,
+    |directories| arguments("stack.py", "wall", directories),
+    |directories| arguments("probe.py", "wall", directories),
+);
+
+type Arguments = fn(&[String]) -> Vec<String>;
+
+const fn adapter(name: EngineName, stack: Arguments, probe: Arguments) -> Adapter {
+    Adapter {
+        name,
+        program: "yade",
+        version: VersionQuestion {
+            arguments: &["--version"],
+            before_version: "Yade version: ",
+            package_says_it: true,
+        },
+        environment: &[],
+        logs: &[],
+        parameter_file: ParameterFile::Json,
+        stack: Deck {
+            files: &[
+                ("stack.py", include_str!("../../yade_scripts/stack.py")),
+                CONTACTS,
+                CASES,
+            ],
+            arguments: stack,
+            completion_file: Some(SERIES),
+            read: read_series,
+        },
+        probe: Deck {
+            files: &[
+                ("probe.py", include_str!("../../yade_scripts/probe.py")),
+                CONTACTS,
+                CASES,
+            ],
+            arguments: probe,
+            completion_file: Some(MOTION),
+            read: read_motion,
+        },
+    }
+}
+
+const CONTACTS: (&str, &str) = (
+    "contacts.py",
+    include_str!("../../yade_scripts/contacts.py"),
+);
+const CASES: (&str, &str) = ("cases.py", include_str!("../../yade_scripts/cases.py"));
+
+fn arguments(script: &str, floor: &str, directories: &[String]) -> Vec<String> {
+    let fixed = ["-n", "-x", "-j1", script, floor].map(str::to_owned);
+    fixed
+        .into_iter()
+        .chain(directories.iter().cloned())
+        .collect()
+}
+
 fn read_series(directory: &Path, case: &Case) -> Result<Trace, SeriesError> {
-    let file = File::open(directory.join(SERIES)).map_err(|error| SeriesError::Absent {
-        message: format!("cannot read {SERIES}: {error}"),
-    })?;
     let schedule = case.protocol.schedule();
-    Trace::read(BufReader::new(file), &schedule, case.protocol.time_step)
+    Trace::read(open(directory, SERIES)?, &schedule, case.protocol.time_step)
+}
+
+fn read_motion(directory: &Path, test: &ContactTest) -> Result<Motion, SeriesError> {
+    Motion::read(open(directory, MOTION)?, test.steps)
+}
+
+fn open(directory: &Path, name: &str) -> Result<BufReader<File>, SeriesError> {
+    let file = File::open(directory.join(name)).map_err(|error| SeriesError::Absent {
+        message: format!("cannot read {name}: {error}"),
+    })?;
+    Ok(BufReader::new(file))
 }

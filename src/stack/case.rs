@@ -119,6 +119,19 @@ impl Case {
     }
 }
 
+impl std::fmt::Display for Case {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            stack, protocol, ..
+        } = self;
+        write!(
+            formatter,
+            "mu = {}, stiffness = {}, wall speed = {:e}, time step = {}",
+            stack.floor_friction, stack.stiffness, protocol.wall_speed, protocol.time_step
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

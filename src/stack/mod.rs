@@ -5,6 +5,7 @@
 //! given in m g, as in the paper (arXiv:2511.06807).
 
 mod case;
+mod contact_test;
 mod convention;
 mod digest;
 mod groups;
@@ -12,6 +13,7 @@ mod protocol;
 mod validity;
 
 pub use case::{Case, CaseError};
+pub use contact_test::{ContactTest, Launch};
 pub use convention::{
     CYLINDER_INERTIA, Convention, CoulombOperand, PAPER_RESTITUTION, SeparatingForce,
     SlidingSpring, SpringTransport,

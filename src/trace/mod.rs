@@ -1,9 +1,11 @@
 //! A time series with named columns, and the yield force read off it.
 
 mod estimate;
+mod motion;
 mod polynomial;
 mod series;
 
 pub use estimate::{Estimate, YieldEstimates};
+pub use motion::{BodyRow, Motion, MotionRow};
 pub use polynomial::{value_at_zero, weights_at_zero};
 pub use series::{Sample, SeriesError, Trace};

@@ -4,7 +4,7 @@
 use super::Bench;
 use std::fs;
 use std::path::Path;
-use tristack::engine::DeckParameters;
+use tristack::engine::{ParameterFile, Task};
 use tristack::stack::{Case, sha256_hex};
 
 /// What happens to the recorded series of one case.
@@ -28,7 +28,7 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
     for entry in fs::read_dir(recorded).expect("recorded runs").flatten() {
         let case = Case::read(&entry.path().join("case.json")).expect("a case");
         let series = fs::read_to_string(entry.path().join("series.csv")).expect("a series");
-        let address = sha256_hex(DeckParameters::new(&case).to_json().as_bytes());
+        let address = sha256_hex(ParameterFile::Json.content(&case.parameters()).as_bytes());
         let write = |extension: &str, text: &str| {
             fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
         };

@@ -1,0 +1,104 @@
+//! What an engine can be asked to do, and the files in which an external code is told.
+
+use crate::stack::{Case, ContactTest, Convention};
+use crate::trace::{Motion, SeriesError, Trace};
+use serde::Serialize;
+use std::path::Path;
+
+use super::deck::{DeckParameters, ProbeParameters};
+
+/// Something that an engine turns into an outcome: a case into a series, a micro-test into a motion.
+pub trait Task: Copy + std::fmt::Display + Sync {
+    /// What comes out.
+    type Outcome;
+
+    /// What a contact must be to the engine.
+    fn convention(&self) -> &Convention;
+
+    /// Time steps in all.
+    fn steps(&self) -> u64;
+
+    /// What a deck has to be told, as an object of named numbers.
+    fn parameters(&self) -> serde_json::Value;
+}
+
+impl Task for Case {
+    type Outcome = Trace;
+
+    fn convention(&self) -> &Convention {
+        &self.convention
+    }
+
+    fn steps(&self) -> u64 {
+        self.protocol.schedule().total_steps()
+    }
+
+    fn parameters(&self) -> serde_json::Value {
+        named(&DeckParameters::new(self))
+    }
+}
+
+impl Task for ContactTest {
+    type Outcome = Motion;
+
+    fn convention(&self) -> &Convention {
+        &self.convention
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn parameters(&self) -> serde_json::Value {
+        named(&ProbeParameters::new(self))
+    }
+}
+
+fn named(parameters: &impl Serialize) -> serde_json::Value {
+    serde_json::to_value(parameters).expect("a struct of finite numbers has a JSON form")
+}
+
+/// How a parameter file is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParameterFile {
+    /// `parameters.json`, numbers in their shortest exact form.
+    Json,
+    /// `parameters.in`, variables of LAMMPS and LIGGGHTS; of string style, because it alone passes every
+    /// digit.
+    Lammps,
+}
+
+impl ParameterFile {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Json => "parameters.json",
+            Self::Lammps => "parameters.in",
+        }
+    }
+
+    /// Its content.
+    pub fn content(self, parameters: &serde_json::Value) -> String {
+        match self {
+            Self::Json => format!("{parameters:#}\n"),
+            Self::Lammps => {
+                let entries = parameters.as_object().into_iter().flatten();
+                entries
+                    .map(|(name, number)| format!("variable {name} string {number}\n"))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// A deck: what a code is given to carry out tasks of one kind.
+pub struct Deck<T: Task> {
+    /// Files by name and content.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Arguments that carry out the tasks in the given directories.
+    pub arguments: fn(&[String]) -> Vec<String>,
+    /// For a code that does many tasks in one process: the file of a task that appears when it is done.
+    pub completion_file: Option<&'static str>,
+    /// Reads the outcome from the directory of a task.
+    pub read: fn(&Path, &T) -> Result<T::Outcome, SeriesError>,
+}

@@ -1,0 +1,136 @@
+//! What a micro-test delivers: the motion of two cylinders and the forces on them, step by step.
+
+use super::SeriesError;
+use serde::{Deserialize, Serialize};
+use std::io::Read;
+
+/// One step. Lengths in r, forces in k_n r, torques in k_n r², speeds in r √(k_n/m).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // The names say it: position, velocity, spin, force and torque of cylinders 1 and 2.
+pub struct MotionRow {
+    pub step: u64,
+    pub x1: f64,
+    pub y1: f64,
+    pub vx1: f64,
+    pub vy1: f64,
+    pub spin1: f64,
+    pub fx1: f64,
+    pub fy1: f64,
+    pub torque1: f64,
+    pub x2: f64,
+    pub y2: f64,
+    pub vx2: f64,
+    pub vy2: f64,
+    pub spin2: f64,
+    pub fx2: f64,
+    pub fy2: f64,
+    pub torque2: f64,
+    /// Force of the top wall, positive in compression.
+    pub wall_force: f64,
+}
+
+/// A cylinder at one step, as the code reports it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyRow {
+    /// Centre.
+    pub position: [f64; 2],
+    /// Velocity, at whichever moment the code keeps it.
+    pub velocity: [f64; 2],
+    /// Angular velocity, counter-clockwise.
+    pub spin: f64,
+    /// Total force.
+    pub force: [f64; 2],
+    /// Total torque about the centre.
+    pub torque: f64,
+}
+
+impl MotionRow {
+    /// Cylinders 1 and 2.
+    pub fn bodies(&self) -> [BodyRow; 2] {
+        [
+            BodyRow {
+                position: [self.x1, self.y1],
+                velocity: [self.vx1, self.vy1],
+                spin: self.spin1,
+                force: [self.fx1, self.fy1],
+                torque: self.torque1,
+            },
+            BodyRow {
+                position: [self.x2, self.y2],
+                velocity: [self.vx2, self.vy2],
+                spin: self.spin2,
+                force: [self.fx2, self.fy2],
+                torque: self.torque2,
+            },
+        ]
+    }
+
+    fn is_finite(&self) -> bool {
+        let bodies = self.bodies().into_iter().flat_map(|body| {
+            let [x, y] = body.position;
+            let ([vx, vy], [fx, fy]) = (body.velocity, body.force);
+            [x, y, vx, vy, body.spin, fx, fy, body.torque]
+        });
+        bodies.chain([self.wall_force]).all(f64::is_finite)
+    }
+}
+
+/// A checked motion: one row for every step, finite numbers only.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Motion {
+    rows: Vec<MotionRow>,
+}
+
+impl Motion {
+    /// A motion of `rows`, which must be those of the steps 0 to `steps`.
+    ///
+    /// # Errors
+    /// If a row is missing, out of place, or not finite.
+    pub fn new(rows: Vec<MotionRow>, steps: u64) -> Result<Self, SeriesError> {
+        for (index, row) in rows.iter().enumerate() {
+            if row.step != index as u64 {
+                return Err(SeriesError::WrongStep {
+                    row: index + 1,
+                    found: row.step,
+                    expected: index as u64,
+                });
+            }
+            if !row.is_finite() {
+                return Err(SeriesError::Garbled {
+                    row: index + 1,
+                    message: "not every value is a finite number".to_owned(),
+                });
+            }
+        }
+        let expected = steps as usize + 1;
+        if rows.len() != expected {
+            return Err(SeriesError::Truncated {
+                found: rows.len(),
+                expected,
+            });
+        }
+        Ok(Self { rows })
+    }
+
+    /// Reads a motion in CSV and checks it.
+    ///
+    /// # Errors
+    /// As for [`Motion::new`], and if a row cannot be read.
+    pub fn read(input: impl Read, steps: u64) -> Result<Self, SeriesError> {
+        let mut reader = csv::Reader::from_reader(input);
+        let rows = reader.deserialize().enumerate().map(|(index, row)| {
+            row.map_err(|error: csv::Error| SeriesError::Garbled {
+                row: index + 1,
+                message: error.to_string(),
+            })
+        });
+        Self::new(rows.collect::<Result<_, _>>()?, steps)
+    }
+
+    /// The rows, step by step.
+    pub fn rows(&self) -> &[MotionRow] {
+        &self.rows
+    }
+}

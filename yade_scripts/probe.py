@@ -10,7 +10,7 @@ probe.csv, which appears only when it is complete: one row for every step from 0
 Units, floor and top wall as in stack.py; the top wall starts to move at step 0.  Positions,
 forces and torques (about the centre, counter-clockwise) of a row belong together.  The
 velocities of a row, and hence the initial ones, are those half a step earlier, from which
-the forces were computed.
+the forces were computed.  Step 0 is a step like any other: tangential springs grow in it.
 """
 import os
 import sys

@@ -1,4 +1,4 @@
-//! What ends the path of equilibria: the four events, and which one comes first.
+//! What ends the path of equilibria: the four events, and which one comes first (docs/theory.md, Eq. 43).
 
 use super::root::bracketed_root;
 use crate::stack::{CRITICAL_FRICTION, Stack};
@@ -58,7 +58,7 @@ impl PathPoint {
         (2.0 - self.pair_overlap) * (1.0 - square) / (1.0 + square)
     }
 
-    /// Height of the top wall, y₁ + r − f/k_n, with the floor at 0.
+    /// Height of the top wall, y₁ + r − f/k_n, with the floor at 0 (docs/theory.md, Eq. 32).
     pub fn wall_height(&self) -> f64 {
         2.0 - self.floor_overlap + self.rise() - self.wall_force
     }
@@ -99,7 +99,8 @@ pub fn locate(path: &impl Path, event: Event, stack: &Stack) -> Option<f64> {
     bracketed_root(margin, stations[index - 1], stations[index])
 }
 
-/// y = ρ sin ψ − 1 at an angle `turned` beyond 30°, free of cancellation for small angles.
+/// y = ρ sin ψ − 1 at an angle `turned` beyond 30°, free of cancellation for small angles (docs/theory.md,
+/// Eq. 30).
 pub(super) fn outward_displacement(turned: f64, pair_overlap: f64) -> f64 {
     let half_sine = libm::sin(0.5 * turned);
     let sine = libm::sin(turned);
@@ -107,7 +108,7 @@ pub(super) fn outward_displacement(turned: f64, pair_overlap: f64) -> f64 {
     geometric - 0.5 * pair_overlap * (1.0 + geometric)
 }
 
-/// T = tan(15° + turned/2) at an angle `turned` beyond 30°.
+/// T = tan(15° + turned/2) at an angle `turned` beyond 30° (docs/theory.md, Eq. 30).
 pub(super) fn half_angle_tangent(turned: f64) -> f64 {
     let half = libm::tan(0.5 * turned);
     (CRITICAL_FRICTION + half) / (1.0 - CRITICAL_FRICTION * half)

@@ -24,7 +24,7 @@ pub struct Limit {
     pub y: Option<f64>,
     /// z, how far cylinder 2 has sunk into the floor, in r, where the floor slips.
     pub z: Option<f64>,
-    /// How far the top wall has moved, in r, when the floor slips.
+    /// How far the top wall has moved, in r, when the floor slips (docs/theory.md, Eq. 34).
     pub wall_travel: Option<f64>,
     /// Why there is no yield force.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -32,7 +32,8 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`.
+    /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`: under its own
+    /// weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 z/ε − 3 (Eq. 23).
     pub(super) fn of(
         path: &impl Path,
         slip: Option<f64>,

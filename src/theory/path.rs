@@ -6,7 +6,8 @@
 //!
 //! where L is the load carried by cylinder 1: its growing weight along the gravity ramp, f + m g under
 //! the wall. The springs accumulate ρ dψ − R_c dθ and dx₂ + R_f dθ. Differentiated with respect to ψ this
-//! is a linear 3×3 system for (ρ′, θ′, L′), regular also where L has a maximum.
+//! is a linear 3×3 system for (ρ′, θ′, L′), regular also where L has a maximum (docs/theory.md, Eqs. 10, 15
+//! and 36 to 40).
 
 use super::events::{Event, Path, PathPoint, half_angle_tangent, locate, outward_displacement};
 use super::limit::Limit;
@@ -153,7 +154,7 @@ struct Contacts<Law> {
 }
 
 impl<Law: SpringLaw> Contacts<Law> {
-    /// Derivative of the state with respect to ψ.
+    /// Derivative of the state with respect to ψ (docs/theory.md, Eqs. 37 to 39).
     fn derivative(&self, state: &State, leg: Leg) -> State {
         let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
         let distance = 2.0 - state.pair_overlap;

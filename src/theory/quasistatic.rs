@@ -7,7 +7,7 @@
 //! dG/dT = [4/(1+T²) − G (2/(1+T²) + κ(1+T²))] / (T [1 + κ(1+T²)]),  G(μ_c) = 0,
 //!
 //! which an integrating factor M(s), s = T², turns into one quadrature. The floor slips where
-//! G (T − μ) = ε μ, and then F = 2 G/ε − 1.
+//! G (T − μ) = ε μ, and then F = 2 G/ε − 1 (docs/theory.md, Eqs. 11 to 14, 17 to 19 and 23).
 
 use super::events::{Path, PathPoint};
 use super::limit::Limit;
@@ -31,7 +31,7 @@ const EARLY_STATIONS: i32 = 24;
 /// G(T), the overlap of the contact 1–2, at T = μ_c + `beyond`.
 ///
 /// G M(T²) = ∫ 2 M(s)/[s(1+s)(1+κ+κs)] ds from μ_c² to T², with M(s) = s^p (1+s)⁻¹ (1+κ+κs)^q,
-/// p = (2+κ)/(2(1+κ)), q = (2κ+1)/(2(1+κ)); integrated over ln s.
+/// p = (2+κ)/(2(1+κ)), q = (2κ+1)/(2(1+κ)); integrated over ln s (docs/theory.md, Eqs. 18 and 19).
 pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
     let kappa = stiffness_ratio;
     let p = (2.0 + kappa) / (2.0 * (1.0 + kappa));
@@ -49,7 +49,8 @@ pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
     QUADRATURE.integrate(0.0, length, integrand)
 }
 
-/// The path of equilibria with the parameter T − μ_c.
+/// The path of equilibria with the parameter T − μ_c (docs/theory.md, Eqs. 14 and 31; on the gravity ramp
+/// Eq. 10).
 struct ClosedForm {
     epsilon: f64,
     stiffness_ratio: f64,
@@ -109,7 +110,8 @@ pub fn closed_form_limit(stack: &Stack) -> Limit {
 }
 
 /// T − μ_c at which the floor slips: the root of G (T − μ) = ε μ. Its left side grows with T for every
-/// G < 2, so the root is unique; it is measured from max(μ, μ_c) to keep its digits.
+/// G < 2, so the root is unique (docs/theory.md, Eqs. 23 and 24); it is measured from max(μ, μ_c) to keep
+/// its digits.
 fn floor_slip(stack: &Stack) -> Option<f64> {
     let mu = stack.floor_friction;
     let above_critical = (mu - CRITICAL_FRICTION).max(0.0);
@@ -158,7 +160,7 @@ mod tests {
 
     #[test]
     fn bottom_cylinders_part_only_above_a_stiffness_ratio() {
-        // dx₂/dT at T = μ_c vanishes for κ = (2 + √3)/(2√3).
+        // dx₂/dT at T = μ_c vanishes for κ = (2 + √3)/(2√3) (docs/theory.md, Eqs. 53 and 54).
         let threshold = (2.0 + 3f64.sqrt()) / (2.0 * 3f64.sqrt());
         let outward = |kappa| {
             let stack = Stack {

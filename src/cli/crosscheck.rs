@@ -4,13 +4,12 @@ use super::options::{Format, RunOptions, participants, writable};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{
-    Judgement, Measurement, Participant, Profile, Source, Verdict, measure, plan,
-};
+use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure, plan};
 use crate::engine::EngineName;
 use crate::report::{
     crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
+use crate::verdict::Verdict;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,10 @@
 //! How a command ends.
 
 use crate::archive::ArchiveError;
-use crate::crosscheck::{Judgement, NoYield, Verdict};
+use crate::crosscheck::{Judgement, NoYield};
 use crate::engine::{EngineName, Failure, FailureKind};
 use crate::stack::{CaseError, InvalidValue};
+use crate::verdict::Verdict;
 use thiserror::Error;
 
 /// The exit status of the program.

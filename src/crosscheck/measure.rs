@@ -3,9 +3,10 @@
 use super::extrapolate::{Extrapolation, extrapolate};
 use super::plan::Measurement;
 use super::schedule::{Participant, Progress, RunError, Settings, run_all};
-use super::verdict::{Row, Source, Verdict, tolerance};
+use super::verdict::{Row, Source, judge, tolerance};
 use crate::archive::Run;
 use crate::trace::YieldEstimates;
+use crate::verdict::Verdict;
 
 /// A row, and what stands behind it.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,12 +69,12 @@ pub fn measure(
             Source::Recorded
         };
         let version = engine.map_or_else(String::new, |engine| engine.identity().version.clone());
-        judge(measurement, source, version, results)
+        judge_measurement(measurement, source, version, results)
     });
     judged.collect()
 }
 
-fn judge(
+fn judge_measurement(
     measurement: &Measurement,
     source: Source,
     version: String,
@@ -185,7 +186,7 @@ impl Judgement {
         self.row.uncertainty = Some(uncertainty);
         self.row.error = Some(error);
         self.row.tolerance = Some(tolerance(uncertainty / load));
-        self.row.verdict = Verdict::judge(error, uncertainty / load);
+        self.row.verdict = judge(error, uncertainty / load);
     }
 
     /// Notes what speaks against an agreement.

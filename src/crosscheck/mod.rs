@@ -17,4 +17,4 @@ pub use plan::{
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Participant, Progress, RunError, Settings, run_all};
 pub use store::Store;
-pub use verdict::{BAR, FLOOR, Row, Source, Verdict};
+pub use verdict::{BAR, FLOOR, Row, Source};

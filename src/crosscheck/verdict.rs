@@ -1,6 +1,7 @@
 //! The verdict on one row, derived from its numbers.
 
 use crate::engine::EngineName;
+use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
 /// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
@@ -11,54 +12,9 @@ pub const FLOOR: f64 = 1e-7;
 /// An uncertainty above it decides nothing.
 pub const BAR: f64 = 1e-5;
 
-/// What is said of a row. Only `agrees` is a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// Within the tolerance of the exact limit.
-    Agrees,
-    /// Further from the exact limit than both tolerance and uncertainty.
-    Differs,
-    /// The uncertainty is larger than the tolerance, or the two estimators contradict each other.
-    Inconclusive,
-    /// The series, or the theory, shows no yield.
-    NoYield,
-    /// The engine did not deliver.
-    Failed,
-    /// The engine is not installed, and no recorded run stands in for it.
-    Missing,
-}
-
-impl Verdict {
-    /// The verdict on an error with an expanded uncertainty, both relative to F + 3.
-    pub fn judge(error: f64, uncertainty: f64) -> Self {
-        let tolerance = tolerance(uncertainty);
-        if error.abs() > tolerance.max(uncertainty) {
-            Self::Differs
-        } else if uncertainty > tolerance || !error.is_finite() || !uncertainty.is_finite() {
-            Self::Inconclusive
-        } else {
-            Self::Agrees
-        }
-    }
-
-    /// The word in tables.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Agrees => "agrees",
-            Self::Differs => "differs",
-            Self::Inconclusive => "inconclusive",
-            Self::NoYield => "no-yield",
-            Self::Failed => "failed",
-            Self::Missing => "missing",
-        }
-    }
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(self.as_str())
-    }
+/// The verdict on an error with an expanded uncertainty, both relative to F + 3.
+pub fn judge(error: f64, uncertainty: f64) -> Verdict {
+    Verdict::of(error, uncertainty, tolerance(uncertainty))
 }
 
 /// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
@@ -130,25 +86,25 @@ mod tests {
 
     #[test]
     fn a_small_error_agrees_and_a_large_one_differs() {
-        assert_eq!(Verdict::judge(9e-8, 1e-8), Verdict::Agrees);
-        assert_eq!(Verdict::judge(-1.1e-7, 1e-8), Verdict::Differs);
+        assert_eq!(judge(9e-8, 1e-8), Verdict::Agrees);
+        assert_eq!(judge(-1.1e-7, 1e-8), Verdict::Differs);
     }
 
     #[test]
     fn tolerance_follows_the_uncertainty_between_floor_and_bar() {
-        assert_eq!(Verdict::judge(4e-6, 5e-6), Verdict::Agrees);
-        assert_eq!(Verdict::judge(6e-6, 5e-6), Verdict::Differs);
+        assert_eq!(judge(4e-6, 5e-6), Verdict::Agrees);
+        assert_eq!(judge(6e-6, 5e-6), Verdict::Differs);
     }
 
     #[test]
     fn an_uncertainty_above_the_bar_decides_only_against_large_errors() {
-        assert_eq!(Verdict::judge(1e-7, 2e-5), Verdict::Inconclusive);
-        assert_eq!(Verdict::judge(1e-3, 2e-5), Verdict::Differs);
+        assert_eq!(judge(1e-7, 2e-5), Verdict::Inconclusive);
+        assert_eq!(judge(1e-3, 2e-5), Verdict::Differs);
     }
 
     #[test]
     fn not_a_number_is_never_a_pass() {
-        assert_eq!(Verdict::judge(f64::NAN, 1e-8), Verdict::Inconclusive);
-        assert_eq!(Verdict::judge(1e-8, f64::NAN), Verdict::Inconclusive);
+        assert_eq!(judge(f64::NAN, 1e-8), Verdict::Inconclusive);
+        assert_eq!(judge(1e-8, f64::NAN), Verdict::Inconclusive);
     }
 }

@@ -105,10 +105,10 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn prepare(&self) -> Result<(), FailureKind> {
         let adapter = self.engine.adapter;
-        for (task, name) in self.tasks.iter().zip(&self.task_directories) {
+        for (index, task) in self.tasks.iter().enumerate() {
             let accepted = adapter.name.check_convention(task.convention());
             accepted.map_err(FailureKind::Unsupported)?;
-            let directory = self.directory.join(name);
+            let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
             let file = adapter.parameter_file;
             write(

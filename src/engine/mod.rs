@@ -65,6 +65,15 @@ pub enum EngineName {
     Lammps,
 }
 
+/// What the adapter of a code declares, and the probe measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Declaration {
+    /// What a contact is.
+    pub convention: Convention,
+    /// Steps by which reported velocities lag behind reported positions.
+    pub velocity_lag: f64,
+}
+
 impl EngineName {
     /// Every engine.
     pub const ALL: [Self; 6] = [
@@ -96,6 +105,20 @@ impl EngineName {
             Self::Yade | Self::YadeFacet => yade::CONVENTION,
             Self::YadeWall => yade::ON_WALL,
             Self::Lammps => lammps::CONVENTION,
+        }
+    }
+
+    /// What its adapter declares.
+    pub fn declaration(self) -> Declaration {
+        let velocity_lag = match self {
+            // Leapfrog.
+            Self::Native | Self::Yade | Self::YadeFacet | Self::YadeWall => 0.5,
+            // Velocity Verlet.
+            Self::Liggghts | Self::Lammps => 0.0,
+        };
+        Declaration {
+            convention: self.convention(),
+            velocity_lag,
         }
     }
 

@@ -1,0 +1,76 @@
+//! The normal law: stiffness, damping, and the moments they belong to.
+
+use super::contact_frame::ContactRow;
+use super::regression::{Measured, fit};
+
+/// f_n = k_n δ(t + o dt) − η_n v_n(t − λ dt).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalLaw {
+    /// k_n.
+    pub stiffness: Measured,
+    /// η_n.
+    pub damping: Measured,
+    /// o, steps by which the overlap in the force is ahead of the reported one.
+    pub overlap_lead: Measured,
+    /// λ, steps by which the velocity in the force lags behind the reported overlap.
+    pub velocity_lag: Measured,
+}
+
+impl NormalLaw {
+    /// Read off rows with a time step and rows with another one.
+    ///
+    /// With v_n half a step before δ_n, the force is A δ_n − B v_n with A = k_n/(1 + q dt) and
+    /// B = (η_n − k_n o dt)/(1 + q dt), q = η_n (1/2 − λ)/m.
+    pub fn read(coarse: &[ContactRow], fine: &[ContactRow], mass: f64) -> Self {
+        let ([a1, b1], [a2, b2]) = (slopes(coarse), slopes(fine));
+        let step = |rows: &[ContactRow]| rows.first().map_or(f64::NAN, |row| row.time_step);
+        let (dt1, dt2) = (step(coarse), step(fine));
+        let q = (a1.value - a2.value) / (a2.value * dt2 - a1.value * dt1);
+        let spread = (a1.uncertainty + a2.uncertainty) / (a1.value * (dt1 - dt2)).abs();
+        let stiffness = scaled(a2, 1.0 + q * dt2, a2.value * spread * dt2);
+        let (c1, c2) = (b1.value * (1.0 + q * dt1), b2.value * (1.0 + q * dt2));
+        let tilt = (c1 - c2) / (dt1 - dt2);
+        let tilt_spread = (b1.uncertainty + b2.uncertainty) / (dt1 - dt2).abs();
+        let damping = Measured::new(
+            c2 - tilt * dt2,
+            b2.uncertainty + tilt_spread * dt2 + c2.abs() * spread * dt2,
+        );
+        Self {
+            stiffness,
+            damping,
+            overlap_lead: Measured::new(-tilt, tilt_spread).over(stiffness),
+            velocity_lag: Measured::new(
+                0.5 - q * mass / damping.value,
+                spread * mass / damping.value,
+            ),
+        }
+    }
+}
+
+fn scaled(measured: Measured, factor: f64, further: f64) -> Measured {
+    Measured::new(
+        measured.value * factor,
+        measured.uncertainty * factor + further,
+    )
+}
+
+fn slopes(rows: &[ContactRow]) -> [Measured; 2] {
+    let pressed = rows.iter().filter(|row| row.normal_force > 0.0);
+    let terms: Vec<([f64; 2], f64)> = pressed
+        .map(|row| ([row.overlap, -row.separation_speed], row.normal_force))
+        .collect();
+    fit(&terms)
+}
+
+/// The part of a pulling normal force that is exerted: f_n/(k_n δ − η_n v_n) in the first row of a fast
+/// separation.
+pub fn pull(rows: &[ContactRow], law: &NormalLaw) -> Measured {
+    let Some(row) = rows.first() else {
+        return Measured::UNKNOWN;
+    };
+    let spring = law.stiffness.value * row.overlap;
+    let damping = law.damping.value * row.separation_speed;
+    let uncertainty = law.stiffness.uncertainty * row.overlap
+        + law.damping.uncertainty * row.separation_speed.abs();
+    Measured::new(row.normal_force, 0.0).over(Measured::new(spring - damping, uncertainty))
+}

@@ -1,0 +1,139 @@
+//! Linear least squares with standard errors.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Standard errors in an uncertainty.
+const COVERAGE: f64 = 3.0;
+/// Singular values of the scaled columns below this are not resolved.
+const RANK_TOLERANCE: f64 = 1e-9;
+
+/// A number with an uncertainty of three standard errors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The number.
+    pub value: f64,
+    /// Its uncertainty.
+    pub uncertainty: f64,
+}
+
+impl Measured {
+    /// A number that could not be measured.
+    pub const UNKNOWN: Self = Self {
+        value: f64::NAN,
+        uncertainty: f64::INFINITY,
+    };
+
+    /// A number with an uncertainty.
+    pub fn new(value: f64, uncertainty: f64) -> Self {
+        Self { value, uncertainty }
+    }
+
+    /// The number minus one that is known exactly.
+    pub fn minus(self, exact: f64) -> Self {
+        Self::new(self.value - exact, self.uncertainty)
+    }
+
+    /// The ratio to another number.
+    pub fn over(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let (own, theirs) = (self.uncertainty, value * other.uncertainty);
+        let uncertainty = own.hypot(theirs) / other.value.abs();
+        Self { value, uncertainty }
+    }
+
+    /// The reciprocal.
+    pub fn inverse(self) -> Self {
+        Self::new(1.0, 0.0).over(self)
+    }
+}
+
+/// Coefficients c with rows · c ≈ targets, each row weighted alike. [`Measured::UNKNOWN`] where there are
+/// too few rows, or where they do not tell the coefficients apart.
+pub fn fit<const N: usize>(rows: &[([f64; N], f64)]) -> [Measured; N] {
+    let general: Vec<(Vec<f64>, f64)> = rows
+        .iter()
+        .map(|(row, target)| (row.to_vec(), *target))
+        .collect();
+    let coefficients = fit_rows(&general, N);
+    std::array::from_fn(|index| coefficients[index])
+}
+
+/// The same for rows of `columns` entries.
+pub fn fit_rows(rows: &[(Vec<f64>, f64)], columns: usize) -> Vec<Measured> {
+    solve(rows, columns).unwrap_or_else(|| vec![Measured::UNKNOWN; columns])
+}
+
+fn solve(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<Vec<Measured>> {
+    let freedom = rows
+        .len()
+        .checked_sub(columns)
+        .filter(|&freedom| freedom > 0)?;
+    let mut matrix = DMatrix::from_fn(rows.len(), columns, |row, column| rows[row].0[column]);
+    let target = DVector::from_fn(rows.len(), |row, _| rows[row].1);
+    let scales: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    if scales
+        .iter()
+        .any(|&scale| scale == 0.0 || !scale.is_finite())
+    {
+        return None;
+    }
+    for (mut column, scale) in matrix.column_iter_mut().zip(&scales) {
+        column /= *scale;
+    }
+    let decomposition = matrix.clone().svd(true, true);
+    if decomposition.singular_values.min() < RANK_TOLERANCE * decomposition.singular_values.max() {
+        return None;
+    }
+    let solution = decomposition.solve(&target, 0.0).ok()?;
+    let residual = (matrix * &solution - target).norm_squared() / freedom as f64;
+    let directions = decomposition.v_t?;
+    let coefficients = (0..columns).map(|column| {
+        let variance: f64 = (0..columns)
+            .map(|index| {
+                let share = directions[(index, column)] / decomposition.singular_values[index];
+                share * share * residual
+            })
+            .sum();
+        Measured::new(
+            solution[column] / scales[column],
+            COVERAGE * variance.sqrt() / scales[column],
+        )
+    });
+    Some(coefficients.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_is_found_with_its_scatter() {
+        let points = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let rows: Vec<([f64; 2], f64)> = points
+            .iter()
+            .map(|&x| {
+                let wiggle = if x as i32 % 2 == 0 { 1e-6 } else { -1e-6 };
+                ([1.0, x], 2.0 - 3.0 * x + wiggle)
+            })
+            .collect();
+        let [offset, slope] = fit(&rows);
+        assert!((offset.value - 2.0).abs() < offset.uncertainty);
+        assert!((slope.value + 3.0).abs() < slope.uncertainty);
+        assert!((1e-7..1e-5).contains(&slope.uncertainty));
+    }
+
+    #[test]
+    fn what_the_rows_do_not_tell_apart_is_unknown() {
+        let rows: Vec<([f64; 2], f64)> = (0..5)
+            .map(|index| ([f64::from(index), 2.0 * f64::from(index)], 1.0))
+            .collect();
+        assert!(fit(&rows).iter().all(|found| found.value.is_nan()));
+    }
+
+    #[test]
+    fn a_ratio_carries_both_uncertainties() {
+        let ratio = Measured::new(2.0, 0.06).over(Measured::new(4.0, 0.16));
+        assert_eq!(ratio.value, 0.5);
+        assert!((ratio.uncertainty - 0.025).abs() < 1e-15);
+    }
+}

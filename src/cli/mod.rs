@@ -9,6 +9,7 @@ mod record;
 mod simulate;
 mod sweep;
 mod theory;
+mod trajectories;
 
 pub use error::{CliError, ExitStatus};
 
@@ -41,6 +42,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
     Crosscheck(crosscheck::Arguments),
+    Trajectories(trajectories::Arguments),
     Engines(engines::Arguments),
     Record(record::Arguments),
 }
@@ -60,6 +62,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
+        Command::Trajectories(arguments) => trajectories::run(&arguments),
         Command::Engines(arguments) => engines::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
     }

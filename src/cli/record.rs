@@ -1,23 +1,39 @@
 //! `tristack record`.
 
-use super::options::{RunOptions, participants, reference_directory};
+use super::options::{RunOptions, participants, recorded_trajectories, reference_directory};
 use super::progress::Reporter;
+use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
-use crate::crosscheck::{Measurement, Participant, Profile, RunError, Settings, plan, run_all};
+use crate::crosscheck::{
+    Measurement, Participant, Profile, Recorded, RunError, Settings, Workload, plan, run_all,
+};
 use crate::engine::EngineName;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// A set of recorded runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Set {
+    /// The quick profile of `tristack crosscheck`.
+    Crosscheck,
+    /// The series of `tristack trajectories`.
+    Trajectories,
+}
 
 /// Refresh the recorded runs under reference/
 ///
-/// Runs the quick profile with the external engines and keeps every run with its provenance, so that it
-/// can stand in where an engine is not installed.
+/// Runs the quick profile and the trajectories with the external engines and keeps every run with its
+/// provenance, so that it can stand in where an engine is not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --engines yade --fresh")]
 pub struct Arguments {
     /// Which engines, separated by commas; each must be installed [default: all external ones]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
     engines: Vec<EngineName>,
+    /// Only the runs of one command [default: all]
+    #[arg(long, value_enum, value_name = "COMMAND")]
+    only: Option<Set>,
     #[command(flatten)]
     run: RunOptions,
 }
@@ -33,9 +49,26 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     };
     let participants = participants(&external)?;
     let settings = arguments.run.settings()?;
+    let wanted = |set: Set| arguments.only.is_none_or(|only| only == set);
     let mut worst = ExitStatus::Success;
     for participant in participants {
-        worst = worst.max(record(participant, &settings)?);
+        let participant = [participant];
+        let name = participant[0].name;
+        if wanted(Set::Crosscheck) {
+            let stacks = Profile::Quick.stacks();
+            let plans = stacks
+                .iter()
+                .map(|stack| plan(name, stack, name.convention()));
+            let plans: Vec<Measurement> = plans.collect();
+            let place = (&settings.recorded, reference_directory());
+            worst = worst.max(record(&plans, &participant, &settings, place)?);
+        }
+        if wanted(Set::Trajectories) {
+            let plans = trajectories(std::iter::once(name));
+            let directory = reference_directory().join("trajectories");
+            let place = (&recorded_trajectories(), directory);
+            worst = worst.max(record(&plans, &participant, &settings, place)?);
+        }
     }
     Ok(if INTERRUPT.requested() {
         ExitStatus::Interrupted
@@ -44,26 +77,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     })
 }
 
-fn record(participant: Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
-    let name = participant.name;
-    let stacks = Profile::Quick.stacks();
-    let measurements: Vec<Measurement> = stacks
-        .iter()
-        .map(|stack| plan(name, stack, name.convention()))
-        .collect();
+/// Records the runs of one engine, in place of those that are there.
+fn record<W: Workload>(
+    workloads: &[W],
+    participant: &[Participant; 1],
+    settings: &Settings,
+    (recorded, directory): (&Recorded, PathBuf),
+) -> Result<ExitStatus, CliError> {
+    let name = participant[0].name;
     let reporter = Reporter::new();
-    let results = run_all(&measurements, &[participant], settings, &reporter, |run| {
-        run
-    });
+    let results = run_all(workloads, participant, settings, &reporter, |run| run);
     drop(reporter);
     let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
     match runs {
         Ok(runs) => {
-            settings.recorded.replace(name, &runs)?;
-            let directory = reference_directory().join(name.as_str());
+            recorded.replace(name, &runs)?;
+            let directory = directory.join(name.as_str());
+            let count = runs.len();
             eprintln!(
-                "{} runs of {name} recorded under {}",
-                runs.len(),
+                "{count} runs of {name} recorded under {}",
                 directory.display()
             );
             Ok(ExitStatus::Success)

@@ -1,4 +1,5 @@
-//! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge.
+//! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge. And whole series beside
+//! those of a native twin.
 
 mod extrapolate;
 mod measure;
@@ -6,6 +7,7 @@ mod plan;
 mod recorded;
 mod schedule;
 mod store;
+mod trajectory;
 mod verdict;
 
 pub use extrapolate::{Budget, Extrapolation, extrapolate};
@@ -15,6 +17,11 @@ pub use plan::{
     yielding_frictions,
 };
 pub use recorded::{Recorded, RecordedError};
-pub use schedule::{Participant, Progress, RunError, Settings, run_all};
+pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use store::Store;
+pub use trajectory::{
+    Branch, Comparison, DEVIATIONS, Distance, Documented, FORCE_BAR, Milestones, ORDER_TOLERANCE,
+    Order, Quantity, TIME_STEPS, Trajectory, TrajectoryJudgement, TrajectoryRow, Twin, TwinRuns,
+    WALL_SPEED, documented, measure_trajectories, plan_trajectory, trajectory_stack,
+};
 pub use verdict::{BAR, FLOOR, Row, Source};

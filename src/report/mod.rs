@@ -6,6 +6,7 @@ mod number;
 mod simulation;
 mod table;
 mod theory;
+mod trajectory;
 
 pub use crosscheck::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
@@ -13,3 +14,6 @@ pub use number::{friction, significant};
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};
+pub use trajectory::{
+    trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
+};

@@ -4,6 +4,7 @@ mod crosscheck;
 mod engines;
 mod error;
 mod options;
+mod probe;
 mod progress;
 mod record;
 mod simulate;
@@ -42,6 +43,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Crosscheck(crosscheck::Arguments),
     Engines(engines::Arguments),
+    Probe(probe::Arguments),
     Record(record::Arguments),
 }
 
@@ -61,6 +63,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
         Command::Engines(arguments) => engines::run(&arguments),
+        Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
     }
 }

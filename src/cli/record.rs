@@ -4,7 +4,9 @@ use super::options::{RunOptions, participants, reference_directory};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
-use crate::crosscheck::{Measurement, Participant, Profile, RunError, Settings, plan, run_all};
+use crate::crosscheck::{
+    Measurement, Participant, Profile, RunError, Settings, plan, record_probe, run_all,
+};
 use crate::engine::EngineName;
 use clap::Args;
 
@@ -52,17 +54,26 @@ fn record(participant: Participant, settings: &Settings) -> Result<ExitStatus, C
         .map(|stack| plan(name, stack, name.convention()))
         .collect();
     let reporter = Reporter::new();
+    let probe = record_probe(&participant, settings, &reporter);
     let results = run_all(&measurements, &[participant], settings, &reporter, |run| {
         run
     });
     drop(reporter);
+    let probe = match probe {
+        Ok(probe) => probe,
+        Err(error) => {
+            eprintln!("{name} is not recorded: {error}");
+            return Ok(ExitStatus::EngineFailed);
+        }
+    };
     let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
     match runs {
         Ok(runs) => {
             settings.recorded.replace(name, &runs)?;
-            let directory = reference_directory().join(name.as_str());
+            settings.recorded.replace_probe(name, &probe)?;
+            let directory = reference_directory();
             eprintln!(
-                "{} runs of {name} recorded under {}",
+                "{} runs and the probe of {name} recorded under {}",
                 runs.len(),
                 directory.display()
             );

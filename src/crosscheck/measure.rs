@@ -2,6 +2,7 @@
 
 use super::extrapolate::{Extrapolation, extrapolate};
 use super::plan::Measurement;
+use super::probing::{Probed, contradictions, probe_all};
 use super::schedule::{Participant, Progress, RunError, Settings, run_all};
 use super::verdict::{Row, Source, judge, tolerance};
 use crate::archive::Run;
@@ -19,6 +20,8 @@ pub struct Judgement {
     pub peak: Option<Extrapolation>,
     /// What explains a verdict other than `agrees`.
     pub notes: Vec<String>,
+    /// Whether the engine is not judged because its probe contradicts its declaration.
+    pub contradicted: bool,
 }
 
 /// What is kept of a run.
@@ -53,23 +56,27 @@ pub fn measure(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Judgement> {
+    let probed = probe_all(participants, settings, progress);
     let results = run_all(measurements, participants, settings, progress, Reading::new);
     let complete = measurements
         .iter()
         .zip(results)
         .filter(|(_, results)| !results.iter().any(is_interrupted));
     let judged = complete.map(|(measurement, results)| {
-        let participant = participants
-            .iter()
-            .find(|who| who.name == measurement.engine);
-        let engine = participant.and_then(|participant| participant.engine.as_deref());
+        let mut own = participants.iter().zip(&probed);
+        let own = own.find(|(who, _)| who.name == measurement.engine);
+        let engine = own.and_then(|(who, _)| who.engine.as_deref());
         let source = if engine.is_some() {
             Source::Live
         } else {
             Source::Recorded
         };
         let version = engine.map_or_else(String::new, |engine| engine.identity().version.clone());
-        judge_measurement(measurement, source, version, results)
+        let judgement = judge_measurement(measurement, source, version, results);
+        match own {
+            Some((_, probed)) => judgement.unless_contradicted(probed),
+            None => judgement,
+        }
     });
     judged.collect()
 }
@@ -85,6 +92,7 @@ fn judge_measurement(
         slip: None,
         peak: None,
         notes: Vec::new(),
+        contradicted: false,
     };
     if measurement.cases.is_empty() {
         judgement.row.verdict = Verdict::NoYield;
@@ -187,6 +195,26 @@ impl Judgement {
         self.row.error = Some(error);
         self.row.tolerance = Some(tolerance(uncertainty / load));
         self.row.verdict = judge(error, uncertainty / load);
+    }
+
+    /// Takes the judgement back where the limit belongs to a convention that the engine does not have, or is
+    /// not known to have.
+    fn unless_contradicted(mut self, probed: &Probed) -> Self {
+        let contradictions = contradictions(probed);
+        let judged = matches!(self.row.verdict, Verdict::Agrees | Verdict::Differs);
+        let Some(first) = contradictions.first().filter(|_| judged) else {
+            return self;
+        };
+        let further = match contradictions.len() {
+            1 => String::new(),
+            count => format!(" (and {} more: tristack probe)", count - 1),
+        };
+        self.notes.push(format!("not judged: {first}{further}"));
+        self.contradicted = probed.is_ok();
+        self.row.error = None;
+        self.row.tolerance = None;
+        self.row.verdict = Verdict::Inconclusive;
+        self
     }
 
     /// Notes what speaks against an agreement.

@@ -3,6 +3,7 @@
 mod extrapolate;
 mod measure;
 mod plan;
+mod probing;
 mod recorded;
 mod schedule;
 mod store;
@@ -14,6 +15,7 @@ pub use plan::{
     Measurement, NoYield, Profile, no_yield, plan, planned_protocol, protocol_at_speed,
     yielding_frictions,
 };
+pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Participant, Progress, RunError, Settings, run_all};
 pub use store::Store;

@@ -173,6 +173,14 @@ impl EngineName {
         }
     }
 
+    /// Hash of the deck of the micro-tests, or of the sources of the native engine.
+    pub fn probe_hash(self) -> String {
+        match self.adapter() {
+            None => crate::dem::SOURCE_DIGEST.clone(),
+            Some(adapter) => adapter.static_hash(&adapter.probe),
+        }
+    }
+
     /// The engine as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn Engine>> {
         match self.adapter() {

@@ -3,6 +3,7 @@
 mod crosscheck;
 mod engines;
 mod error;
+mod explain;
 mod options;
 mod probe;
 mod progress;

@@ -1,11 +1,12 @@
 //! Measurements in, judged rows out.
 
-use super::extrapolate::{Extrapolation, extrapolate};
+use super::extrapolate::{Extrapolation, Order, extrapolate};
 use super::plan::Measurement;
 use super::probing::{Probed, contradictions, probe_all};
 use super::schedule::{Participant, Progress, RunError, Settings, run_all};
 use super::verdict::{Row, Source, judge, tolerance};
 use crate::archive::Run;
+use crate::stack::Case;
 use crate::trace::YieldEstimates;
 use crate::verdict::Verdict;
 
@@ -14,6 +15,8 @@ use crate::verdict::Verdict;
 pub struct Judgement {
     /// The row.
     pub row: Row,
+    /// What was read off each run, in the order of the cases.
+    pub runs: Vec<YieldEstimates>,
     /// Slip onset and peak at vanishing wall speed.
     pub slip: Option<Extrapolation>,
     /// See `slip`.
@@ -89,6 +92,7 @@ fn judge_measurement(
 ) -> Judgement {
     let mut judgement = Judgement {
         row: blank_row(measurement, source, version),
+        runs: Vec::new(),
         slip: None,
         peak: None,
         notes: Vec::new(),
@@ -152,8 +156,10 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
 fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &mut Judgement) {
     let stiffness = measurement.stack.stiffness;
     let estimates: Vec<YieldEstimates> = readings.iter().map(|reading| reading.estimates).collect();
-    judgement.slip = extrapolate(&estimates, stiffness, |run| run.slip);
-    judgement.peak = extrapolate(&estimates, stiffness, |run| run.peak);
+    let steps: Vec<u64> = measurement.cases.iter().map(Case::total_steps).collect();
+    judgement.slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
+    judgement.peak = extrapolate(&estimates, &steps, stiffness, |run| run.peak);
+    judgement.runs.clone_from(&estimates);
     let Some(reference) = measurement.limit.yield_force else {
         return;
     };
@@ -174,6 +180,13 @@ fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &m
     judgement.decide(slip.force, uncertainty, reference);
     if let Some(note) = friction_note(measurement, &estimates) {
         judgement.doubt(note);
+    }
+    if !slip.order.is_expected() {
+        judgement.doubt(format!(
+            "the slip onset converges with order {:.2} in the wall speed, not {}",
+            slip.order.observed.unwrap_or(f64::NAN),
+            Order::EXPECTED
+        ));
     }
     if (peak.force - slip.force).abs() > uncertainty + peak_uncertainty {
         judgement.doubt(format!(

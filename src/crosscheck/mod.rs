@@ -1,5 +1,6 @@
 //! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge.
 
+mod evidence;
 mod extrapolate;
 mod measure;
 mod plan;
@@ -7,9 +8,11 @@ mod probing;
 mod recorded;
 mod schedule;
 mod store;
+mod twin;
 mod verdict;
 
-pub use extrapolate::{Budget, Extrapolation, extrapolate};
+pub use evidence::Evidence;
+pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
 pub use measure::{Judgement, measure};
 pub use plan::{
     Measurement, NoYield, Profile, no_yield, plan, planned_protocol, protocol_at_speed,
@@ -19,4 +22,5 @@ pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Participant, Progress, RunError, Settings, run_all};
 pub use store::Store;
+pub use twin::{TwinForce, measure_with_twin};
 pub use verdict::{BAR, FLOOR, Row, Source};

@@ -184,7 +184,7 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
     }
 
     fn steps(&self, job: &Job) -> u64 {
-        let steps = |&task: &Task| self.case(task).protocol.schedule().total_steps();
+        let steps = |&task: &Task| self.case(task).total_steps();
         job.tasks.iter().map(steps).sum()
     }
 

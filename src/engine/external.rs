@@ -24,6 +24,8 @@ pub struct Adapter {
     pub(super) stack: Deck<Case>,
     /// How it carries out a micro-test.
     pub(super) probe: Deck<ContactTest>,
+    /// A build of the same code that computes with more digits.
+    pub(super) precise_program: Option<&'static str>,
 }
 
 impl Adapter {
@@ -48,14 +50,24 @@ impl Adapter {
 /// An external code that is installed.
 pub struct ExternalEngine {
     pub(super) adapter: &'static Adapter,
+    /// Program in the search path: that of the adapter, or a build of it in another precision.
+    pub(super) program: &'static str,
     pub(super) installation: Installation,
     identity: Identity,
 }
 
 impl ExternalEngine {
+    /// The code as it is installed here.
     pub(super) fn find(adapter: &'static Adapter) -> Option<Box<dyn Engine>> {
-        let installation =
-            installation::find(adapter.program, &adapter.version, adapter.environment)?;
+        Self::find_program(adapter, adapter.program)
+    }
+
+    /// The code as the `program`, which takes the same decks.
+    pub(super) fn find_program(
+        adapter: &'static Adapter,
+        program: &'static str,
+    ) -> Option<Box<dyn Engine>> {
+        let installation = installation::find(program, &adapter.version, adapter.environment)?;
         let identity = Identity {
             engine: adapter.name.as_str().to_owned(),
             version: installation.version.clone(),
@@ -64,6 +76,7 @@ impl ExternalEngine {
         };
         Some(Box::new(Self {
             adapter,
+            program,
             installation,
             identity,
         }))
@@ -71,7 +84,7 @@ impl ExternalEngine {
 
     /// Program and arguments that carry out the tasks in `directories`.
     pub(super) fn command<T: Task>(&self, deck: &Deck<T>, directories: &[String]) -> Vec<String> {
-        let mut command = vec![self.adapter.program.to_owned()];
+        let mut command = vec![self.program.to_owned()];
         command.extend((deck.arguments)(directories));
         command
     }
@@ -92,9 +105,7 @@ impl ExternalEngine {
             let directory = if tasks.len() == 1 {
                 workplace.directory.to_owned()
             } else {
-                workplace
-                    .directory
-                    .join(format!("{}-{next}", self.adapter.program))
+                workplace.directory.join(format!("{}-{next}", self.program))
             };
             let mut batch = Batch::new(self, deck, &tasks[next..end], directory);
             batch.run(workplace, &mut |index, result| {

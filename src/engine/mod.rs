@@ -189,6 +189,16 @@ impl EngineName {
         }
     }
 
+    /// The same engine computing with more digits, if there is one here: native in double-double
+    /// arithmetic, YADE in long double. What is between the two is round-off.
+    pub fn find_precise(self) -> Option<Box<dyn Engine>> {
+        let Some(adapter) = self.adapter() else {
+            return Some(Box::new(native::Native::precise()));
+        };
+        let program = adapter.precise_program?;
+        external::ExternalEngine::find_program(adapter, program)
+    }
+
     fn adapter(self) -> Option<&'static external::Adapter> {
         match self {
             Self::Native => None,

@@ -1,6 +1,7 @@
 //! What people see: tables of rows, in every format.
 
 mod crosscheck;
+mod explain;
 mod inventory;
 mod number;
 mod probe;
@@ -8,7 +9,10 @@ mod simulation;
 mod table;
 mod theory;
 
-pub use crosscheck::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
+pub use crosscheck::{
+    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
+};
+pub use explain::explanation;
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};

@@ -89,12 +89,14 @@ impl ExternalEngine {
         command
     }
 
-    /// Carries out `tasks` in order, as many at once as the code can.
+    /// Carries out `tasks` in order, as many at once as the code can; if `all_or_nothing`, only up to the
+    /// first failure.
     fn carry_out<T: Task>(
         &self,
         deck: &Deck<T>,
         tasks: &[T],
         workplace: &Workplace,
+        all_or_nothing: bool,
         finished: Finished<(T::Outcome, f64)>,
     ) {
         let many = deck.completion_file.is_some();
@@ -108,9 +110,14 @@ impl ExternalEngine {
                 workplace.directory.join(format!("{}-{next}", self.program))
             };
             let mut batch = Batch::new(self, deck, &tasks[next..end], directory);
+            let mut failed = false;
             batch.run(workplace, &mut |index, result| {
+                failed |= result.is_err();
                 finished(next + index, result);
             });
+            if failed && all_or_nothing {
+                return;
+            }
             next += batch.settled();
         }
     }
@@ -131,7 +138,7 @@ impl Engine for ExternalEngine {
 
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {
         let deck = &self.adapter.stack;
-        self.carry_out(deck, cases, workplace, &mut |index, result| {
+        self.carry_out(deck, cases, workplace, false, &mut |index, result| {
             let case = cases[index];
             let run = result.map(|(trace, seconds)| Run {
                 case,
@@ -155,6 +162,7 @@ impl Engine for ExternalEngine {
             &self.adapter.probe,
             tests,
             workplace,
+            true,
             &mut |index, result| match result {
                 Ok((motion, _)) => motions[index] = Some(motion),
                 Err(error) => failure = failure.take().or(Some(error)),

@@ -7,6 +7,7 @@ use std::path::Path;
 use tristack::archive::ProbeRecord;
 use tristack::engine::{ParameterFile, Task};
 use tristack::stack::{Case, sha256_hex};
+use tristack::trace::MotionRow;
 
 /// What happens to the recorded series of one case.
 pub enum Disturbance {
@@ -41,13 +42,14 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
         }
         count += 1;
     }
-    install_probe(&replay);
+    install_probe(bench, |row| row);
     bench.install("yade", &script(&replay, ""));
     count
 }
 
-/// The recorded answers to micro-tests.
-fn install_probe(replay: &Path) {
+/// The recorded answers to micro-tests, row by row as `change` makes them.
+pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
+    let replay = bench.path("replay");
     let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
     let record = ProbeRecord::load(&recorded)
         .expect("a record")
@@ -58,7 +60,7 @@ fn install_probe(replay: &Path) {
         let mut writer =
             csv::Writer::from_path(replay.join(format!("{address}.csv"))).expect("a file");
         for row in motion.rows() {
-            writer.serialize(row).expect("a row");
+            writer.serialize(change(*row)).expect("a row");
         }
     }
 }

@@ -18,7 +18,12 @@ fn every_row_agrees_and_says_where_it_comes_from() {
     assert_snapshot!(table);
     assert_only(
         &bench.path("results"),
-        &["crosscheck.csv", "crosscheck.json", "crosscheck.md"],
+        &[
+            "budget.csv",
+            "crosscheck.csv",
+            "crosscheck.json",
+            "crosscheck.md",
+        ],
     );
     let page = fs::read_to_string(bench.path("results/crosscheck.md")).expect("the page");
     assert_snapshot!("page", page);
@@ -28,7 +33,7 @@ fn every_row_agrees_and_says_where_it_comes_from() {
         "{message}"
     );
     assert!(
-        message.contains("72 of 72 rows agree; 54 rows are recorded, not live"),
+        message.contains("108 of 108 rows agree; 90 rows are recorded, not live"),
         "{message}"
     );
 }
@@ -40,7 +45,7 @@ fn rows_meet_the_accuracy_that_is_promised() {
         &mut bench.tristack("crosscheck --format json"),
     ));
     let rows = rows.as_array().expect("a list");
-    assert_eq!(rows.len(), 72);
+    assert_eq!(rows.len(), 108);
     for row in rows {
         let error = row["error"].as_f64().expect("an error").abs();
         assert!(error < 1e-7, "{row}");

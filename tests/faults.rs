@@ -429,15 +429,17 @@ fn record_keeps_the_old_recordings_if_a_run_fails() {
 fn nothing_is_started_after_an_interrupt() {
     let bench = Bench::with_system_programs();
     let starts = bench.path("starts");
-    bench.install(
-        "lmp",
-        &format!(
-            "[ \"$1\" = -help ] && exit 0; echo $$ >> {}; sleep 600",
-            starts.display()
-        ),
-    );
+    for program in ["lmp", "liggghts"] {
+        bench.install(
+            program,
+            &format!(
+                "case \"$*\" in -help|*/dev/null*) exit 0;; esac; echo $$ >> {}; sleep 600",
+                starts.display()
+            ),
+        );
+    }
     let child = bench
-        .process("crosscheck --engines lammps --jobs 2")
+        .process("crosscheck --engines liggghts,lammps --jobs 2")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

@@ -69,8 +69,9 @@ class Stack(Scene):
 			positions = self.positions()
 			O.step()
 			done = step + 1
-			row = [step, step * p['time_step'], self.wall_force(), *positions, *self.floor_forces()]
-			out.write(','.join(map(repr, row)) + '\n')
+			row = [step * p['time_step'], self.wall_force(), *positions, *self.floor_forces()]
+			# Numbers of the high-precision builds of YADE are no floats.
+			out.write('%d,' % step + ','.join(repr(float(value)) for value in row) + '\n')
 
 	def positions(self):
 		states = [O.bodies[cylinder].state for cylinder in self.cylinders]

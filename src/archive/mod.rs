@@ -4,7 +4,9 @@
 //! the recorded runs of the project are archives of the same form.
 
 mod entry;
+mod probe_record;
 mod provenance;
 
 pub use entry::{Archive, ArchiveError, Run, write_atomically};
+pub use probe_record::ProbeRecord;
 pub use provenance::{Identity, Provenance};

@@ -1,5 +1,6 @@
 //! `tristack crosscheck`.
 
+use super::explain::{RowName, explain, row_name};
 use super::options::{Format, RunOptions, participants, writable};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -7,7 +8,7 @@ use crate::archive::{ArchiveError, write_atomically};
 use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure, plan};
 use crate::engine::EngineName;
 use crate::report::{
-    crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
+    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
 use crate::verdict::Verdict;
 use clap::{Args, ValueEnum};
@@ -19,7 +20,10 @@ use std::path::{Path, PathBuf};
 /// wall speed, and holds it against the exact quasi-static limit under the engine's own contact
 /// convention. Engines that are not installed are represented by their recorded runs.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack crosscheck --engines native,liggghts --out results")]
+#[command(
+    after_help = "Examples: tristack crosscheck --engines native,liggghts --out results\n          \
+    tristack crosscheck --explain yade/0.3/100"
+)]
 pub struct Arguments {
     /// Which stacks
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
@@ -27,9 +31,12 @@ pub struct Arguments {
     /// Which engines, separated by commas; each must be installed [default: all, recorded if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
     engines: Vec<EngineName>,
-    /// Directory for crosscheck.csv, crosscheck.json and crosscheck.md
+    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Explain one row, ENGINE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["engines", "out", "format", "profile"])]
+    explain: Option<RowName>,
     #[command(flatten)]
     run: RunOptions,
     /// How to print the rows
@@ -39,6 +46,9 @@ pub struct Arguments {
 
 /// Runs the crosscheck, prints and writes its rows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    if let Some(row) = &arguments.explain {
+        return explain(row, &arguments.run);
+    }
     let participants = participants(&arguments.engines)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
@@ -75,6 +85,7 @@ fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<()
         &directory.join("crosscheck.csv"),
         &crosscheck_csv(judgements),
     )?;
+    write_atomically(&directory.join("budget.csv"), &budget_csv(judgements))?;
     write_atomically(
         &directory.join("crosscheck.json"),
         crosscheck_json(judgements).as_bytes(),

@@ -43,6 +43,7 @@ impl ExitStatus {
         let each = judgements
             .iter()
             .map(|judgement| match judgement.row.verdict {
+                _ if judgement.contradicted => Self::Disagreement,
                 Verdict::NoYield if judgement.row.reference_force.is_none() => Self::Success,
                 verdict => Self::of_verdict(verdict),
             });

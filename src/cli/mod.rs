@@ -3,7 +3,9 @@
 mod crosscheck;
 mod engines;
 mod error;
+mod explain;
 mod options;
+mod probe;
 mod progress;
 mod record;
 mod simulate;
@@ -44,6 +46,7 @@ enum Command {
     Crosscheck(crosscheck::Arguments),
     Trajectories(trajectories::Arguments),
     Engines(engines::Arguments),
+    Probe(probe::Arguments),
     Record(record::Arguments),
 }
 
@@ -64,6 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
         Command::Trajectories(arguments) => trajectories::run(&arguments),
         Command::Engines(arguments) => engines::run(&arguments),
+        Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
     }
 }

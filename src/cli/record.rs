@@ -6,15 +6,18 @@ use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
 use crate::crosscheck::{
-    Measurement, Participant, Profile, Recorded, RunError, Settings, Workload, plan, run_all,
+    Measurement, Participant, Profile, Recorded, RunError, Settings, Workload, plan, record_probe,
+    run_all,
 };
 use crate::engine::EngineName;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// A set of recorded runs.
+/// A part of what is recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Set {
+    /// The answers to `tristack probe`.
+    Probe,
     /// The quick profile of `tristack crosscheck`.
     Crosscheck,
     /// The series of `tristack trajectories`.
@@ -31,7 +34,7 @@ pub struct Arguments {
     /// Which engines, separated by commas; each must be installed [default: all external ones]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
     engines: Vec<EngineName>,
-    /// Only the runs of one command [default: all]
+    /// Only what one command needs [default: all]
     #[arg(long, value_enum, value_name = "COMMAND")]
     only: Option<Set>,
     #[command(flatten)]
@@ -49,26 +52,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     };
     let participants = participants(&external)?;
     let settings = arguments.run.settings()?;
-    let wanted = |set: Set| arguments.only.is_none_or(|only| only == set);
     let mut worst = ExitStatus::Success;
     for participant in participants {
-        let participant = [participant];
-        let name = participant[0].name;
-        if wanted(Set::Crosscheck) {
-            let stacks = Profile::Quick.stacks();
-            let plans = stacks
-                .iter()
-                .map(|stack| plan(name, stack, name.convention()));
-            let plans: Vec<Measurement> = plans.collect();
-            let place = (&settings.recorded, reference_directory());
-            worst = worst.max(record(&plans, &participant, &settings, place)?);
-        }
-        if wanted(Set::Trajectories) {
-            let plans = trajectories(std::iter::once(name));
-            let directory = reference_directory().join("trajectories");
-            let place = (&recorded_trajectories(), directory);
-            worst = worst.max(record(&plans, &participant, &settings, place)?);
-        }
+        worst = worst.max(record(participant, arguments.only, &settings)?);
     }
     Ok(if INTERRUPT.requested() {
         ExitStatus::Interrupted
@@ -77,8 +63,41 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     })
 }
 
+/// Records one engine, set by set.
+fn record(
+    participant: Participant,
+    only: Option<Set>,
+    settings: &Settings,
+) -> Result<ExitStatus, CliError> {
+    let name = participant.name;
+    let participant = [participant];
+    let wanted = |set: Set| only.is_none_or(|only| only == set);
+    let mut worst = ExitStatus::Success;
+    if wanted(Set::Probe) {
+        worst = worst.max(record_probe_of(&participant[0], settings)?);
+    }
+    if wanted(Set::Crosscheck) {
+        let stacks = Profile::Quick.stacks();
+        let plans = stacks
+            .iter()
+            .map(|stack| plan(name, stack, name.convention()));
+        let plans: Vec<Measurement> = plans.collect();
+        let place = (&settings.recorded, reference_directory());
+        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+    }
+    if wanted(Set::Trajectories) {
+        let plans = trajectories(std::iter::once(name));
+        let place = (
+            &recorded_trajectories(),
+            reference_directory().join("trajectories"),
+        );
+        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+    }
+    Ok(worst)
+}
+
 /// Records the runs of one engine, in place of those that are there.
-fn record<W: Workload>(
+fn record_runs<W: Workload>(
     workloads: &[W],
     participant: &[Participant; 1],
     settings: &Settings,
@@ -101,7 +120,27 @@ fn record<W: Workload>(
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            eprintln!("{name} is not recorded: {error}");
+            eprintln!("the runs of {name} are not recorded: {error}");
+            Ok(ExitStatus::EngineFailed)
+        }
+    }
+}
+
+/// Records the probe of one engine, in place of the one that is there.
+fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
+    let name = participant.name;
+    let reporter = Reporter::new();
+    let probe = record_probe(participant, settings, &reporter);
+    drop(reporter);
+    match probe {
+        Ok(probe) => {
+            settings.recorded.replace_probe(name, &probe)?;
+            let directory = reference_directory();
+            eprintln!("probe of {name} recorded under {}", directory.display());
+            Ok(ExitStatus::Success)
+        }
+        Err(error) => {
+            eprintln!("the probe of {name} is not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }

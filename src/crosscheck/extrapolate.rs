@@ -2,9 +2,11 @@
 
 use super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::trace::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
+use serde::Serialize;
 
-/// What the uncertainty consists of, each part an expected largest error in m g.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What the numerical uncertainty u_num consists of, in the words of ASME V&V 20; each part an expected
+/// largest error in m g.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Budget {
     /// Distance between the extrapolations of second and first order in the wall speed.
     pub wall_speed: f64,
@@ -16,36 +18,100 @@ pub struct Budget {
     pub preparation: f64,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
-    /// A few units in the last place of the positions, as the extrapolation amplifies them. Series are
-    /// printed with every digit, so that print precision adds nothing to it.
+    /// Rounding of positions in every step, accumulated like a random walk, as the reading of the force and
+    /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
+    /// times less (tests/round_off.rs).
     pub round_off: f64,
+    /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
+    pub print_precision: f64,
 }
 
 impl Budget {
-    /// The uncertainty: the sum of the parts, as if they all conspired.
+    /// The parts by name, in order.
+    pub fn parts(&self) -> [(&'static str, f64); 6] {
+        [
+            ("wall speed", self.wall_speed),
+            ("time step", self.time_step),
+            ("preparation", self.preparation),
+            ("sampling", self.sampling),
+            ("round-off", self.round_off),
+            ("print precision", self.print_precision),
+        ]
+    }
+
+    /// The expanded uncertainty: the sum of the parts, as if they all conspired. It is never below their root
+    /// sum of squares, by which V&V 20 combines independent parts.
     pub fn total(&self) -> f64 {
-        self.wall_speed + self.time_step + self.preparation + self.sampling + self.round_off
+        self.parts().iter().map(|(_, part)| part).sum()
     }
 }
 
 /// A yield force at vanishing wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extrapolation {
-    /// F = f/(m g).
+    /// F = f/(m g), extrapolated with the parabola through the three speeds.
     pub force: f64,
+    /// The same with the straight line through the two slower ones.
+    pub first_order: f64,
     /// Where its uncertainty comes from.
     pub budget: Budget,
-    /// Observed order of convergence in the wall speed; 1 is expected.
-    pub order: f64,
+    /// How fast the differences between the speeds shrink.
+    pub order: Order,
 }
 
-/// Positions are of order r and forces differences of them: two of up to 2.8 r each.
-const ROUND_OFF: f64 = 4.0 * 2.8 * f64::EPSILON;
+/// Order of convergence in the wall speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Order {
+    /// log₂ of the ratio of successive differences; absent where they are lost in noise.
+    pub observed: Option<f64>,
+    /// How far the observed order may be from the expected one: what noise and curvature do to it.
+    pub allowance: f64,
+}
 
-/// Extrapolates one estimator over the runs of a measurement, in the order of its cases. `None` if it is
-/// absent from any of them.
+impl Order {
+    /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
+    pub const EXPECTED: f64 = 1.0;
+
+    /// From forces at three speeds, each half the one before, known up to `noise`. The term of second order
+    /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
+    /// that moves the order by less than 0.01. Five times as much is allowed.
+    fn of(forces: &[f64], noise: f64) -> Self {
+        const CURVATURE: f64 = 0.05;
+        let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
+        let smallest = differences[0].min(differences[1]);
+        if smallest <= 2.0 * noise {
+            return Self {
+                observed: None,
+                allowance: f64::INFINITY,
+            };
+        }
+        let relative_noise = 2.0 * noise / smallest;
+        Self {
+            observed: Some(libm::log2(differences[0] / differences[1])),
+            allowance: CURVATURE + 2.0 * relative_noise / std::f64::consts::LN_2,
+        }
+    }
+
+    /// Whether the runs converge as they should, as far as can be seen.
+    pub fn is_expected(&self) -> bool {
+        let off = |observed: f64| (observed - Self::EXPECTED).abs();
+        self.observed
+            .is_none_or(|observed| off(observed) <= self.allowance)
+    }
+}
+
+/// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
+const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
+/// Root mean square of one rounding, in units of the last place: 1/√12.
+const ROUNDING: f64 = 0.288_675_134_594_812_9;
+/// Half a unit of the seventeenth significant digit.
+const PRINTED: f64 = 0.5e-16;
+
+/// Extrapolates one estimator over the runs of a measurement, in the order of its cases, which take so many
+/// `steps` each. `None` if it is absent from any of them.
 pub fn extrapolate(
     estimates: &[YieldEstimates],
+    steps: &[u64],
     stiffness: f64,
     estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
 ) -> Option<Extrapolation> {
@@ -54,24 +120,37 @@ pub fn extrapolate(
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
     let force = value_at_zero(&SPEEDS, &forces);
-    let lower_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
+    let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
     let weights = weights_at_zero(&SPEEDS);
-    let amplified = |errors: Vec<f64>| -> f64 {
-        let terms = weights.iter().zip(errors);
-        terms.map(|(weight, error)| weight.abs() * error).sum()
+    let amplified = |error: &dyn Fn(&Estimate, u64) -> f64| -> f64 {
+        let runs = by_speed.iter().zip(steps);
+        let terms = weights.iter().zip(runs);
+        terms
+            .map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps))
+            .sum()
     };
+    let rounded = |estimate: &Estimate, steps: u64| {
+        let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
+        per_step * (steps as f64).sqrt() * estimate.sensitivity
+    };
+    let printed =
+        |estimate: &Estimate, _| PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity;
     let budget = Budget {
-        wall_speed: (force - lower_order).abs(),
+        wall_speed: (force - first_order).abs(),
         time_step: change_from_middle(COARSE_TIME_STEP_RUN)?,
         preparation: change_from_middle(SHORT_RAMP_RUN)?,
-        sampling: amplified(by_speed.iter().map(|estimate| estimate.sampling).collect()),
-        round_off: amplified(vec![ROUND_OFF * stiffness; forces.len()]),
+        sampling: amplified(&|estimate, _| estimate.sampling),
+        round_off: amplified(&rounded),
+        print_precision: amplified(&printed),
     };
-    let order = libm::log2(((forces[0] - forces[1]) / (forces[1] - forces[2])).abs());
+    let noise =
+        |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);
+    let noise = by_speed.iter().zip(steps).map(noise).fold(0.0, f64::max);
     Some(Extrapolation {
         force,
+        first_order,
         budget,
-        order,
+        order: Order::of(&forces, noise),
     })
 }
 
@@ -79,11 +158,14 @@ pub fn extrapolate(
 mod tests {
     use super::*;
 
+    const STEPS: [u64; 5] = [10_000, 20_000, 40_000, 10_000, 20_000];
+
     fn estimates(forces: [f64; 5]) -> Vec<YieldEstimates> {
         let estimate = |force| {
             Some(Estimate {
                 force,
                 sampling: 1e-9,
+                sensitivity: 1.0,
             })
         };
         forces
@@ -98,9 +180,11 @@ mod tests {
     #[test]
     fn a_linear_approach_is_removed_and_recognised() {
         let runs = estimates([10.4, 10.2, 10.1, 10.2003, 10.1999]);
-        let result = extrapolate(&runs, 100.0, |run| run.slip).unwrap();
+        let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
         assert!((result.force - 10.0).abs() < 1e-12);
-        assert!((result.order - 1.0).abs() < 1e-12);
+        let order = result.order.observed.unwrap();
+        assert!((order - 1.0).abs() < 1e-12);
+        assert!(result.order.is_expected());
         assert!(result.budget.wall_speed < 1e-12);
         assert!((result.budget.time_step - 3e-4).abs() < 1e-12);
         assert!((result.budget.preparation - 1e-4).abs() < 1e-12);
@@ -110,14 +194,34 @@ mod tests {
     #[test]
     fn curvature_in_the_speed_shows_in_the_budget() {
         let runs = estimates([10.4 + 0.16, 10.2 + 0.04, 10.1 + 0.01, 10.24, 10.24]);
-        let result = extrapolate(&runs, 100.0, |run| run.slip).unwrap();
+        let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
         assert!((result.force - 10.0).abs() < 1e-12);
         assert!((result.budget.wall_speed - 0.02).abs() < 1e-12);
     }
 
     #[test]
+    fn a_wrong_order_is_noticed() {
+        let runs = estimates([10.0 + 1.6, 10.0 + 0.4, 10.1, 10.4, 10.4]);
+        let order = extrapolate(&runs, &STEPS, 100.0, |run| run.slip)
+            .unwrap()
+            .order;
+        assert!((order.observed.unwrap() - 2.0).abs() < 1e-12);
+        assert!(!order.is_expected());
+    }
+
+    #[test]
+    fn an_order_below_the_noise_is_not_observed() {
+        let runs = estimates([10.0 + 1e-9, 10.0, 10.0 - 1e-9, 10.0, 10.0]);
+        let order = extrapolate(&runs, &STEPS, 100.0, |run| run.slip)
+            .unwrap()
+            .order;
+        assert_eq!(order.observed, None);
+        assert!(order.is_expected());
+    }
+
+    #[test]
     fn an_estimator_missing_from_one_run_is_missing() {
         let runs = estimates([1.0; 5]);
-        assert_eq!(extrapolate(&runs, 1.0, |run| run.peak), None);
+        assert_eq!(extrapolate(&runs, &STEPS, 1.0, |run| run.peak), None);
     }
 }

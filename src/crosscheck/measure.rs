@@ -1,10 +1,12 @@
 //! Measurements in, judged rows out.
 
-use super::extrapolate::{Extrapolation, extrapolate};
+use super::extrapolate::{Extrapolation, Order, extrapolate};
 use super::plan::Measurement;
+use super::probing::{Probed, contradictions, probe_all};
 use super::schedule::{Participant, Progress, RunError, Settings, run_all};
 use super::verdict::{Row, Source, judge, tolerance};
 use crate::archive::Run;
+use crate::stack::Case;
 use crate::trace::YieldEstimates;
 use crate::verdict::Verdict;
 
@@ -13,12 +15,16 @@ use crate::verdict::Verdict;
 pub struct Judgement {
     /// The row.
     pub row: Row,
+    /// What was read off each run, in the order of the cases.
+    pub runs: Vec<YieldEstimates>,
     /// Slip onset and peak at vanishing wall speed.
     pub slip: Option<Extrapolation>,
     /// See `slip`.
     pub peak: Option<Extrapolation>,
     /// What explains a verdict other than `agrees`.
     pub notes: Vec<String>,
+    /// Whether the engine is not judged because its probe contradicts its declaration.
+    pub contradicted: bool,
 }
 
 /// What is kept of a run.
@@ -53,23 +59,27 @@ pub fn measure(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Judgement> {
+    let probed = probe_all(participants, settings, progress);
     let results = run_all(measurements, participants, settings, progress, Reading::new);
     let complete = measurements
         .iter()
         .zip(results)
         .filter(|(_, results)| !results.iter().any(is_interrupted));
     let judged = complete.map(|(measurement, results)| {
-        let participant = participants
-            .iter()
-            .find(|who| who.name == measurement.engine);
-        let engine = participant.and_then(|participant| participant.engine.as_deref());
+        let mut own = participants.iter().zip(&probed);
+        let own = own.find(|(who, _)| who.name == measurement.engine);
+        let engine = own.and_then(|(who, _)| who.engine.as_deref());
         let source = if engine.is_some() {
             Source::Live
         } else {
             Source::Recorded
         };
         let version = engine.map_or_else(String::new, |engine| engine.identity().version.clone());
-        judge_measurement(measurement, source, version, results)
+        let judgement = judge_measurement(measurement, source, version, results);
+        match own {
+            Some((_, probed)) => judgement.unless_contradicted(probed),
+            None => judgement,
+        }
     });
     judged.collect()
 }
@@ -82,9 +92,11 @@ fn judge_measurement(
 ) -> Judgement {
     let mut judgement = Judgement {
         row: blank_row(measurement, source, version),
+        runs: Vec::new(),
         slip: None,
         peak: None,
         notes: Vec::new(),
+        contradicted: false,
     };
     if measurement.cases.is_empty() {
         judgement.row.verdict = Verdict::NoYield;
@@ -144,8 +156,10 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
 fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &mut Judgement) {
     let stiffness = measurement.stack.stiffness;
     let estimates: Vec<YieldEstimates> = readings.iter().map(|reading| reading.estimates).collect();
-    judgement.slip = extrapolate(&estimates, stiffness, |run| run.slip);
-    judgement.peak = extrapolate(&estimates, stiffness, |run| run.peak);
+    let steps: Vec<u64> = measurement.cases.iter().map(Case::total_steps).collect();
+    judgement.slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
+    judgement.peak = extrapolate(&estimates, &steps, stiffness, |run| run.peak);
+    judgement.runs.clone_from(&estimates);
     let Some(reference) = measurement.limit.yield_force else {
         return;
     };
@@ -167,6 +181,13 @@ fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &m
     if let Some(note) = friction_note(measurement, &estimates) {
         judgement.doubt(note);
     }
+    if !slip.order.is_expected() {
+        judgement.doubt(format!(
+            "the slip onset converges with order {:.2} in the wall speed, not {}",
+            slip.order.observed.unwrap_or(f64::NAN),
+            Order::EXPECTED
+        ));
+    }
     if (peak.force - slip.force).abs() > uncertainty + peak_uncertainty {
         judgement.doubt(format!(
             "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainties {:.1e}",
@@ -187,6 +208,26 @@ impl Judgement {
         self.row.error = Some(error);
         self.row.tolerance = Some(tolerance(uncertainty / load));
         self.row.verdict = judge(error, uncertainty / load);
+    }
+
+    /// Takes the judgement back where the limit belongs to a convention that the engine does not have, or is
+    /// not known to have.
+    fn unless_contradicted(mut self, probed: &Probed) -> Self {
+        let contradictions = contradictions(probed);
+        let judged = matches!(self.row.verdict, Verdict::Agrees | Verdict::Differs);
+        let Some(first) = contradictions.first().filter(|_| judged) else {
+            return self;
+        };
+        let further = match contradictions.len() {
+            1 => String::new(),
+            count => format!(" (and {} more: tristack probe)", count - 1),
+        };
+        self.notes.push(format!("not judged: {first}{further}"));
+        self.contradicted = probed.is_ok();
+        self.row.error = None;
+        self.row.tolerance = None;
+        self.row.verdict = Verdict::Inconclusive;
+        self
     }
 
     /// Notes what speaks against an agreement.

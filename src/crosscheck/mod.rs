@@ -1,27 +1,33 @@
 //! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge. And whole series beside
 //! those of a native twin.
 
+mod evidence;
 mod extrapolate;
 mod measure;
 mod plan;
+mod probing;
 mod recorded;
 mod schedule;
 mod store;
 mod trajectory;
+mod twin;
 mod verdict;
 
-pub use extrapolate::{Budget, Extrapolation, extrapolate};
+pub use evidence::Evidence;
+pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
 pub use measure::{Judgement, measure};
 pub use plan::{
     Measurement, NoYield, Profile, no_yield, plan, planned_protocol, protocol_at_speed,
     yielding_frictions,
 };
+pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use store::Store;
 pub use trajectory::{
-    Branch, Comparison, DEVIATIONS, Distance, Documented, FORCE_BAR, Milestones, ORDER_TOLERANCE,
-    Order, Quantity, TIME_STEPS, Trajectory, TrajectoryJudgement, TrajectoryRow, Twin, TwinRuns,
-    WALL_SPEED, documented, measure_trajectories, plan_trajectory, trajectory_stack,
+    Branch, Comparison, DEVIATIONS, Distance, Documented, DocumentedOrder, FORCE_BAR, Milestones,
+    ORDER_TOLERANCE, Quantity, TIME_STEPS, Trajectory, TrajectoryJudgement, TrajectoryRow, Twin,
+    TwinRuns, WALL_SPEED, documented, measure_trajectories, plan_trajectory, trajectory_stack,
 };
+pub use twin::{TwinForce, measure_with_twin};
 pub use verdict::{BAR, FLOOR, Row, Source};

@@ -221,7 +221,7 @@ mod tests {
             assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
             for case in &measurement.cases {
                 case.validate().unwrap();
-                let steps = case.protocol.schedule().total_steps();
+                let steps = case.total_steps();
                 assert!((3_000..150_000).contains(&steps), "{steps}");
             }
         }

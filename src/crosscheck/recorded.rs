@@ -1,6 +1,6 @@
 //! Recorded runs, which stand in for engines that are not installed.
 
-use crate::archive::{Archive, ArchiveError, Run};
+use crate::archive::{Archive, ArchiveError, ProbeRecord, Run};
 use crate::engine::EngineName;
 use crate::stack::Case;
 use std::path::{Path, PathBuf};
@@ -71,6 +71,44 @@ impl Recorded {
             });
         }
         Ok(run)
+    }
+
+    /// The recorded probe of `engine`.
+    ///
+    /// # Errors
+    /// If there is none, or it is damaged, or it was made with another deck.
+    pub fn probe(&self, engine: EngineName) -> Result<ProbeRecord, RecordedError> {
+        let path = self.probe_path(engine);
+        let Some(record) = ProbeRecord::load(&path)? else {
+            return Err(RecordedError::Absent { engine, path });
+        };
+        let current = engine.probe_hash();
+        if record.provenance.deck_hash != current {
+            return Err(RecordedError::OtherDeck {
+                engine,
+                path,
+                recorded: record.provenance.deck_hash,
+                current,
+            });
+        }
+        Ok(record)
+    }
+
+    /// Records the probe of `engine` in place of an older one.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn replace_probe(
+        &self,
+        engine: EngineName,
+        record: &ProbeRecord,
+    ) -> Result<(), ArchiveError> {
+        record.save(&self.probe_path(engine))
+    }
+
+    fn probe_path(&self, engine: EngineName) -> PathBuf {
+        let name = format!("{engine}.json");
+        self.archive.root().join("probes").join(name)
     }
 
     /// Records `runs` of `engine` in place of everything recorded of it before.

@@ -197,7 +197,7 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
     }
 
     fn steps(&self, job: &Job) -> u64 {
-        let steps = |&task: &Task| self.case(task).protocol.schedule().total_steps();
+        let steps = |&task: &Task| self.case(task).total_steps();
         job.tasks.iter().map(steps).sum()
     }
 

@@ -1,6 +1,6 @@
 //! The store of finished runs, addressed by case, engine, version, program and all it was given.
 
-use crate::archive::{Archive, ArchiveError, Identity, Provenance, Run};
+use crate::archive::{Archive, ArchiveError, Identity, ProbeRecord, Provenance, Run};
 use crate::stack::Case;
 use std::path::{Path, PathBuf};
 
@@ -55,6 +55,27 @@ impl Store {
         } = &run.provenance;
         self.archive
             .save(&name(identity, &run.case, deck_hash), run)
+    }
+
+    /// The kept probe with the given address, if there is one.
+    ///
+    /// # Errors
+    /// If there is one, but damaged.
+    pub fn probe(&self, address: &str) -> Result<Option<ProbeRecord>, ArchiveError> {
+        ProbeRecord::load(&self.probe_path(address))
+    }
+
+    /// Keeps a probe.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), ArchiveError> {
+        record.save(&self.probe_path(address))
+    }
+
+    fn probe_path(&self, address: &str) -> PathBuf {
+        let name = format!("{address}.json");
+        self.archive.root().join("probes").join(name)
     }
 
     /// Where run directories are made; those of failed runs stay.

@@ -72,6 +72,12 @@ impl<'a, T: Task> Batch<'a, T> {
     /// Runs the process and reports tasks, at least the first one. Those beyond the last reported one have
     /// had no chance, because it took the process down.
     pub fn run(&mut self, workplace: &Workplace, report: Report<T>) {
+        if workplace.interrupt.requested() {
+            for index in 0..self.tasks.len() {
+                self.fail(index, FailureKind::Interrupted, report);
+            }
+            return;
+        }
         if let Err(kind) = self.prepare() {
             // Nothing may be read from directories that have not been cleared.
             return self.fail(0, kind, report);

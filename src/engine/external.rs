@@ -24,6 +24,8 @@ pub struct Adapter {
     pub(super) stack: Deck<Case>,
     /// How it carries out a micro-test.
     pub(super) probe: Deck<ContactTest>,
+    /// A build of the same code that computes with more digits.
+    pub(super) precise_program: Option<&'static str>,
 }
 
 impl Adapter {
@@ -48,14 +50,24 @@ impl Adapter {
 /// An external code that is installed.
 pub struct ExternalEngine {
     pub(super) adapter: &'static Adapter,
+    /// Program in the search path: that of the adapter, or a build of it in another precision.
+    pub(super) program: &'static str,
     pub(super) installation: Installation,
     identity: Identity,
 }
 
 impl ExternalEngine {
+    /// The code as it is installed here.
     pub(super) fn find(adapter: &'static Adapter) -> Option<Box<dyn Engine>> {
-        let installation =
-            installation::find(adapter.program, &adapter.version, adapter.environment)?;
+        Self::find_program(adapter, adapter.program)
+    }
+
+    /// The code as the `program`, which takes the same decks.
+    pub(super) fn find_program(
+        adapter: &'static Adapter,
+        program: &'static str,
+    ) -> Option<Box<dyn Engine>> {
+        let installation = installation::find(program, &adapter.version, adapter.environment)?;
         let identity = Identity {
             engine: adapter.name.as_str().to_owned(),
             version: installation.version.clone(),
@@ -64,6 +76,7 @@ impl ExternalEngine {
         };
         Some(Box::new(Self {
             adapter,
+            program,
             installation,
             identity,
         }))
@@ -71,17 +84,19 @@ impl ExternalEngine {
 
     /// Program and arguments that carry out the tasks in `directories`.
     pub(super) fn command<T: Task>(&self, deck: &Deck<T>, directories: &[String]) -> Vec<String> {
-        let mut command = vec![self.adapter.program.to_owned()];
+        let mut command = vec![self.program.to_owned()];
         command.extend((deck.arguments)(directories));
         command
     }
 
-    /// Carries out `tasks` in order, as many at once as the code can.
+    /// Carries out `tasks` in order, as many at once as the code can; if `all_or_nothing`, only up to the
+    /// first failure.
     fn carry_out<T: Task>(
         &self,
         deck: &Deck<T>,
         tasks: &[T],
         workplace: &Workplace,
+        all_or_nothing: bool,
         finished: Finished<(T::Outcome, f64)>,
     ) {
         let many = deck.completion_file.is_some();
@@ -92,14 +107,17 @@ impl ExternalEngine {
             let directory = if tasks.len() == 1 {
                 workplace.directory.to_owned()
             } else {
-                workplace
-                    .directory
-                    .join(format!("{}-{next}", self.adapter.program))
+                workplace.directory.join(format!("{}-{next}", self.program))
             };
             let mut batch = Batch::new(self, deck, &tasks[next..end], directory);
+            let mut failed = false;
             batch.run(workplace, &mut |index, result| {
+                failed |= result.is_err();
                 finished(next + index, result);
             });
+            if failed && all_or_nothing {
+                return;
+            }
             next += batch.settled();
         }
     }
@@ -120,7 +138,7 @@ impl Engine for ExternalEngine {
 
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {
         let deck = &self.adapter.stack;
-        self.carry_out(deck, cases, workplace, &mut |index, result| {
+        self.carry_out(deck, cases, workplace, false, &mut |index, result| {
             let case = cases[index];
             let run = result.map(|(trace, seconds)| Run {
                 case,
@@ -144,6 +162,7 @@ impl Engine for ExternalEngine {
             &self.adapter.probe,
             tests,
             workplace,
+            true,
             &mut |index, result| match result {
                 Ok((motion, _)) => motions[index] = Some(motion),
                 Err(error) => failure = failure.take().or(Some(error)),

@@ -49,6 +49,7 @@ pub static LAMMPS: Adapter = Adapter {
         completion_file: None,
         read: |directory, test| thermo_log::read_motion(directory, LOG, ["v_step", "v_x1"], test),
     },
+    precise_program: None,
 };
 
 const CONTACTS: (&str, &str) = (

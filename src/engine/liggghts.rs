@@ -55,6 +55,7 @@ pub static LIGGGHTS: Adapter = Adapter {
         completion_file: None,
         read: |directory, test| thermo_log::read_motion(directory, LOG, ["step", "x1"], test),
     },
+    precise_program: None,
 };
 
 const CONTACTS: (&str, &str) = (

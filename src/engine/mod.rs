@@ -173,12 +173,30 @@ impl EngineName {
         }
     }
 
+    /// Hash of the deck of the micro-tests, or of the sources of the native engine.
+    pub fn probe_hash(self) -> String {
+        match self.adapter() {
+            None => crate::dem::SOURCE_DIGEST.clone(),
+            Some(adapter) => adapter.static_hash(&adapter.probe),
+        }
+    }
+
     /// The engine as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn Engine>> {
         match self.adapter() {
             None => Some(Box::new(native::Native::new())),
             Some(adapter) => external::ExternalEngine::find(adapter),
         }
+    }
+
+    /// The same engine computing with more digits, if there is one here: native in double-double
+    /// arithmetic, YADE in long double. What is between the two is round-off.
+    pub fn find_precise(self) -> Option<Box<dyn Engine>> {
+        let Some(adapter) = self.adapter() else {
+            return Some(Box::new(native::Native::precise()));
+        };
+        let program = adapter.precise_program?;
+        external::ExternalEngine::find_program(adapter, program)
     }
 
     fn adapter(self) -> Option<&'static external::Adapter> {

@@ -2,25 +2,44 @@
 
 use super::{Engine, EngineName, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::{compress_stack, run_contact_test};
+use crate::dem::{compress_stack, compress_stack_precisely, run_contact_test};
 use crate::stack::{Case, ContactTest};
-use crate::trace::Motion;
+use crate::trace::{Motion, SeriesError, Trace};
 use std::time::Instant;
 
 /// The DEM of this program.
 pub struct Native {
     identity: Identity,
+    compress: Compress,
 }
+
+/// Makes the series of a case, unless it is no longer wanted.
+type Compress = fn(&Case, &dyn Fn() -> bool) -> Result<Trace, SeriesError>;
 
 impl Native {
     pub(super) fn new() -> Self {
+        Self::computing(env!("CARGO_PKG_VERSION"), |case, wanted| {
+            compress_stack(case, wanted)
+        })
+    }
+
+    /// In double-double arithmetic.
+    pub(super) fn precise() -> Self {
+        let version = concat!(env!("CARGO_PKG_VERSION"), " double-double");
+        Self::computing(version, |case, wanted| {
+            compress_stack_precisely(case, wanted)
+        })
+    }
+
+    fn computing(version: &str, compress: Compress) -> Self {
         Self {
             identity: Identity {
                 engine: EngineName::Native.as_str().to_owned(),
-                version: env!("CARGO_PKG_VERSION").to_owned(),
+                version: version.to_owned(),
                 package: None,
                 program_hash: None,
             },
+            compress,
         }
     }
 
@@ -29,13 +48,13 @@ impl Native {
         let limit = workplace.time_limit;
         let late = || limit.is_some_and(|limit| start.elapsed() > limit);
         let stopped = || workplace.interrupt.requested() || late();
-        let trace = compress_stack(case, || !stopped()).map_err(|error| match limit {
+        let trace = (self.compress)(case, &|| !stopped()).map_err(|error| match limit {
             _ if workplace.interrupt.requested() => FailureKind::Interrupted,
             Some(limit) if late() => FailureKind::TimedOut(limit),
             _ => error.into(),
         })?;
         let seconds = start.elapsed().as_secs_f64();
-        let steps = case.protocol.schedule().total_steps();
+        let steps = case.total_steps();
         let command = [
             "tristack",
             "simulate",

@@ -30,7 +30,7 @@ impl Task for Case {
     }
 
     fn steps(&self) -> u64 {
-        self.protocol.schedule().total_steps()
+        self.total_steps()
     }
 
     fn parameters(&self) -> serde_json::Value {

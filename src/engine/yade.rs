@@ -88,6 +88,7 @@ const fn adapter(name: EngineName, stack: Arguments, probe: Arguments) -> Adapte
             completion_file: Some(MOTION),
             read: read_motion,
         },
+        precise_program: Some("yade-longdouble"),
     }
 }
 

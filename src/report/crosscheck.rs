@@ -2,7 +2,8 @@
 
 use super::number::{friction, optional, relative, significant};
 use super::table::Table;
-use crate::crosscheck::{BAR, FLOOR, Judgement, Row};
+use crate::crosscheck::{BAR, Evidence, FLOOR, Judgement, Order, Row};
+use serde::Serialize;
 
 /// The rows with every digit.
 pub fn crosscheck_csv(judgements: &[Judgement]) -> Vec<u8> {
@@ -13,6 +14,101 @@ pub fn crosscheck_csv(judgements: &[Judgement]) -> Vec<u8> {
             .expect("plain rows are written to memory");
     }
     writer.into_inner().expect("memory is flushed")
+}
+
+/// What the uncertainty of a row consists of, in m g, and how its runs converge.
+#[derive(Serialize)]
+struct BudgetRow<'a> {
+    engine: &'a str,
+    mu: f64,
+    stiffness: f64,
+    model_form: Option<f64>,
+    wall_speed: f64,
+    time_step: f64,
+    preparation: f64,
+    sampling: f64,
+    round_off: f64,
+    print_precision: f64,
+    uncertainty: f64,
+    observed_order: Option<f64>,
+    expected_order: f64,
+}
+
+impl<'a> BudgetRow<'a> {
+    fn new(judgement: &'a Judgement) -> Option<Self> {
+        let slip = judgement.slip.as_ref()?;
+        let budget = &slip.budget;
+        let row = &judgement.row;
+        Some(Self {
+            engine: row.engine.as_str(),
+            mu: row.mu,
+            stiffness: row.stiffness,
+            model_form: row.model_form,
+            wall_speed: budget.wall_speed,
+            time_step: budget.time_step,
+            preparation: budget.preparation,
+            sampling: budget.sampling,
+            round_off: budget.round_off,
+            print_precision: budget.print_precision,
+            uncertainty: budget.total(),
+            observed_order: slip.order.observed,
+            expected_order: Order::EXPECTED,
+        })
+    }
+}
+
+/// The error budget of every row that has one, with every digit.
+pub fn budget_csv(judgements: &[Judgement]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in judgements.iter().filter_map(BudgetRow::new) {
+        writer
+            .serialize(row)
+            .expect("plain rows are written to memory");
+    }
+    writer.into_inner().expect("memory is flushed")
+}
+
+fn budgets(judgements: &[Judgement]) -> Table {
+    let mut table = Table::new(&[
+        "stiffness>",
+        "mu>",
+        "engine",
+        "wall speed>",
+        "time step>",
+        "preparation>",
+        "sampling>",
+        "round-off>",
+        "print precision>",
+        "total>",
+        "observed order>",
+        "expected>",
+    ]);
+    for row in judgements.iter().filter_map(BudgetRow::new) {
+        let part = |value: f64| format!("{value:.0e}");
+        table.push(vec![
+            row.stiffness.to_string(),
+            friction(row.mu),
+            row.engine.to_owned(),
+            part(row.wall_speed),
+            part(row.time_step),
+            part(row.preparation),
+            part(row.sampling),
+            part(row.round_off),
+            part(row.print_precision),
+            part(row.uncertainty),
+            optional(row.observed_order, |order| format!("{order:.3}")),
+            row.expected_order.to_string(),
+        ]);
+    }
+    table
+}
+
+fn evidence() -> String {
+    let tiers = Evidence::ALL.map(|tier| {
+        let (name, limit) = (tier.as_str(), tier.does_not_prove());
+        format!("1. **{name}**: does not prove {limit}.\n")
+    });
+    format!("\n## Evidence, strongest first\n\n{}", tiers.concat())
 }
 
 /// The rows as a list of objects.
@@ -32,8 +128,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
         "# Crosscheck of the three-cylinder stack\n\n\
          Made by tristack {} with `{command}`.\n\n\
          Yield force F = f/(m g) at vanishing wall speed, against the exact quasi-static limit under the \
-         same contact convention. The uncertainty ± (wall speed, time step, preparation, sampling, \
-         round-off) is in m g like F; error, tolerance and model form are relative to F + 3. The tolerance \
+         same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + 3. The tolerance \
          is the uncertainty, but at least {FLOOR:e} and at most {BAR:e}. Model form is the distance of the \
          limit under the engine's convention from the one under the paper's.\n\n",
         env!("CARGO_PKG_VERSION")
@@ -41,6 +136,11 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     page += &engines(judgements).markdown();
     page += "\n";
     page += &rows(judgements).markdown();
+    page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
+             the order with which the runs converge in the wall speed. How each part is computed, and all \
+             runs behind a row: `tristack crosscheck --explain ENGINE/MU/STIFFNESS`.\n\n";
+    page += &budgets(judgements).markdown();
+    page += &evidence();
     let explained = judgements
         .iter()
         .filter(|judgement| !judgement.notes.is_empty());
@@ -68,7 +168,14 @@ fn remark(judgement: &Judgement) -> String {
 
 /// The engines in the order of their first rows, with what all their rows share.
 fn engines(judgements: &[Judgement]) -> Table {
-    let mut table = Table::new(&["engine", "version", "source", "pair arm>", "floor arm>"]);
+    let mut table = Table::new(&[
+        "engine",
+        "version",
+        "source",
+        "pair arm>",
+        "floor arm>",
+        "evidence",
+    ]);
     let mut seen = Vec::new();
     for Judgement { row, .. } in judgements {
         let version = if row.version.is_empty() {
@@ -82,6 +189,7 @@ fn engines(judgements: &[Judgement]) -> Table {
             row.source.as_str().to_owned(),
             row.pair_arm.to_string(),
             row.floor_arm.to_string(),
+            Evidence::of(row).as_str().to_owned(),
         ];
         if !seen.contains(&cells) {
             table.push(cells.clone());

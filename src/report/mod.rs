@@ -1,16 +1,22 @@
 //! What people see: tables of rows, in every format.
 
 mod crosscheck;
+mod explain;
 mod inventory;
 mod number;
+mod probe;
 mod simulation;
 mod table;
 mod theory;
 mod trajectory;
 
-pub use crosscheck::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
+pub use crosscheck::{
+    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
+};
+pub use explain::explanation;
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
+pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};

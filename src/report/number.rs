@@ -34,7 +34,7 @@ pub fn friction(value: f64) -> String {
 }
 
 /// A cell for a value that may be absent.
-pub fn optional(value: Option<f64>, format: impl Fn(f64) -> String) -> String {
+pub fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), format)
 }
 

@@ -78,6 +78,11 @@ impl Case {
         Err(InvalidValue::new(key, self.protocol.time_step, accepted))
     }
 
+    /// Time steps in all, preparation included.
+    pub fn total_steps(&self) -> u64 {
+        self.protocol.schedule().total_steps()
+    }
+
     /// SHA-256, in hexadecimal, of the case as compact JSON with its keys in the order of the fields
     /// and its numbers in their shortest exact form. Equal cases have equal hashes on every machine.
     pub fn content_hash(&self) -> String {

@@ -15,6 +15,8 @@ pub struct Estimate {
     pub force: f64,
     /// Distance between the interpolations of two orders, in m g.
     pub sampling: f64,
+    /// By how much an error of the recorded forces is amplified in it.
+    pub sensitivity: f64,
 }
 
 /// Both estimators; absent where the series does not show what they look for.
@@ -34,6 +36,7 @@ impl YieldEstimates {
         let in_weights = |estimate: Estimate| Estimate {
             force: estimate.force * stack.stiffness,
             sampling: estimate.sampling * stack.stiffness,
+            ..estimate
         };
         let samples = trace.samples();
         let peak_row = peak_row(samples);
@@ -115,9 +118,11 @@ fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
     let force = value_at_zero(margins, &forces);
     let lower_order = value_at_zero(&margins[1..], &forces[1..]);
     let enclosed = (last_sticking..=after).contains(&force);
+    let (margin_change, force_change) = (margins[3] - margins[2], forces[3] - forces[2]);
     enclosed.then(|| Estimate {
         force,
         sampling: (force - lower_order).abs(),
+        sensitivity: (force_change / margin_change).abs().max(1.0),
     })
 }
 
@@ -134,6 +139,7 @@ fn peak(samples: &[Sample], highest: usize) -> Estimate {
     Estimate {
         force: near,
         sampling: (near - far).abs(),
+        sensitivity: 1.0,
     }
 }
 

@@ -4,8 +4,10 @@
 use super::Bench;
 use std::fs;
 use std::path::Path;
+use tristack::archive::ProbeRecord;
 use tristack::engine::{ParameterFile, Task};
 use tristack::stack::{Case, sha256_hex};
+use tristack::trace::MotionRow;
 
 /// What happens to the recorded series of one case.
 pub enum Disturbance {
@@ -40,8 +42,27 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
         }
         count += 1;
     }
+    install_probe(bench, |row| row);
     bench.install("yade", &script(&replay, ""));
     count
+}
+
+/// The recorded answers to micro-tests, row by row as `change` makes them.
+pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
+    let replay = bench.path("replay");
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
+    let record = ProbeRecord::load(&recorded)
+        .expect("a record")
+        .expect("it is there");
+    for (test, motion) in record.outcomes {
+        let parameters = ParameterFile::Json.content(&test.parameters());
+        let address = sha256_hex(parameters.as_bytes());
+        let mut writer =
+            csv::Writer::from_path(replay.join(format!("{address}.csv"))).expect("a file");
+        for row in motion.rows() {
+            writer.serialize(change(*row)).expect("a row");
+        }
+    }
 }
 
 /// The fake with something to do after the last case.
@@ -55,12 +76,13 @@ fn script(replay: &Path, ending: &str) -> String {
     format!(
         r#"
 if [ "$1" = --version ]; then echo "Yade version: replayed"; exit 0; fi
-shift 4
+case $4 in probe.py) result=probe.csv;; *) result=series.csv;; esac
+shift 5
 for directory in "$@"; do
     address=$(sha256sum "$directory/parameters.json" | cut -c 1-64)
     if [ -f "{replay}/$address.sh" ]; then . "{replay}/$address.sh"; continue; fi
-    cp "{replay}/$address.csv" "$directory/series.csv.part" || exit 9
-    mv "$directory/series.csv.part" "$directory/series.csv"
+    cp "{replay}/$address.csv" "$directory/$result.part" || exit 9
+    mv "$directory/$result.part" "$directory/$result"
 done
 {ending}
 "#

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// How a distance falls with the time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Order {
+pub enum DocumentedOrder {
     /// It is nothing but round-off.
     RoundOff,
     /// It halves when the step is halved.
@@ -19,7 +19,7 @@ pub enum Order {
     Irregular,
 }
 
-impl Order {
+impl DocumentedOrder {
     /// The word in tables.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -35,39 +35,39 @@ impl Order {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Documented {
     /// The order.
-    pub order: Order,
+    pub order: DocumentedOrder,
     /// Its reason.
     pub reason: &'static str,
 }
 
 const SAME_ARITHMETIC: Documented = Documented {
-    order: Order::RoundOff,
+    order: DocumentedOrder::RoundOff,
     reason: "the twin does the same sums in another order",
 };
 const FIRST_TOUCH: Documented = Documented {
-    order: Order::First,
+    order: DocumentedOrder::First,
     reason: "YADE knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its \
              damping force for one step that the twin goes without",
 };
 const TRANSPORT: Documented = Documented {
-    order: Order::First,
+    order: DocumentedOrder::First,
     reason: "the twin turns a tangential spring with its contact; the code changes its length by a term of \
              second order in the turn, in every step",
 };
 const SUMMED_SPIN: Documented = Documented {
-    order: Order::Second,
+    order: DocumentedOrder::Second,
     reason: "LIGGGHTS keeps no angle of a sphere; its deck sums the spin by the trapezoidal rule",
 };
 const TURNED_DIPOLE: Documented = Documented {
-    order: Order::Second,
+    order: DocumentedOrder::Second,
     reason: "LAMMPS turns a dipole by the arctangent of spin times time step, not by their product",
 };
 const TWO_CAUSES: Documented = Documented {
-    order: Order::Irregular,
+    order: DocumentedOrder::Irregular,
     reason: "two causes of different order, the transport of the spring and the angle, add up or cancel",
 };
 const OPENING_CONTACTS: Documented = Documented {
-    order: Order::Irregular,
+    order: DocumentedOrder::Irregular,
     reason: "contacts open and meet again between two steps, and the step decides when: not even the twin \
              converges regularly to itself",
 };

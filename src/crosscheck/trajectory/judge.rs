@@ -1,7 +1,7 @@
 //! The verdict on the distances between a code and its twin, at time steps each half the one before.
 
 use super::distance::Distance;
-use super::documented::Order;
+use super::documented::DocumentedOrder;
 use crate::verdict::Verdict;
 use std::f64::consts::LN_2;
 
@@ -69,7 +69,7 @@ pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
 /// `step_error` is the largest change of the twin itself when its time step is halved; it bounds what
 /// falls irregularly.
 pub fn judge_order(
-    documented: Order,
+    documented: DocumentedOrder,
     distances: &[Distance],
     step_error: f64,
 ) -> (Verdict, Option<String>) {
@@ -85,10 +85,12 @@ pub fn judge_order(
         (verdict, (verdict != Verdict::Agrees).then_some(note))
     };
     match documented {
-        Order::RoundOff => within(finest.round_off, "what rounding can do"),
-        Order::Irregular => within(step_error, "what the time step does to the twin itself"),
-        Order::First => judge_whole_order(1.0, finest, observed_order(distances)),
-        Order::Second => judge_whole_order(2.0, finest, observed_order(distances)),
+        DocumentedOrder::RoundOff => within(finest.round_off, "what rounding can do"),
+        DocumentedOrder::Irregular => {
+            within(step_error, "what the time step does to the twin itself")
+        }
+        DocumentedOrder::First => judge_whole_order(1.0, finest, observed_order(distances)),
+        DocumentedOrder::Second => judge_whole_order(2.0, finest, observed_order(distances)),
     }
 }
 
@@ -137,7 +139,7 @@ mod tests {
         [1.0, 0.5, 0.25].map(at).to_vec()
     }
 
-    fn verdict(order: Order, distances: &[Distance]) -> Verdict {
+    fn verdict(order: DocumentedOrder, distances: &[Distance]) -> Verdict {
         judge_order(order, distances, 1e-3).0
     }
 
@@ -146,13 +148,13 @@ mod tests {
         let first = distances(|h| 1e-5 * h, 1e-12);
         let second = distances(|h| 1e-5 * h * h, 1e-12);
         let none = distances(|_| 1e-5, 1e-12);
-        assert_eq!(verdict(Order::First, &first), Verdict::Agrees);
-        assert_eq!(verdict(Order::Second, &second), Verdict::Agrees);
+        assert_eq!(verdict(DocumentedOrder::First, &first), Verdict::Agrees);
+        assert_eq!(verdict(DocumentedOrder::Second, &second), Verdict::Agrees);
         for (order, wrong) in [
-            (Order::First, &second),
-            (Order::First, &none),
-            (Order::Second, &first),
-            (Order::RoundOff, &none),
+            (DocumentedOrder::First, &second),
+            (DocumentedOrder::First, &none),
+            (DocumentedOrder::Second, &first),
+            (DocumentedOrder::RoundOff, &none),
         ] {
             assert_eq!(verdict(order, wrong), Verdict::Differs, "{order:?}");
         }
@@ -174,16 +176,19 @@ mod tests {
     #[test]
     fn rounding_hides_an_order_without_deciding_against_it() {
         let hidden = distances(|h| 1e-5 * h, 5e-6);
-        assert_eq!(verdict(Order::Second, &hidden), Verdict::Agrees);
+        assert_eq!(verdict(DocumentedOrder::Second, &hidden), Verdict::Agrees);
         let clear = distances(|h| 1e-5 * h, 1e-7);
-        assert_eq!(verdict(Order::Second, &clear), Verdict::Differs);
+        assert_eq!(verdict(DocumentedOrder::Second, &clear), Verdict::Differs);
     }
 
     #[test]
     fn distances_that_fall_irregularly_decide_nothing_about_an_order() {
         let mut irregular = distances(|h| 1e-5 * h, 1e-12);
         irregular[1].largest *= 0.7;
-        assert_eq!(verdict(Order::First, &irregular), Verdict::Inconclusive);
+        assert_eq!(
+            verdict(DocumentedOrder::First, &irregular),
+            Verdict::Inconclusive
+        );
     }
 
     #[test]
@@ -198,30 +203,34 @@ mod tests {
     fn what_falls_irregularly_must_stay_below_the_error_of_the_step() {
         let small = distances(|h| 1e-5 * h.powi(3), 0.0);
         assert_eq!(
-            judge_order(Order::Irregular, &small, 1e-6).0,
+            judge_order(DocumentedOrder::Irregular, &small, 1e-6).0,
             Verdict::Agrees
         );
         assert_eq!(
-            judge_order(Order::Irregular, &small, 1e-8).0,
+            judge_order(DocumentedOrder::Irregular, &small, 1e-8).0,
             Verdict::Differs
         );
     }
 
     #[test]
     fn nothing_and_not_a_number_are_no_pass() {
-        assert_eq!(verdict(Order::First, &[]), Verdict::Missing);
+        assert_eq!(verdict(DocumentedOrder::First, &[]), Verdict::Missing);
         let nan = distances(|_| f64::NAN, 1e-12);
-        for order in [Order::First, Order::RoundOff, Order::Irregular] {
+        for order in [
+            DocumentedOrder::First,
+            DocumentedOrder::RoundOff,
+            DocumentedOrder::Irregular,
+        ] {
             assert_eq!(verdict(order, &nan), Verdict::Inconclusive);
         }
         let two = &distances(|h| h, 1e-12)[..2];
-        assert_eq!(verdict(Order::First, two), Verdict::Inconclusive);
+        assert_eq!(verdict(DocumentedOrder::First, two), Verdict::Inconclusive);
     }
 
     #[test]
     fn no_distance_at_all_is_no_doubt() {
         assert_eq!(
-            verdict(Order::First, &distances(|_| 0.0, 0.0)),
+            verdict(DocumentedOrder::First, &distances(|_| 0.0, 0.0)),
             Verdict::Agrees
         );
     }

@@ -1,7 +1,7 @@
 //! What is said of a code, and the rows that say it.
 
 use super::distance::{Branch, Distance, Quantity};
-use super::documented::{Documented, Order};
+use super::documented::{Documented, DocumentedOrder};
 use super::judge::order_between;
 use super::plan::Twin;
 use crate::crosscheck::verdict::Source;
@@ -84,7 +84,7 @@ pub struct TrajectoryRow {
     /// is expected.
     pub order: Option<f64>,
     /// How the distance must fall.
-    pub documented_order: Option<Order>,
+    pub documented_order: Option<DocumentedOrder>,
     /// What rounding may have done to the largest distance.
     pub round_off: Option<f64>,
     /// Largest change of the twin itself when its time step is halved.
@@ -177,7 +177,7 @@ impl Comparison {
     }
 
     fn order(&self, coarser: &Distance, finer: &Distance) -> Option<f64> {
-        let has_one = self.documented.order != Order::RoundOff;
+        let has_one = self.documented.order != DocumentedOrder::RoundOff;
         has_one.then(|| order_between(coarser, finer)).flatten()
     }
 }

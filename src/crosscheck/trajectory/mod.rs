@@ -14,7 +14,7 @@ mod plan;
 
 pub use carry_out::measure_trajectories;
 pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
-pub use documented::{Documented, Order, documented};
+pub use documented::{Documented, DocumentedOrder, documented};
 pub use judge::{FORCE_BAR, ORDER_TOLERANCE};
 pub use judgement::{Comparison, TrajectoryJudgement, TrajectoryRow};
 pub use plan::{

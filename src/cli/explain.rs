@@ -1,0 +1,62 @@
+//! `tristack crosscheck --explain ROW`.
+
+use super::options::{RunOptions, as_flag, friction};
+use super::progress::Reporter;
+use super::{CliError, ExitStatus};
+use crate::crosscheck::{Participant, measure, measure_with_twin, plan};
+use crate::engine::EngineName;
+use crate::report::explanation;
+use crate::stack::Stack;
+use clap::ValueEnum;
+
+/// One row of a crosscheck.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowName {
+    engine: EngineName,
+    stack: Stack,
+}
+
+/// Reads ENGINE/MU/STIFFNESS.
+pub fn row_name(text: &str) -> Result<RowName, String> {
+    let parts: Vec<&str> = text.split('/').collect();
+    let [engine, mu, stiffness] = parts[..] else {
+        return Err("accepted is ENGINE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
+    };
+    let engine = EngineName::from_str(engine, true).map_err(|_| {
+        let names: Vec<&str> = EngineName::ALL.iter().map(|name| name.as_str()).collect();
+        format!("`{engine}` is no engine; accepted are {}", names.join(", "))
+    })?;
+    let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
+    let stiffness: f64 = stiffness
+        .parse()
+        .map_err(|_| format!("STIFFNESS is `{stiffness}`; accepted is a number"))?;
+    let stack = Stack::paper(mu, stiffness);
+    stack
+        .validate()
+        .map_err(|error| as_flag(error).to_string())?;
+    Ok(RowName { engine, stack })
+}
+
+/// Measures one row and prints the whole chain from its runs to its verdict.
+pub fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
+    let participant = Participant::find(row.engine);
+    let measurement = plan(row.engine, &row.stack, row.engine.convention());
+    let settings = options.settings()?;
+    let reporter = Reporter::new();
+    let measurements = std::slice::from_ref(&measurement);
+    let judgements = measure(
+        measurements,
+        std::slice::from_ref(&participant),
+        &settings,
+        &reporter,
+    );
+    let Some(judgement) = judgements.first() else {
+        return Ok(ExitStatus::Interrupted);
+    };
+    drop(reporter);
+    let twin = measure_with_twin(&measurement, &settings, &Reporter::new())
+        .map(|result| result.map_err(|error| error.to_string()));
+    let text = explanation(judgement, &measurement, twin.as_ref());
+    super::print(text.as_bytes())?;
+    Ok(ExitStatus::of(&judgements))
+}

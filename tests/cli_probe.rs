@@ -1,0 +1,146 @@
+//! `tristack probe`, and what it means for a crosscheck.
+
+mod common;
+
+use common::replay::{self, Disturbance};
+use common::{Bench, json, standard_error, standard_output};
+use insta::assert_snapshot;
+use std::fs;
+use tristack::trace::MotionRow;
+
+const PROPERTIES_OF_ONE_ENGINE: usize = 41;
+
+#[test]
+fn every_property_of_every_engine_is_as_declared() {
+    let bench = Bench::without_engines();
+    let output = bench.tristack("probe").output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(
+        message.contains("246 of 246 properties are as declared, 0 differ"),
+        "{message}"
+    );
+    assert!(
+        message.contains("lammps is not installed: its recorded answers stand in for it"),
+        "{message}"
+    );
+    // Uncertainties are rounding, and differ between machines.
+    let table = String::from_utf8_lossy(&output.stdout).replace("-0 ", "0 ");
+    let uncertainty = without_uncertainties(&table);
+    assert_snapshot!(uncertainty);
+}
+
+/// The table without what stands in brackets.
+fn without_uncertainties(table: &str) -> String {
+    let mut text = String::new();
+    let mut depth = 0;
+    for letter in table.chars() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            '│' | '┆' | '\n' | '─' | '┌' | '┬' | '┐' | '╞' | '╪' | '╡' | '═' | '└' | '┴' | '┘' => {
+                if letter == '\n' || letter == '┆' {
+                    text.push(if letter == '\n' { '\n' } else { '|' });
+                }
+            }
+            ' ' => {}
+            _ if depth == 0 => text.push(letter),
+            _ => {}
+        }
+    }
+    text
+}
+
+#[test]
+fn findings_are_within_the_promised_accuracy() {
+    let bench = Bench::without_engines();
+    let findings = json(&standard_output(&mut bench.tristack("probe --format json")));
+    let findings = findings.as_array().expect("a list");
+    assert_eq!(findings.len(), 6 * PROPERTIES_OF_ONE_ENGINE);
+    for finding in findings {
+        let number = |key: &str| finding[key].as_f64().expect("a number");
+        let declared = number("declared");
+        let scale = if declared == 0.0 { 1.0 } else { declared.abs() };
+        let promised = if finding["engine"] == "native" {
+            1e-9
+        } else {
+            1e-6
+        };
+        let deviation = (number("measured") - declared).abs() / scale;
+        assert!(deviation <= promised, "{finding}");
+        assert!(number("uncertainty") / scale <= promised, "{finding}");
+    }
+}
+
+#[test]
+fn csv_has_the_agreed_columns() {
+    let bench = Bench::without_engines();
+    let text = standard_output(&mut bench.tristack("probe --engines native --format csv"));
+    let header = "engine,version,property,measured,uncertainty,declared,verdict";
+    assert_eq!(text.lines().next(), Some(header));
+    assert_eq!(text.lines().count(), 1 + PROPERTIES_OF_ONE_ENGINE);
+}
+
+#[test]
+fn an_engine_whose_probe_contradicts_its_declaration_is_not_judged() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    replay::install_probe(&bench, |row| MotionRow {
+        torque1: row.torque1 * 1.001,
+        ..row
+    });
+    let mut command = bench.tristack("crosscheck --engines yade --format json");
+    let output = command.output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("not judged: its probe contradicts its declaration"),
+        "{message}"
+    );
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    for row in rows.as_array().expect("rows") {
+        assert_eq!(row["verdict"], "inconclusive");
+        assert_eq!(row["error"], serde_json::Value::Null);
+    }
+    bench
+        .tristack("probe --engines yade --format json")
+        .assert()
+        .code(2);
+}
+
+#[test]
+fn an_engine_that_does_not_answer_the_probe_is_not_judged() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let script = fs::read_to_string(bench.path("programs/yade")).expect("the fake");
+    let dumb = script.replace("result=probe.csv;;", "exit 7;;");
+    bench.install("yade", dumb.trim_start_matches("#!/bin/sh\n"));
+    let mut command = bench.tristack("crosscheck --engines yade --format json");
+    let output = command.output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{message}");
+    assert!(
+        message.contains("its contact convention could not be measured: yade failed"),
+        "{message}"
+    );
+    bench.tristack("probe --engines yade").assert().code(3);
+}
+
+#[test]
+fn a_damaged_probe_in_the_store_is_made_anew() {
+    let bench = Bench::without_engines();
+    let line = "probe --engines native --format csv";
+    let first = standard_output(&mut bench.tristack(line));
+    let entry = fs::read_dir(bench.path("store/probes"))
+        .expect("probes")
+        .flatten()
+        .next()
+        .expect("an entry");
+    fs::write(entry.path(), "{").expect("damage");
+    let message = standard_error(&mut bench.tristack(line));
+    assert!(
+        message.contains("damaged probe in the store, made anew"),
+        "{message}"
+    );
+    assert_eq!(standard_output(&mut bench.tristack(line)), first);
+}

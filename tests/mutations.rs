@@ -1,0 +1,351 @@
+//! A table of wrong codes: twins of the native DEM with one line changed, and who notices.
+
+use std::path::Path;
+use tristack::archive::{Identity, Provenance, Run};
+use tristack::crosscheck::{
+    FLOOR, Judgement, Participant, Progress, Recorded, Settings, Store, measure, plan, probe_all,
+};
+use tristack::dem::{
+    Contact, ContactForce, ContactModel, compress_stack, compress_stack_with, run_contact_test_with,
+};
+use tristack::engine::{Engine, EngineName, Failure, Finished, Interrupt, Workplace};
+use tristack::stack::{Case, ContactTest, Convention, Stack};
+use tristack::trace::{Motion, Trace};
+use tristack::verdict::Verdict;
+
+/// The line that is changed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Mutation {
+    None,
+    SignOfNormalDamping,
+    SignOfTangentialDamping,
+    SignOfSpin,
+    TwiceTheNormalDamping,
+    TwiceTheTangentialDamping,
+    PairArmOffBy001,
+    FloorArmOffBy001,
+    FrictionOnePercentHigh,
+    SpringDoesNotTurn,
+    SpringGrowsWhileSliding,
+    LimitWithoutNormalDamping,
+    HalfTheTorqueOnPairs,
+}
+
+const MUTATIONS: [Mutation; 12] = [
+    Mutation::SignOfNormalDamping,
+    Mutation::SignOfTangentialDamping,
+    Mutation::SignOfSpin,
+    Mutation::TwiceTheNormalDamping,
+    Mutation::TwiceTheTangentialDamping,
+    Mutation::PairArmOffBy001,
+    Mutation::FloorArmOffBy001,
+    Mutation::FrictionOnePercentHigh,
+    Mutation::SpringDoesNotTurn,
+    Mutation::SpringGrowsWhileSliding,
+    Mutation::LimitWithoutNormalDamping,
+    Mutation::HalfTheTorqueOnPairs,
+];
+
+/// The paper's contact law, written a second time, with one line changed.
+#[derive(Debug, Clone, Copy)]
+struct Twin {
+    stiffness: f64,
+    normal_damping: f64,
+    damping: f64,
+    mutation: Mutation,
+}
+
+/// Length of the spring, and its vector for a spring that does not turn.
+#[derive(Debug, Clone, Copy, Default)]
+struct Memory {
+    length: f64,
+    vector: [f64; 2],
+}
+
+impl Twin {
+    fn new(convention: &Convention, tangential_stiffness: f64, mutation: Mutation) -> Self {
+        let normal_damping = convention.damping(1.0);
+        let damping = convention.damping(tangential_stiffness);
+        Self {
+            stiffness: tangential_stiffness,
+            normal_damping: match mutation {
+                Mutation::SignOfNormalDamping => -normal_damping,
+                Mutation::TwiceTheNormalDamping => 2.0 * normal_damping,
+                _ => normal_damping,
+            },
+            damping: match mutation {
+                Mutation::SignOfTangentialDamping => -damping,
+                Mutation::TwiceTheTangentialDamping => 2.0 * damping,
+                _ => damping,
+            },
+            mutation,
+        }
+    }
+}
+
+impl ContactModel<f64> for Twin {
+    type Memory = Memory;
+
+    fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
+        let [nx, ny] = contact.normal;
+        let [vx, vy] = contact.velocity;
+        let is_pair = nx != 0.0;
+        let arm = match self.mutation {
+            Mutation::PairArmOffBy001 if is_pair => contact.arm + 0.01,
+            Mutation::FloorArmOffBy001 if !is_pair => contact.arm + 0.01,
+            _ => contact.arm,
+        };
+        let radius = 1.0 + arm * contact.overlap;
+        let rolling = match self.mutation {
+            Mutation::SignOfSpin => -(radius * contact.spin),
+            _ => radius * contact.spin,
+        };
+        let velocity = (nx * vy - ny * vx) - rolling;
+        let elastic = contact.overlap;
+        let normal = elastic - self.normal_damping * (nx * vx + ny * vy);
+        let friction = match self.mutation {
+            Mutation::FrictionOnePercentHigh => 1.01 * contact.friction,
+            _ => contact.friction,
+        };
+        let limit = friction
+            * match self.mutation {
+                Mutation::LimitWithoutNormalDamping => elastic.abs(),
+                _ => normal.abs(),
+            };
+        if self.mutation == Mutation::SpringDoesNotTurn {
+            memory.length = memory.vector[1] * nx - memory.vector[0] * ny;
+        }
+        let growth = velocity * contact.time_step;
+        let stretched = memory.length + growth;
+        let trial = -(self.stiffness * stretched) - self.damping * velocity;
+        let sticks = trial.abs() < limit;
+        if sticks || self.mutation == Mutation::SpringGrowsWhileSliding {
+            memory.length = stretched;
+            memory.vector[0] -= growth * ny;
+            memory.vector[1] += growth * nx;
+        }
+        ContactForce {
+            normal,
+            tangential: match (sticks, trial < 0.0) {
+                (true, _) => trial,
+                (false, true) => -limit,
+                (false, false) => limit,
+            },
+            radius: match self.mutation {
+                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * radius,
+                _ => radius,
+            },
+        }
+    }
+}
+
+/// The twin at the place of the native engine.
+struct TwinEngine {
+    identity: Identity,
+    mutation: Mutation,
+}
+
+impl TwinEngine {
+    fn participant(mutation: Mutation) -> Participant {
+        Participant {
+            name: EngineName::Native,
+            engine: Some(Box::new(Self {
+                identity: Identity {
+                    engine: "native".to_owned(),
+                    version: format!("{mutation:?}"),
+                    package: None,
+                    program_hash: None,
+                },
+                mutation,
+            })),
+        }
+    }
+
+    fn compress(&self, case: &Case) -> Result<Trace, Failure> {
+        let stiffness = case.stack.tangential_stiffness();
+        let twin = Twin::new(&case.convention, stiffness, self.mutation);
+        compress_stack_with(case, twin, || true).map_err(|error| Failure {
+            engine: EngineName::Native,
+            subject: case.to_string(),
+            kind: error.into(),
+            run_directory: None,
+            last_lines: Vec::new(),
+        })
+    }
+}
+
+impl Engine for TwinEngine {
+    fn name(&self) -> EngineName {
+        EngineName::Native
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    fn prefers_many_cases(&self) -> bool {
+        false
+    }
+
+    fn run(&self, cases: &[Case], _: &Workplace, finished: Finished<Run>) {
+        for (index, case) in cases.iter().enumerate() {
+            let run = self.compress(case).map(|trace| Run {
+                case: *case,
+                trace,
+                provenance: Provenance::now(
+                    self.identity.clone(),
+                    EngineName::Native.deck_hash(case),
+                    Vec::new(),
+                    case.total_steps(),
+                    0.0,
+                ),
+            });
+            finished(index, run);
+        }
+    }
+
+    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Failure> {
+        let motions = tests.iter().map(|test| {
+            let stiffness = test.tangential_stiffness();
+            let twin = Twin::new(&test.convention, stiffness, self.mutation);
+            run_contact_test_with(test, twin).expect("a finite motion")
+        });
+        Ok(motions.collect())
+    }
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: usize, _: usize) {}
+    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn warn(&self, _: &str) {}
+}
+
+/// Runs `action` with settings that keep everything in a directory of their own.
+fn with_settings<T>(action: impl FnOnce(&Settings) -> T) -> T {
+    let root = tempfile::tempdir().expect("a directory");
+    let settings = Settings {
+        store: Store::open(root.path()).expect("a store"),
+        recorded: Recorded::new(Path::new("nowhere")),
+        fresh: true,
+        threads: 2,
+        time_limit: None,
+        interrupt: &Interrupt::new(),
+    };
+    action(&settings)
+}
+
+/// Properties that the probe finds to differ from the declaration of native.
+fn differing_properties(mutation: Mutation) -> Vec<String> {
+    let participants = [TwinEngine::participant(mutation)];
+    let probed = with_settings(|settings| probe_all(&participants, settings, &Silent));
+    let findings = probed[0].as_ref().expect("the probe works");
+    let off = findings
+        .iter()
+        .filter(|finding| finding.verdict != Verdict::Agrees);
+    off.map(|finding| finding.property.clone()).collect()
+}
+
+/// Crosscheck of one stack that yields at the floor.
+fn crosscheck(mutation: Mutation) -> Judgement {
+    let stack = Stack::paper(0.3, 1e2);
+    let measurements = [plan(EngineName::Native, &stack, Convention::PAPER)];
+    let participants = [TwinEngine::participant(mutation)];
+    let judgements =
+        with_settings(|settings| measure(&measurements, &participants, settings, &Silent));
+    judgements.into_iter().next().expect("a row")
+}
+
+/// What the crosscheck would say if nobody had probed: the row still has its numbers.
+fn crosscheck_alone(judgement: &Judgement) -> &'static str {
+    let row = &judgement.row;
+    let (Some(force), Some(reference), Some(uncertainty)) =
+        (row.yield_force, row.reference_force, row.uncertainty)
+    else {
+        return row.verdict.as_str();
+    };
+    let allowed = uncertainty.max(FLOOR * (reference + 3.0));
+    if (force - reference).abs() > allowed {
+        "differs"
+    } else {
+        "agrees"
+    }
+}
+
+#[test]
+fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
+    let stack = Stack::paper(0.3, 1e3);
+    let case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+    let stiffness = case.stack.tangential_stiffness();
+    let twin = Twin::new(&case.convention, stiffness, Mutation::None);
+    let series = compress_stack_with(&case, twin, || true).expect("a finite series");
+    assert_eq!(series, compress_stack(&case, || true).expect("a series"));
+    assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());
+    assert_eq!(crosscheck(Mutation::None).row.verdict, Verdict::Agrees);
+}
+
+#[test]
+fn every_changed_line_is_noticed() {
+    let mut table = String::from("changed line | probe | crosscheck alone\n");
+    for mutation in MUTATIONS {
+        let properties = differing_properties(mutation);
+        let judgement = crosscheck(mutation);
+        let alone = crosscheck_alone(&judgement);
+        assert!(
+            !properties.is_empty() || alone != "agrees",
+            "nobody noticed {mutation:?}"
+        );
+        assert_ne!(judgement.row.verdict, Verdict::Agrees, "{mutation:?}");
+        let seen = match properties.len() {
+            0 => "-".to_owned(),
+            1..=3 => properties.join(", "),
+            count => format!("{} and {} more", properties[0], count - 1),
+        };
+        table += &format!("{mutation:?} | {seen} | {alone}\n");
+    }
+    insta::assert_snapshot!(table);
+}
+
+/// The other way round: a right code under a wrong declaration.
+#[test]
+fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
+    let wrong = Convention {
+        floor_arm: -0.01,
+        ..Convention::PAPER
+    };
+    let declared = tristack::engine::Declaration {
+        convention: wrong,
+        ..EngineName::Native.declaration()
+    };
+    let properties = tristack::probe::probe(&declared, |tests| {
+        let honest: Vec<ContactTest> = tests
+            .iter()
+            .map(|test| ContactTest {
+                convention: Convention {
+                    floor_arm: 0.0,
+                    ..test.convention
+                },
+                ..*test
+            })
+            .collect();
+        let motions = honest.iter().map(tristack::dem::run_contact_test);
+        motions.collect::<Result<Vec<Motion>, _>>()
+    })
+    .expect("finite motions");
+    let findings = properties
+        .into_iter()
+        .map(|property| property.judge(EngineName::Native, ""));
+    let off: Vec<String> = findings
+        .filter(|finding| finding.verdict == Verdict::Differs)
+        .map(|finding| finding.property)
+        .collect();
+    assert_eq!(
+        off,
+        [
+            "floor_torque_arm",
+            "floor_kinematic_arm",
+            "floor_damping_arm"
+        ]
+    );
+}

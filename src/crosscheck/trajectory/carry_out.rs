@@ -4,7 +4,7 @@ use super::distance::{Branch, Distance, Milestones, Quantity};
 use super::documented::documented;
 use super::judge::{FORCE_BAR, judge_order};
 use super::judgement::{Comparison, TrajectoryJudgement};
-use super::plan::{DISTURBANCE, Trajectory, TwinRuns};
+use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::archive::Run;
 use crate::crosscheck::schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 use crate::crosscheck::verdict::Source;
@@ -176,6 +176,31 @@ impl TrajectoryJudgement {
                 let compared = quantities.map(|&quantity| pair.compare(quantity, branch));
                 self.comparisons.extend(compared);
             }
+        }
+        self.hold_full_twin_to_the_other();
+    }
+
+    /// In the collapse the transport of the springs shows, in both twins at the same order. The twin that has
+    /// the transport of the code must be the closer one.
+    fn hold_full_twin_to_the_other(&mut self) {
+        let largest =
+            |comparison: &Comparison| comparison.distances.last().map(|finest| finest.largest);
+        let (full, others): (Vec<&mut Comparison>, Vec<&mut Comparison>) = self
+            .comparisons
+            .iter_mut()
+            .filter(|comparison| comparison.branch == Branch::Collapse)
+            .partition(|comparison| comparison.twin == Twin::Full);
+        for (comparison, other) in full.into_iter().zip(others) {
+            let Some((own, other)) = largest(comparison)
+                .zip(largest(other))
+                .filter(|(own, other)| own > other)
+            else {
+                continue;
+            };
+            comparison.verdict = Verdict::Differs;
+            comparison.note = Some(format!(
+                "the twin is further away, {own:.1e}, than one whose springs turn with the contact, {other:.1e}"
+            ));
         }
     }
 }

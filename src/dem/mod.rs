@@ -4,9 +4,11 @@
 //! that its results are the same bits on every machine.
 
 mod contact;
+mod first_event;
 mod scene;
 mod stack_run;
 
 pub use contact::{ContactLaw, ContactState, TangentialStep};
+pub use first_event::{Loading, Observation, Until, watch_stack};
 pub use scene::{Cylinder, PlaneWall, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_while};

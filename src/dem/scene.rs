@@ -104,6 +104,11 @@ impl Scene {
         &self.wall_contacts[wall * self.cylinders.len() + cylinder]
     }
 
+    /// State of the contact between two cylinders, the one with the higher index named first.
+    pub fn pair_contact(&self, first: usize, second: usize) -> &ContactState {
+        &self.pair_contacts[first * (first - 1) / 2 + second]
+    }
+
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     pub fn evaluate_forces(&mut self) {
         for load in &mut self.loads {

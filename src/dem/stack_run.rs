@@ -20,9 +20,9 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
 /// Some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
-const TOP: usize = 0;
-const RIGHT: usize = 1;
-const LEFT: usize = 2;
+pub(super) const TOP: usize = 0;
+pub(super) const RIGHT: usize = 1;
+pub(super) const LEFT: usize = 2;
 
 /// Prepares and compresses the stack of `case`, and samples the compression as planned.
 ///
@@ -73,7 +73,7 @@ pub fn compress_stack_while(case: &Case, wanted: impl Fn() -> bool) -> Result<Tr
 }
 
 /// Three just-touching cylinders on the floor, and the index of the floor.
-fn stress_free_stack(case: &Case) -> (Scene, usize) {
+pub(super) fn stress_free_stack(case: &Case) -> (Scene, usize) {
     let tangential_stiffness = case.stack.tangential_stiffness();
     let law = ContactLaw {
         normal_stiffness: 1.0,

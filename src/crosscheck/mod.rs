@@ -4,6 +4,7 @@ mod extrapolate;
 mod measure;
 mod plan;
 mod recorded;
+mod regimes;
 mod schedule;
 mod store;
 mod verdict;
@@ -15,6 +16,10 @@ pub use plan::{
     yielding_frictions,
 };
 pub use recorded::{Recorded, RecordedError};
+pub use regimes::{
+    Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,
+    survey,
+};
 pub use schedule::{Participant, Progress, RunError, Settings, run_all};
 pub use store::Store;
 pub use verdict::{BAR, FLOOR, Row, Source, Verdict};

@@ -43,10 +43,10 @@ pub struct Observation {
     pub force: f64,
     /// How far the wall had moved then.
     pub travel: f64,
-    /// Largest force of the whole top wall, in m g …
+    /// Largest force of the whole top wall, in m g.
     pub peak_force: f64,
-    /// … and where the wall was then.
-    pub peak_travel: f64,
+    /// Whether the force has fallen since, by more than the wall raises it in a time unit.
+    pub peaked: bool,
     /// Whether the run went as far as it should, rather than being given up.
     pub complete: bool,
 }
@@ -80,7 +80,7 @@ pub fn watch_stack(
             force: 0.0,
             travel: 0.0,
             peak_force: 0.0,
-            peak_travel: 0.0,
+            peaked: false,
             complete: false,
         },
     };
@@ -158,10 +158,9 @@ impl Run {
         let force = |cylinder| self.scene.wall_contact(wall, cylinder).normal_force;
         let on_top = force(TOP) * self.stack.stiffness;
         let whole = on_top + (force(RIGHT) + force(LEFT)) * self.stack.stiffness;
-        if whole > self.observation.peak_force {
-            self.observation.peak_force = whole;
-            self.observation.peak_travel = travel;
-        }
+        self.observation.peak_force = self.observation.peak_force.max(whole);
+        let fallen = (self.observation.peak_force - whole) * self.stack.epsilon();
+        self.observation.peaked = fallen > self.scene.walls[wall].speed;
         if self.observation.last.is_none() {
             self.observation.force = on_top;
             self.observation.travel = travel;

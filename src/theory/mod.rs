@@ -15,8 +15,8 @@ pub use path::followed_limit;
 pub use predictions::{Prediction, Predictions};
 pub use quasistatic::{closed_form_limit, pair_overlap};
 pub use regimes::{
-    Axis, Boundary, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening, Line, Outcome, Regime,
-    RegimeMap, Stage,
+    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
+    Line, Outcome, Regime, RegimeMap, Stage,
 };
 pub use small_displacement::{
     ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,

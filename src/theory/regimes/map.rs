@@ -1,7 +1,7 @@
 //! A map over floor friction and one more property of the stack.
 
 use super::super::root::bracketed_root;
-use super::{Boundary, CLOSING_STIFFNESS_RATIO, Course};
+use super::{Boundary, CLOSING_STIFFNESS_RATIO, Course, Outcome};
 use crate::stack::Stack;
 use serde::Serialize;
 
@@ -122,6 +122,29 @@ impl RegimeMap {
         needed.map_or(self.frictions.0, |needed| needed.max(self.frictions.0))
     }
 
+    /// Points on every boundary, with what lies on either side at a relative distance of `distance`: on the
+    /// boundaries in μ at `count` values on the axis, on each line at `count` floor frictions.
+    pub fn boundary_points(&self, count: usize, distance: f64) -> Vec<BoundaryPoint> {
+        let mut places = Vec::new();
+        for value in self.axis_values(count) {
+            let boundaries = self.friction_boundaries(value).into_iter();
+            let stacks = boundaries.map(|boundary| self.stack(value, boundary.floor_friction));
+            places.extend(stacks.map(|stack| (stack, Across::Friction)));
+        }
+        for line in self.lines() {
+            let lowest = self.lowest_friction_of(line);
+            let width = (self.frictions.1 - lowest).max(0.0) / count as f64;
+            // In the middle of each part, so that no point lies where the line meets another boundary.
+            let frictions = (0..count).map(|index| lowest + width * (index as f64 + 0.5));
+            let stacks = frictions.map(|friction| self.stack(line.value(), friction));
+            places.extend(stacks.map(|stack| (stack, Across::Axis(self.axis))));
+        }
+        let points = places.into_iter();
+        points
+            .filter_map(|(stack, across)| BoundaryPoint::new(self.axis, stack, across, distance))
+            .collect()
+    }
+
     fn roots(&self, function: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
         let values = self.axis_values(SEARCHED_INTERVALS + 1);
         let heights: Vec<f64> = values.iter().map(|&value| function(value)).collect();
@@ -152,6 +175,63 @@ impl Line {
             | Self::WallArrivesAsCylindersSlip(value)
             | Self::ContactCloses(value) => value,
         }
+    }
+}
+
+/// What changes when a boundary is crossed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Across {
+    /// μ.
+    Friction,
+    /// The other property of the map.
+    Axis(Axis),
+}
+
+impl Across {
+    /// `stack` with the property multiplied by `factor`.
+    pub fn scale(self, stack: &Stack, factor: f64) -> Stack {
+        match self {
+            Self::Friction => Stack {
+                floor_friction: stack.floor_friction * factor,
+                ..*stack
+            },
+            Self::Axis(axis) => axis.set(stack, axis.get(stack) * factor),
+        }
+    }
+}
+
+/// A stack on a boundary, and what is claimed of its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoundaryPoint {
+    /// The map, by the axis that it has besides the floor friction.
+    pub map: Axis,
+    /// The stack on the boundary.
+    pub stack: Stack,
+    /// What changes across the boundary.
+    pub across: Across,
+    /// Relative distance of the neighbours.
+    pub distance: f64,
+    /// What becomes of the neighbour below and of the one above.
+    pub sides: [Outcome; 2],
+}
+
+impl BoundaryPoint {
+    /// `stack` as a point on a boundary. `None` if a neighbour has no outcome.
+    fn new(map: Axis, stack: Stack, across: Across, distance: f64) -> Option<Self> {
+        let side = |factor: f64| Outcome::of(&across.scale(&stack, factor));
+        Some(Self {
+            map,
+            sides: [side(1.0 - distance)?, side(1.0 + distance)?],
+            stack,
+            across,
+            distance,
+        })
+    }
+
+    /// The neighbour below and the one above.
+    pub fn neighbours(&self) -> [Stack; 2] {
+        [1.0 - self.distance, 1.0 + self.distance]
+            .map(|factor| self.across.scale(&self.stack, factor))
     }
 }
 

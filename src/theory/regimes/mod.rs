@@ -54,7 +54,7 @@ mod outcome;
 
 pub use boundary::Boundary;
 pub use course::Course;
-pub use map::{Axis, Line, RegimeMap};
+pub use map::{Across, Axis, BoundaryPoint, Line, RegimeMap};
 pub use outcome::{Consequence, Happening, Outcome, Regime, Stage};
 
 /// κ_c, below which contact 2–3 closes at once, Eq. (R5).

@@ -43,9 +43,9 @@ pub struct Observation {
     pub force: f64,
     /// How far the wall had moved then.
     pub travel: f64,
-    /// Largest force of the whole top wall, in m g.
+    /// Force of the whole top wall at its first maximum, or the largest so far, in m g.
     pub peak_force: f64,
-    /// Whether the force has fallen since, by more than the wall raises it in a time unit.
+    /// Whether the force has fallen after that, by more than the stack can ring.
     pub peaked: bool,
     /// Whether the run went as far as it should, rather than being given up.
     pub complete: bool,
@@ -58,6 +58,8 @@ const FIRST_LOAD: f64 = 1e-7;
 const COUNTED_LOAD: f64 = 1e-2;
 /// The part of gravity that is missing when the ramp ends.
 const MISSING_LOAD: f64 = 1e-6;
+/// The wall starts with a jolt of a few time units; what the stack loads in this time is more than it rings.
+const RINGING: f64 = 20.0;
 /// Some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
@@ -85,7 +87,7 @@ pub fn watch_stack(
         },
     };
     let wanted = |step: u64| !step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) || wanted();
-    let prepared = run.prepare(loading, &wanted);
+    let prepared = run.prepare(loading, until, &wanted);
     let complete = prepared && run.compress(loading, until, &wanted);
     Observation {
         complete,
@@ -102,7 +104,7 @@ struct Run {
 
 impl Run {
     /// Raises gravity; false if no longer wanted.
-    fn prepare(&mut self, loading: &Loading, wanted: impl Fn(u64) -> bool) -> bool {
+    fn prepare(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
         let gravity = self.stack.epsilon();
         let growth = 1.0 + loading.gravity_rate * loading.time_step;
         let mut load = FIRST_LOAD;
@@ -114,8 +116,10 @@ impl Run {
             self.scene.gravity = gravity * (load / (1.0 + load));
             self.scene.evaluate_forces();
             if load >= COUNTED_LOAD {
-                self.watch(Stage::OwnWeight, None);
-                if self.observation.last.is_some() {
+                if self.observation.last.is_none() {
+                    self.watch(Stage::OwnWeight, None);
+                }
+                if until == Until::LastEvent && self.observation.last.is_some() {
                     return true;
                 }
             }
@@ -129,7 +133,7 @@ impl Run {
 
     /// Lowers the wall; false if no longer wanted.
     fn compress(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
-        if self.observation.last.is_some() {
+        if until == Until::LastEvent && self.observation.last.is_some() {
             return true;
         }
         let wall = self.scene.add_wall(PlaneWall {
@@ -158,9 +162,12 @@ impl Run {
         let force = |cylinder| self.scene.wall_contact(wall, cylinder).normal_force;
         let on_top = force(TOP) * self.stack.stiffness;
         let whole = on_top + (force(RIGHT) + force(LEFT)) * self.stack.stiffness;
-        self.observation.peak_force = self.observation.peak_force.max(whole);
-        let fallen = (self.observation.peak_force - whole) * self.stack.epsilon();
-        self.observation.peaked = fallen > self.scene.walls[wall].speed;
+        if !self.observation.peaked {
+            let peak = self.observation.peak_force.max(whole);
+            let fallen = (peak - whole) * self.stack.epsilon();
+            self.observation.peak_force = peak;
+            self.observation.peaked = fallen > RINGING * self.scene.walls[wall].speed;
+        }
         if self.observation.last.is_none() {
             self.observation.force = on_top;
             self.observation.travel = travel;

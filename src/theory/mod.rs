@@ -16,7 +16,7 @@ pub use predictions::{Prediction, Predictions};
 pub use quasistatic::{closed_form_limit, pair_overlap};
 pub use regimes::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
-    Line, Outcome, Regime, RegimeMap, Stage,
+    Line, Outcome, Regime, RegimeMap, Stage, released_frictions,
 };
 pub use small_displacement::{
     ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,

@@ -73,7 +73,7 @@ pub fn confirm(point: &BoundaryPoint, interrupt: &Interrupt) -> Confirmation {
 /// Runs `stack`. A run that contradicts the claim is repeated more slowly: if it then shows the same, that is
 /// what it is; if it shows something else, even what was claimed, nothing has been decided.
 fn look(stack: Stack, claimed: Outcome, interrupt: &Interrupt) -> Side {
-    let usual = loading(&stack, &claimed, SPEED, FURTHER);
+    let usual = loading(&stack, &claimed.last, SPEED, FURTHER);
     let slower = Loading {
         gravity_rate: usual.gravity_rate / SLOWER,
         wall_speed: usual.wall_speed / SLOWER,

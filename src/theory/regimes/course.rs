@@ -72,6 +72,11 @@ impl Course {
         self.path.as_path().settled()
     }
 
+    /// Height of the top wall where it first touches cylinder 1.
+    pub(super) fn settled_height(&self) -> f64 {
+        self.point(self.settled()).wall_height()
+    }
+
     pub(super) fn point(&self, parameter: f64) -> PathPoint {
         self.path.as_path().point(parameter)
     }
@@ -81,19 +86,30 @@ impl Course {
         self.path.as_path().stations()[0]
     }
 
-    /// The largest of `value` between the beginning and `end`, over the stations and both ends.
+    /// The largest of `value` between the beginning and `end`.
     pub(super) fn largest_until(&self, end: f64, value: impl Fn(&PathPoint) -> f64) -> f64 {
+        let at = |parameter: f64| value(&self.point(parameter));
         let stations = self.path.as_path().stations().into_iter();
-        let on_the_way = stations.filter(|&station| station < end).chain([end]);
-        let values = on_the_way.map(|parameter| value(&self.point(parameter)));
-        values.fold(f64::NEG_INFINITY, f64::max)
+        let stations: Vec<f64> = stations
+            .filter(|&station| station < end)
+            .chain([end])
+            .collect();
+        let values: Vec<f64> = stations.iter().map(|&station| at(station)).collect();
+        let highest = (0..values.len()).max_by(|&i, &j| values[i].total_cmp(&values[j]));
+        match highest {
+            Some(index) if index > 0 && index + 1 < values.len() => {
+                let inside = maximum_between(&at, stations[index - 1], stations[index + 1]);
+                inside.max(values[index])
+            }
+            Some(index) => values[index],
+            None => f64::NEG_INFINITY,
+        }
     }
 
     /// What `event` at `parameter` amounts to.
     pub(super) fn happening(&self, event: Event, parameter: f64) -> Happening {
         let parameter = parameter.max(self.beginning());
         let point = self.point(parameter);
-        let settled = self.point(self.settled());
         let stage = if parameter <= self.settled() {
             Stage::OwnWeight
         } else {
@@ -105,9 +121,14 @@ impl Course {
             force: point.wall_force / self.epsilon,
             tangent: point.tangent,
             floor_overlap: point.floor_overlap,
+            bottom_force: if self.closes {
+                (-2.0 * point.outward).max(0.0)
+            } else {
+                0.0
+            },
             wall_travel: match stage {
                 Stage::OwnWeight => 0.0,
-                Stage::Wall => settled.wall_height() - point.wall_height(),
+                Stage::Wall => self.settled_height() - point.wall_height(),
             },
         }
     }
@@ -120,4 +141,20 @@ impl CoursePath {
             Self::Closing(path) => path,
         }
     }
+}
+
+/// The maximum of a function with a single one between `low` and `high`, by golden sections; its error is of
+/// second order in the width that is left.
+fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const SECTIONS: usize = 40;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let width = golden * (high - low);
+        if function(high - width) < function(low + width) {
+            low = high - width;
+        } else {
+            high = low + width;
+        }
+    }
+    function(0.5 * (low + high))
 }

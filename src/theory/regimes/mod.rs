@@ -39,6 +39,16 @@
 //!
 //! κ < κ_c = 1/(2√3 μ_c) = (2 + √3)/(2√3) = 1.07735.  (R5)
 //!
+//! **Slip while c > 0** ends nothing. Sliding outwards takes load from the fifth contact, which was indeterminate: with
+//! e = b = μ d (or μ_d a) the balance gives c = b (1 + cos ψ) − a sin ψ, which falls as T grows, and the stack
+//! bears more load until c = 0. There contact 2–3 opens, y = 0 and G = G₀(T) = 2 − (1 + T²)/(2T), and (R2) or
+//! (R4) apply. The largest force is therefore reached at the first of
+//!
+//! G₀(T) (T − μ) = ε μ,  T = μ_d,  F = 2 G₀(T)/ε − 1,  (R6)
+//!
+//! whatever κ is, as long as c > 0 where the first contact slips. Likewise the stack only falls under its own
+//! weight if F < 0 by (R6).
+//!
 //! **Wall contact**, ρ cos ψ = f/k_n. The wall then rests on cylinders 2 and 3 as well. Each is a column
 //! between two planes, squeezed by the advancing wall at a finite stiffness whatever cylinder 1 does, and the
 //! floor gains normal force without gaining shear: the force grows without a peak and there is no yield
@@ -51,11 +61,13 @@ mod boundary;
 mod course;
 mod map;
 mod outcome;
+mod release;
 
 pub use boundary::Boundary;
 pub use course::Course;
 pub use map::{Across, Axis, BoundaryPoint, Line, RegimeMap};
 pub use outcome::{Consequence, Happening, Outcome, Regime, Stage};
+pub use release::released_frictions;
 
 /// κ_c, below which contact 2–3 closes at once, Eq. (R5).
 pub const CLOSING_STIFFNESS_RATIO: f64 = 1.077_350_269_189_625_8;

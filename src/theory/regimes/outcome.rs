@@ -2,6 +2,7 @@
 
 use super::super::events::Event;
 use super::course::Course;
+use super::release::Release;
 use crate::stack::Stack;
 use serde::Serialize;
 use std::fmt;
@@ -39,6 +40,8 @@ pub struct Happening {
     pub tangent: f64,
     /// z, overlap of the floor contacts, in r.
     pub floor_overlap: f64,
+    /// c, force between the bottom cylinders, in k_n r.
+    pub bottom_force: f64,
     /// How far the top wall has moved, in r.
     pub wall_travel: f64,
 }
@@ -78,15 +81,15 @@ impl fmt::Display for Consequence {
     }
 }
 
-/// The first event, the one that ends the path, and the stages in which they come: what all stacks of one
-/// region of the map have in common.
+/// The first event, the first slip or wall contact, and the stages in which they come: what all stacks of
+/// one region of the map have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Regime {
     /// The first event.
     pub first: Event,
     /// When it comes.
     pub first_stage: Stage,
-    /// The event that ends the path; another one than the first where contact 2–3 closes first.
+    /// The first slip or wall contact; another one than the first where contact 2–3 closes before it.
     pub last: Event,
     /// When that comes.
     pub last_stage: Stage,
@@ -110,12 +113,14 @@ impl fmt::Display for Regime {
 pub struct Outcome {
     /// The first event.
     pub first: Happening,
-    /// The event that ends the path of equilibria of this load path.
+    /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
     pub last: Happening,
     /// What the first event does.
     pub consequence: Consequence,
-    /// The largest force F that the stack carries; `None` where it does not stand, and where the force grows
-    /// without a peak.
+    /// Where equilibrium ends; `None` where the stack does not stand, and where the wall comes to rest on the
+    /// bottom cylinders. Later than `last` where that is a slip with c > 0.
+    pub end: Option<Happening>,
+    /// The largest force F that the stack carries, that at the end unless it softens before.
     pub largest_force: Option<f64>,
 }
 
@@ -138,24 +143,30 @@ impl Outcome {
 
     /// The same for a `stack` whose path is known.
     pub fn on(course: &Course, stack: &Stack) -> Option<Self> {
-        let (last_event, parameter) = last_event(course, stack)?;
-        let last = course.happening(last_event, parameter);
+        let (event, parameter) = last_event(course, stack)?;
+        let last = course.happening(event, parameter);
+        let release = (last.bottom_force > 0.0 && event != Event::WallContact)
+            .then(|| Release::of(stack, course.settled_height()));
+        let end = match (release, last.stage, event) {
+            (Some(Release::Ends(end)), ..) => Some(end),
+            (Some(_), ..) | (_, Stage::OwnWeight, _) | (_, _, Event::WallContact) => None,
+            _ => Some(last),
+        };
+        // A stack that slips from the start and falls never gets to stand on a fifth contact.
+        let falls_at_once = parameter == 0.0 && release.is_none_or(|end| end == Release::Falls);
         let closing = course.locate(Event::ContactCloses, stack);
-        // A stack that slips from the start never gets to stand on a fifth contact.
-        let closing = closing.filter(|&closing| closing <= parameter && parameter > 0.0);
+        let closing = closing.filter(|&closing| closing <= parameter && !falls_at_once);
         let first = closing.map_or(last, |closing| {
             course.happening(Event::ContactCloses, closing)
         });
-        let maximum = course.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
-        let softens = last.stage == Stage::Wall && maximum > last.force * (1.0 + MAXIMUM_MARGIN);
+        let passed = course.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
+        let softens = end.is_some_and(|end| passed > end.force * (1.0 + MAXIMUM_MARGIN));
         Some(Self {
             consequence: consequence(&first, softens),
-            largest_force: match (last.stage, last.event) {
-                (Stage::OwnWeight, _) | (_, Event::WallContact) => None,
-                _ => Some(maximum),
-            },
+            largest_force: end.map(|end| end.force.max(passed)),
             first,
             last,
+            end,
         })
     }
 
@@ -184,7 +195,7 @@ fn consequence(first: &Happening, softens: bool) -> Consequence {
     }
 }
 
-/// The event that ends the path, and the parameter at which it comes.
+/// The first slip or wall contact, and the parameter at which it comes.
 fn last_event(course: &Course, stack: &Stack) -> Option<(Event, f64)> {
     let slips = [Event::FloorSlip, Event::CylinderSlip];
     let slips = slips.map(|event| course.locate(event, stack).map(|at| (event, at)));

@@ -87,8 +87,8 @@ pub fn watch_stack(
         },
     };
     let wanted = |step: u64| !step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) || wanted();
-    let prepared = run.prepare(loading, until, &wanted);
-    let complete = prepared && run.compress(loading, until, &wanted);
+    let prepared = run.prepare(loading, until, wanted);
+    let complete = prepared && run.compress(loading, until, wanted);
     Observation {
         complete,
         ..run.observation

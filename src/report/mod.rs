@@ -3,6 +3,8 @@
 mod crosscheck;
 mod inventory;
 mod number;
+mod regime_figure;
+mod regimes;
 mod simulation;
 mod table;
 mod theory;
@@ -10,6 +12,10 @@ mod theory;
 pub use crosscheck::{crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
+pub use regime_figure::regimes_svg;
+pub use regimes::{
+    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
+};
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};

@@ -98,7 +98,7 @@ impl Course {
         let highest = (0..values.len()).max_by(|&i, &j| values[i].total_cmp(&values[j]));
         match highest {
             Some(index) if index > 0 && index + 1 < values.len() => {
-                let inside = maximum_between(&at, stations[index - 1], stations[index + 1]);
+                let inside = maximum_between(at, stations[index - 1], stations[index + 1]);
                 inside.max(values[index])
             }
             Some(index) => values[index],

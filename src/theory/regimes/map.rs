@@ -38,6 +38,15 @@ impl Axis {
         }
     }
 
+    /// Its name in tables and on the command line.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Stiffness => "stiffness",
+            Self::CylinderFriction => "mu_d",
+            Self::StiffnessRatio => "kappa",
+        }
+    }
+
     /// Whether its values spread over decades.
     pub fn is_logarithmic(self) -> bool {
         self != Self::CylinderFriction
@@ -61,6 +70,25 @@ pub struct RegimeMap {
 const SEARCHED_INTERVALS: usize = 64;
 
 impl RegimeMap {
+    /// The three maps: over stiffness, cylinder friction and stiffness ratio, each about the paper's stack at
+    /// stiffness 100, with `stiffness_ratio` where that does not vary.
+    pub fn standard(stiffness_ratio: f64) -> [Self; 3] {
+        let over = |axis, range| Self {
+            axis,
+            base: Stack {
+                stiffness_ratio,
+                ..Stack::paper(0.3, 100.0)
+            },
+            range,
+            frictions: (0.02, 0.8),
+        };
+        [
+            over(Axis::Stiffness, (10.0, 1e5)),
+            over(Axis::CylinderFriction, (0.2, 0.8)),
+            over(Axis::StiffnessRatio, (0.2, 10.0)),
+        ]
+    }
+
     /// `count` values on the axis, both ends included; evenly spread, or over the logarithm.
     pub fn axis_values(&self, count: usize) -> Vec<f64> {
         spread(self.range, count, self.axis.is_logarithmic())

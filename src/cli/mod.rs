@@ -6,6 +6,7 @@ mod error;
 mod options;
 mod progress;
 mod record;
+mod regimes;
 mod simulate;
 mod sweep;
 mod theory;
@@ -43,6 +44,7 @@ enum Command {
     Crosscheck(crosscheck::Arguments),
     Engines(engines::Arguments),
     Record(record::Arguments),
+    Regimes(regimes::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -62,6 +64,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
         Command::Engines(arguments) => engines::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
+        Command::Regimes(arguments) => regimes::run(&arguments),
     }
 }
 

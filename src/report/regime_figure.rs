@@ -12,6 +12,7 @@ use kuva::render::annotations::TextAnnotation;
 use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
+use std::sync::Arc;
 
 /// Points on a curve, between two lines that cut the axis.
 const SAMPLES: usize = 61;
@@ -19,6 +20,8 @@ const SAMPLES: usize = 61;
 const PANEL: (f64, f64) = (350.0, 330.0);
 const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 const TEXT_SIZE: u32 = 11;
+/// How far a region reaches into the next strip, as a factor on the axis.
+const OVERLAP: f64 = 1.004;
 const INK: &str = "#222222";
 /// Distance of two lines of text, in units of μ.
 const LINE_HEIGHT: f64 = 0.042;
@@ -47,7 +50,9 @@ pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
         .with_padding(6.0)
         .with_labels_lowercase()
         .render();
-    SvgBackend.render_scene(&scene)
+    let svg = SvgBackend.render_scene(&scene);
+    // There is no letter for a lowered d.
+    svg.replace("μ_d", "μ<tspan font-size=\"75%\" dy=\"3\">d</tspan>")
 }
 
 fn panel(map: &RegimeMap, survey: &Survey) -> (Vec<Plot>, Layout) {
@@ -100,14 +105,26 @@ fn layout(map: &RegimeMap, plots: &[Plot]) -> Layout {
     match map.axis {
         Axis::Stiffness => layout
             .with_log_x()
-            .with_x_label("stiffness k_n r/(m g)".replace("k_n", "kₙ")),
+            .with_x_tick_format(TickFormat::Custom(Arc::new(power_of_ten)))
+            .with_x_label("stiffness kₙ r/(m g)"),
         Axis::CylinderFriction => layout
             .with_x_tick_step(0.2)
             .with_x_tick_format(TickFormat::Fixed(1))
-            .with_x_label("cylinder friction μ_d".replace("μ_d", "μ₍d₎")),
+            .with_x_label("cylinder friction μ_d"),
         Axis::StiffnessRatio => layout
             .with_log_x()
+            .with_x_tick_format(TickFormat::Custom(Arc::new(|value| value.to_string())))
             .with_x_label("stiffness ratio κ = kₙ/kₜ"),
+    }
+}
+
+/// `value` as a power of ten with the exponent raised.
+fn power_of_ten(value: f64) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let exponent = libm::log10(value).round();
+    match RAISED.get(exponent as usize) {
+        Some(raised) if exponent >= 0.0 => format!("10{raised}"),
+        _ => value.to_string(),
     }
 }
 
@@ -131,10 +148,31 @@ struct Curve {
     of_events: bool,
 }
 
+impl Strip {
+    fn visible(&self, region: Region) -> Option<&Band> {
+        let bands = self.bands.iter().filter(|band| band.region == region);
+        let highest = bands.max_by(|one, other| one.height().total_cmp(&other.height()));
+        highest.filter(|band| band.is_visible())
+    }
+}
+
 impl Band {
+    /// Height in its middle, in units of μ.
+    fn height(&self) -> f64 {
+        self.upper[SAMPLES / 2] - self.lower[SAMPLES / 2]
+    }
+
+    /// High enough for a line of text.
+    fn is_visible(&self) -> bool {
+        self.height() > LINE_HEIGHT
+    }
+
     fn filled(&self, strip: &Strip) -> BandPlot {
-        let (x, lower, upper) = (strip.values.clone(), self.lower.clone(), self.upper.clone());
-        BandPlot::new(x, lower, upper)
+        // A little into the next strip, which is drawn over it: adjoining edges would let the paper through.
+        let end = strip.values[SAMPLES - 1] * OVERLAP;
+        let values = strip.values.iter().copied().chain([end]);
+        let prolonged = |edge: &[f64]| [edge, &edge[SAMPLES - 1..]].concat();
+        BandPlot::new(values, prolonged(&self.lower), prolonged(&self.upper))
             .with_color(colour(self.region))
             .with_opacity(1.0)
     }
@@ -161,6 +199,7 @@ fn ink(points: Vec<(f64, f64)>) -> LinePlot {
 
 fn strips(map: &RegimeMap) -> Vec<Strip> {
     let mut cuts: Vec<f64> = map.lines().iter().map(|line| line.value()).collect();
+    cuts.extend(map.reopenings());
     cuts.push(map.range.0);
     cuts.push(map.range.1);
     cuts.sort_by(f64::total_cmp);
@@ -213,10 +252,10 @@ fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, bool)> {
     let mut levels: Vec<(f64, bool)> = events
         .map(|boundary| (boundary.floor_friction, true))
         .collect();
-    if course.closes()
-        && let Some((low, high)) = released_frictions(&stack)
-    {
-        levels.extend([(low, false), (high, false)]);
+    if let Some((low, high)) = released_frictions(&stack) {
+        let closed_at_wall = course.wall_contact_outward().is_some_and(|y| y < 0.0);
+        levels.extend((course.settled_outward() < 0.0).then_some((low, false)));
+        levels.extend(closed_at_wall.then_some((high, false)));
     }
     levels.sort_by(|left, right| left.0.total_cmp(&right.0));
     levels
@@ -251,40 +290,53 @@ fn words((ending, shares): Region) -> &'static [&'static str] {
     match (ending, shares) {
         (Ending::Falls, _) => &["falls under own weight"],
         (Ending::Yields, false) => &["floor slips:", "yield force"],
-        (Ending::Yields, true) => &["contact 2–3 closed,", "floor slips:", "yield force"],
+        (Ending::Yields, true) => &["2–3 touch,", "floor slips:", "yield force"],
         (Ending::Saturates, false) => &["cylinders slip:", "saturated"],
-        (Ending::Saturates, true) => &["contact 2–3 closed,", "cylinders slip"],
+        (Ending::Saturates, true) => &["2–3 touch,", "cylinders slip:", "saturated"],
         (Ending::NoPeak, false) => &["wall contact:", "no peak"],
-        (Ending::NoPeak, true) => &["contact 2–3 closed,", "wall contact:", "no peak"],
+        (Ending::NoPeak, true) => &["2–3 touch,", "wall contact:", "no peak"],
     }
 }
 
-/// Each region is named once, where it is largest.
+/// Each region is named once, in the middle of the widest part of the axis that it spans without a gap.
 fn labels(map: &RegimeMap, strips: &[Strip]) -> Vec<TextAnnotation> {
-    let mut largest: Vec<(Region, f64, (f64, f64))> = Vec::new();
-    for strip in strips {
-        let middle = SAMPLES / 2;
-        let (first, last) = (strip.values[0], strip.values[SAMPLES - 1]);
-        let width = if map.axis.is_logarithmic() {
-            libm::log(last / first)
-        } else {
-            last - first
-        };
-        for band in &strip.bands {
-            let height = band.upper[middle] - band.lower[middle];
-            let centre = 0.5 * (band.upper[middle] + band.lower[middle]);
-            let candidate = (band.region, height * width, (strip.values[middle], centre));
-            match largest.iter_mut().find(|known| known.0 == band.region) {
-                Some(known) if known.1 < candidate.1 => *known = candidate,
+    let mut named: Vec<(Region, (f64, f64))> = Vec::new();
+    for (index, strip) in strips.iter().enumerate() {
+        for band in strip.bands.iter().filter(|band| band.is_visible()) {
+            let span = span(strips, index, band.region);
+            match named.iter_mut().find(|known| known.0 == band.region) {
+                Some(known) if map.width(known.1) < map.width(span) => known.1 = span,
                 Some(_) => {}
-                None => largest.push(candidate),
+                None => named.push((band.region, span)),
             }
         }
     }
-    let places = largest.into_iter();
+    let places = named.into_iter().filter_map(|(region, span)| {
+        let x = map.middle(span);
+        Some((region, (x, height_at(strips, region, x)?)))
+    });
     places
-        .flat_map(|(region, _, place)| label(region, place))
+        .flat_map(|(region, place)| label(region, place))
         .collect()
+}
+
+/// The part of the axis around the strip `index` on which `region` goes on.
+fn span(strips: &[Strip], index: usize, region: Region) -> (f64, f64) {
+    let has = |strip: &&Strip| strip.visible(region).is_some();
+    let before = strips[..index].iter().rev().take_while(has).last();
+    let after = strips[index..].iter().take_while(has).last();
+    (
+        before.unwrap_or(&strips[index]).values[0],
+        after.unwrap_or(&strips[index]).values[SAMPLES - 1],
+    )
+}
+
+/// Half-way between the lower and the upper edge of `region` at `x`.
+fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
+    let strip = strips.iter().find(|strip| x <= strip.values[SAMPLES - 1])?;
+    let band = strip.visible(region)?;
+    let index = strip.values.partition_point(|&value| value < x);
+    Some(0.5 * (band.lower[index] + band.upper[index]))
 }
 
 fn label(region: Region, (x, y): (f64, f64)) -> Vec<TextAnnotation> {
@@ -310,14 +362,49 @@ fn markers(map: &RegimeMap, survey: &Survey) -> Vec<Plot> {
     let of_map = of_map.filter(|confirmation| confirmation.point.map == map.axis);
     let (agreeing, others): (Vec<&Confirmation>, Vec<&Confirmation>) =
         of_map.partition(|confirmation| confirmation.verdict() == Verdict::Agrees);
-    let marked = |confirmations: Vec<&Confirmation>, colour: &str, shape: MarkerShape| {
-        let places: Vec<(f64, f64)> = confirmations.into_iter().map(place).collect();
+    let marked = |places: Vec<(f64, f64)>, colour: &str, shape: MarkerShape| {
         (!places.is_empty()).then(|| {
             let markers = ScatterPlot::new().with_data(places).with_color(colour);
-            Plot::Scatter(markers.with_size(2.4).with_marker(shape))
+            Plot::Scatter(markers.with_size(2.2).with_marker(shape))
         })
     };
-    let agreeing = marked(agreeing, INK, MarkerShape::Circle);
-    let others = marked(others, "#c00000", MarkerShape::Cross);
+    let agreeing: Vec<(f64, f64)> = agreeing.into_iter().map(place).collect();
+    let others: Vec<(f64, f64)> = others.into_iter().map(place).collect();
+    let (released, contradicted) = released_places(map, survey);
+    let agreeing = marked([agreeing, released].concat(), INK, MarkerShape::Circle);
+    let others = marked(
+        [others, contradicted].concat(),
+        "#c00000",
+        MarkerShape::Cross,
+    );
     agreeing.into_iter().chain(others).collect()
+}
+
+/// The places on the dashed lines whose neighbours were examined: those where both end as they should, and
+/// the others.
+fn released_places(map: &RegimeMap, survey: &Survey) -> (Vec<(f64, f64)>, Vec<(f64, f64)>) {
+    let (mut agreeing, mut others) = (Vec::new(), Vec::new());
+    for pair in survey.examinations.windows(2) {
+        let [below, above] = [&pair[0], &pair[1]];
+        let value = map.axis.get(&below.stack);
+        let friction = 0.5 * (below.stack.floor_friction + above.stack.floor_friction);
+        let beside = Stack {
+            floor_friction: below.stack.floor_friction,
+            ..above.stack
+        };
+        let close = above.stack.floor_friction - below.stack.floor_friction < 0.01 * friction;
+        let on_map = map.stack(value, below.stack.floor_friction) == below.stack;
+        if beside != below.stack || !close || !on_map {
+            continue;
+        }
+        if [below, above]
+            .iter()
+            .all(|side| side.verdict == Verdict::Agrees)
+        {
+            agreeing.push((value, friction));
+        } else {
+            others.push((value, friction));
+        }
+    }
+    (agreeing, others)
 }

@@ -4,7 +4,7 @@ use super::number::{optional, relative, significant};
 use super::table::Table;
 use crate::crosscheck::{Confirmation, Examination, Survey, THREE_DIGITS, Verdict};
 use crate::stack::Stack;
-use crate::theory::{Across, Axis, Consequence, Event, Outcome, Regime, RegimeMap, Stage};
+use crate::theory::{Across, Axis, Consequence, Course, Event, Outcome, Regime, RegimeMap, Stage};
 use serde::Serialize;
 
 /// One stack of the map.
@@ -60,6 +60,25 @@ struct ForceRow {
     verdict: Verdict,
 }
 
+impl MapRow {
+    fn new(axis: Axis, stack: &Stack, outcome: &Outcome) -> Self {
+        Self {
+            map: axis.as_str(),
+            mu: stack.floor_friction,
+            stiffness: stack.stiffness,
+            mu_d: stack.cylinder_friction,
+            kappa: stack.stiffness_ratio,
+            event: outcome.first.event,
+            stage: outcome.first.stage,
+            force: outcome.first.force,
+            tangent: outcome.first.tangent,
+            largest_force: outcome.largest_force,
+            consequence: outcome.consequence,
+            then: outcome.last.event,
+        }
+    }
+}
+
 impl BoundaryRow {
     fn new(confirmation: &Confirmation) -> Self {
         let point = &confirmation.point;
@@ -113,34 +132,21 @@ fn across_name(across: Across) -> &'static str {
 
 /// The map as a grid of `columns` values on the axis by `rows` floor frictions.
 pub fn regimes_csv(maps: &[RegimeMap], columns: usize, rows: usize) -> Vec<u8> {
-    let stacks = maps.iter().flat_map(|map| grid(map, columns, rows));
-    lines(stacks.filter_map(|(axis, stack)| {
-        let outcome = Outcome::of(&stack)?;
-        Some(MapRow {
-            map: axis.as_str(),
-            mu: stack.floor_friction,
-            stiffness: stack.stiffness,
-            mu_d: stack.cylinder_friction,
-            kappa: stack.stiffness_ratio,
-            event: outcome.first.event,
-            stage: outcome.first.stage,
-            force: outcome.first.force,
-            tangent: outcome.first.tangent,
-            largest_force: outcome.largest_force,
-            consequence: outcome.consequence,
-            then: outcome.last.event,
-        })
-    }))
+    lines(maps.iter().flat_map(|map| grid(map, columns, rows)))
 }
 
-fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack)> {
-    let values = map.axis_values(columns).into_iter();
-    let frictions = map.friction_values(rows);
-    let stacks = values.flat_map(|value| {
-        let frictions = frictions.iter();
-        frictions.map(move |&friction| (map.axis, map.stack(value, friction)))
-    });
-    stacks.collect()
+fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<MapRow> {
+    let mut grid = Vec::new();
+    for value in map.axis_values(columns) {
+        let course = Course::new(&map.axis.set(&map.base, value));
+        let stacks = map.friction_values(rows).into_iter();
+        let stacks = stacks.map(|friction| map.stack(value, friction));
+        grid.extend(stacks.filter_map(|stack| {
+            let outcome = Outcome::on(&course, &stack)?;
+            Some(MapRow::new(map.axis, &stack, &outcome))
+        }));
+    }
+    grid
 }
 
 /// The boundary points with every digit.

@@ -59,6 +59,16 @@ impl Course {
         Some(self.point(self.wall_contact?).pair_ratio)
     }
 
+    /// y when gravity is complete; negative where contact 2–3 is closed then.
+    pub fn settled_outward(&self) -> f64 {
+        self.point(self.settled()).outward
+    }
+
+    /// y when the top wall reaches the bottom cylinders, if it does.
+    pub fn wall_contact_outward(&self) -> Option<f64> {
+        Some(self.point(self.wall_contact?).outward)
+    }
+
     pub(super) fn wall_contact(&self) -> Option<f64> {
         self.wall_contact
     }

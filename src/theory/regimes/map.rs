@@ -85,7 +85,7 @@ impl RegimeMap {
         [
             over(Axis::Stiffness, (10.0, 1e5)),
             over(Axis::CylinderFriction, (0.2, 0.8)),
-            over(Axis::StiffnessRatio, (0.2, 10.0)),
+            over(Axis::StiffnessRatio, (0.2, 20.0)),
         ]
     }
 
@@ -97,6 +97,20 @@ impl RegimeMap {
     /// `count` floor frictions, both ends included.
     pub fn friction_values(&self, count: usize) -> Vec<f64> {
         spread(self.frictions, count, false)
+    }
+
+    /// How much of the axis a part of it takes up, on the scale on which it is spread.
+    pub fn width(&self, (from, to): (f64, f64)) -> f64 {
+        if self.axis.is_logarithmic() {
+            libm::log(to / from)
+        } else {
+            to - from
+        }
+    }
+
+    /// The middle of a part of the axis, on that scale.
+    pub fn middle(&self, part: (f64, f64)) -> f64 {
+        spread(part, 3, self.axis.is_logarithmic())[1]
     }
 
     /// The stack at a value on the axis and a floor friction.
@@ -148,6 +162,15 @@ impl RegimeMap {
         };
         let needed = end.map(|end| course.largest_until(end, |point| point.floor_ratio));
         needed.map_or(self.frictions.0, |needed| needed.max(self.frictions.0))
+    }
+
+    /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the
+    /// wall reaches the bottom cylinders: where the frictions of [`super::released_frictions`] cease to matter.
+    pub fn reopenings(&self) -> Vec<f64> {
+        let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
+        let settled = self.roots(|value| course(value).settled_outward());
+        let wall = self.roots(|value| course(value).wall_contact_outward().unwrap_or(f64::NAN));
+        settled.chain(wall).collect()
     }
 
     /// Points on every boundary, with what lies on either side at a relative distance of `distance`: on the

@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
     kappa: f64,
     /// Points that are looked at on each boundary
-    #[arg(long, value_name = "N", default_value_t = 12)]
+    #[arg(long, value_name = "N", default_value_t = 13)]
     points: usize,
     /// Runs at the same time [default: the number of cores]
     #[arg(long, value_name = "N")]

@@ -43,6 +43,8 @@ pub struct Observation {
     pub force: f64,
     /// How far the wall had moved then.
     pub travel: f64,
+    /// Whether the stack still stands when gravity is complete.
+    pub stands: bool,
     /// Force of the whole top wall at its first maximum, or the largest so far, in m g.
     pub peak_force: f64,
     /// Whether the force has fallen after that, by more than the stack can ring.
@@ -58,6 +60,8 @@ const FIRST_LOAD: f64 = 1e-7;
 const COUNTED_LOAD: f64 = 1e-2;
 /// The part of gravity that is missing when the ramp ends.
 const MISSING_LOAD: f64 = 1e-6;
+/// Cylinder 1 rests √3 above the others, and falls until it is level with them.
+const LOWEST_RISE: f64 = 1.0;
 /// The wall starts with a jolt of a few time units; what the stack loads in this time is more than it rings.
 const RINGING: f64 = 20.0;
 /// Some milliseconds.
@@ -81,6 +85,7 @@ pub fn watch_stack(
             last: None,
             force: 0.0,
             travel: 0.0,
+            stands: false,
             peak_force: 0.0,
             peaked: false,
             complete: false,
@@ -128,6 +133,7 @@ impl Run {
             step += 1;
         }
         self.scene.gravity = gravity;
+        self.observation.stands = self.rise() > LOWEST_RISE;
         true
     }
 
@@ -139,23 +145,33 @@ impl Run {
         let wall = self.scene.add_wall(PlaneWall {
             normal: [0.0, -1.0],
             offset: -(self.scene.cylinders[TOP].position[1] + 1.0),
-            speed: loading.wall_speed,
+            speed: 0.0,
             friction: 0.0,
         });
-        let steps = (loading.wall_travel / (loading.wall_speed * loading.time_step)).ceil() as u64;
-        for step in 0..steps {
+        let (mut step, mut travel) = (0, 0.0);
+        while travel < loading.wall_travel {
             if !wanted(step) {
                 return false;
             }
+            // At first the load grows as slowly, compared with the weight, as gravity did.
+            let gentle = loading.gravity_rate * (self.stack.epsilon() + travel);
+            self.scene.walls[wall].speed = loading.wall_speed.min(gentle);
             self.scene.evaluate_forces();
-            let travel = step as f64 * loading.time_step * loading.wall_speed;
             self.record(wall, travel);
             if until == Until::LastEvent && self.observation.last.is_some() {
                 return true;
             }
             self.scene.advance();
+            travel += self.scene.walls[wall].speed * loading.time_step;
+            step += 1;
         }
         true
+    }
+
+    /// Height of cylinder 1 above cylinder 2.
+    fn rise(&self) -> f64 {
+        let [top, right] = [TOP, RIGHT].map(|index| self.scene.cylinders[index].position[1]);
+        top - right
     }
 
     fn record(&mut self, wall: usize, travel: f64) {

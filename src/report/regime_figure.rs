@@ -190,7 +190,7 @@ impl Curve {
     }
 }
 
-fn ink(points: Vec<(f64, f64)>) -> LinePlot {
+fn ink(points: Places) -> LinePlot {
     LinePlot::new()
         .with_data(points)
         .with_color(INK)
@@ -362,14 +362,14 @@ fn markers(map: &RegimeMap, survey: &Survey) -> Vec<Plot> {
     let of_map = of_map.filter(|confirmation| confirmation.point.map == map.axis);
     let (agreeing, others): (Vec<&Confirmation>, Vec<&Confirmation>) =
         of_map.partition(|confirmation| confirmation.verdict() == Verdict::Agrees);
-    let marked = |places: Vec<(f64, f64)>, colour: &str, shape: MarkerShape| {
+    let marked = |places: Places, colour: &str, shape: MarkerShape| {
         (!places.is_empty()).then(|| {
             let markers = ScatterPlot::new().with_data(places).with_color(colour);
             Plot::Scatter(markers.with_size(2.2).with_marker(shape))
         })
     };
-    let agreeing: Vec<(f64, f64)> = agreeing.into_iter().map(place).collect();
-    let others: Vec<(f64, f64)> = others.into_iter().map(place).collect();
+    let agreeing: Places = agreeing.into_iter().map(place).collect();
+    let others: Places = others.into_iter().map(place).collect();
     let (released, contradicted) = released_places(map, survey);
     let agreeing = marked([agreeing, released].concat(), INK, MarkerShape::Circle);
     let others = marked(
@@ -380,9 +380,12 @@ fn markers(map: &RegimeMap, survey: &Survey) -> Vec<Plot> {
     agreeing.into_iter().chain(others).collect()
 }
 
+/// Points of a panel: value on the axis and floor friction.
+type Places = Vec<(f64, f64)>;
+
 /// The places on the dashed lines whose neighbours were examined: those where both end as they should, and
 /// the others.
-fn released_places(map: &RegimeMap, survey: &Survey) -> (Vec<(f64, f64)>, Vec<(f64, f64)>) {
+fn released_places(map: &RegimeMap, survey: &Survey) -> (Places, Places) {
     let (mut agreeing, mut others) = (Vec::new(), Vec::new());
     for pair in survey.examinations.windows(2) {
         let [below, above] = [&pair[0], &pair[1]];

@@ -356,14 +356,19 @@ fn force_table(survey: &Survey) -> Table {
     ]);
     for examination in &survey.examinations {
         let row = ForceRow::new(examination);
+        let force = |force: f64| significant(force, 7);
+        let without = || match examination.claimed.consequence {
+            Consequence::Collapses => "falls".to_owned(),
+            _ => "grows".to_owned(),
+        };
         table.push(vec![
             significant(row.mu, 4),
             row.mu_d.to_string(),
             row.stiffness.to_string(),
             row.kappa.to_string(),
             examination.claimed.regime().to_string(),
-            optional(row.largest_force, |force| significant(force, 7)),
-            optional(row.observed_force, |force| significant(force, 7)),
+            row.largest_force.map_or_else(without, force),
+            row.observed_force.map_or_else(without, force),
             optional(row.uncertainty, |uncertainty| format!("{uncertainty:.0e}")),
             optional(row.error, relative),
             row.verdict.to_string(),

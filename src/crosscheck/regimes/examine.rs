@@ -7,7 +7,7 @@ use super::{THREE_DIGITS, loading};
 use crate::dem::{Loading, Observation, Until, watch_stack};
 use crate::engine::Interrupt;
 use crate::stack::{PAPER_STIFFNESS_RATIO, Stack};
-use crate::theory::{Outcome, released_frictions};
+use crate::theory::{Consequence, Outcome, released_frictions};
 use crate::trace::{Estimate, YieldEstimates};
 
 /// How far the wall goes beyond the predicted end of the path, in units of the predicted travel: far enough
@@ -24,13 +24,13 @@ pub struct Examination {
     pub stack: Stack,
     /// What theory says of it.
     pub claimed: Outcome,
-    /// The peak of the wall force at vanishing speed; `None` where the force has no peak.
+    /// The peak of the wall force at vanishing speed; `None` where the stack falls or the force has no peak.
     pub peak: Option<Extrapolation>,
     /// The uncertainty of the peak, in m g.
     pub uncertainty: Option<f64>,
     /// (peak − theory)/(F + 3), where both have one.
     pub error: Option<f64>,
-    /// Whether the peak is what was claimed, or absent as claimed.
+    /// Whether the stack stands and the peak is what was claimed, or absent as claimed.
     pub verdict: Verdict,
 }
 
@@ -109,8 +109,11 @@ pub fn examine(stack: &Stack, interrupt: &Interrupt) -> Option<Examination> {
     let force = claimed.largest_force;
     let both = peak.zip(force);
     let error = both.map(|(peak, force)| (peak.force - force) / (force + 3.0));
+    let falls = claimed.consequence == Consequence::Collapses;
+    let as_claimed = observations.iter().all(|run| run.stands != falls);
     let verdict = match (error, uncertainty, force) {
         _ if !complete => Verdict::Inconclusive,
+        _ if !as_claimed => Verdict::Differs,
         (Some(error), Some(uncertainty), Some(force)) => judge(error, uncertainty / (force + 3.0)),
         (None, None, None) => Verdict::Agrees,
         _ => Verdict::Differs,
@@ -176,5 +179,18 @@ fn estimates(observation: &Observation) -> YieldEstimates {
             sampling: 0.0,
         }),
         sliding_friction: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_is_off_differs_and_one_that_is_not_known_decides_nothing() {
+        assert_eq!(judge(0.5 * BAR, 0.5 * BAR), Verdict::Agrees);
+        assert_eq!(judge(2.0 * BAR, 0.5 * BAR), Verdict::Differs);
+        assert_eq!(judge(0.5 * BAR, 2.0 * BAR), Verdict::Inconclusive);
+        assert_eq!(judge(f64::NAN, 0.0), Verdict::Inconclusive);
     }
 }

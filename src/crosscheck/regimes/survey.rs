@@ -24,7 +24,7 @@ impl Survey {
 }
 
 /// Looks at every one of `points` and examines every consequence, on `threads` threads; `finished` is told
-/// how many of how many tasks are done.
+/// how many more tasks are done.
 pub fn survey(
     points: &[BoundaryPoint],
     threads: usize,

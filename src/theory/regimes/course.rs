@@ -168,3 +168,107 @@ fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -
     }
     function(0.5 * (low + high))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::root::bracketed_root;
+    use super::super::CLOSING_STIFFNESS_RATIO;
+    use super::*;
+
+    fn course(stiffness_ratio: f64) -> Course {
+        Course::new(&Stack {
+            stiffness_ratio,
+            ..Stack::paper(0.3, 1e2)
+        })
+    }
+
+    fn bottom_force(point: &PathPoint) -> f64 {
+        (-2.0 * point.outward).max(0.0)
+    }
+
+    /// The state of `course` at T.
+    fn at_tangent(course: &Course, tangent: f64) -> PathPoint {
+        let last = course.path.as_path().stations().into_iter().last().unwrap();
+        let excess = |parameter: f64| course.point(parameter).tangent - tangent;
+        course.point(bracketed_root(excess, 0.0, last).unwrap())
+    }
+
+    /// The overlap G at T, by summing ∫ρ dψ in `steps` trapezia and solving
+    /// ∫ρ dψ + y = 2 κ b, b = a T + c/(1 + cos ψ), c = max(0, −2y) at each of them.
+    fn summed_overlap(kappa: f64, tangent: f64, steps: usize) -> f64 {
+        let start = std::f64::consts::FRAC_PI_6;
+        let width = (2.0 * tangent.atan() - start) / steps as f64;
+        let (mut integral, mut distance) = (0.0, 2.0);
+        for step in 1..=steps {
+            let angle = start + width * step as f64;
+            let (sine, cosine, half) = (angle.sin(), angle.cos(), (0.5 * angle).tan());
+            let residual = |next: f64| {
+                let outward = next * sine - 1.0;
+                let bottom = (-2.0 * outward).max(0.0);
+                let shear = (2.0 - next) * half + bottom / (1.0 + cosine);
+                let sum = integral + 0.5 * width * (distance + next);
+                sum + outward - 2.0 * kappa * shear
+            };
+            let next = bracketed_root(residual, 1.0, 2.0).unwrap();
+            integral += 0.5 * width * (distance + next);
+            distance = next;
+        }
+        2.0 - distance
+    }
+
+    #[test]
+    fn path_with_a_closed_contact_is_the_sum_over_its_springs() {
+        for (kappa, tangent) in [(0.3, 0.3), (0.6, 0.32), (1.0, 0.35)] {
+            let [coarse, fine] = [500, 1000].map(|steps| summed_overlap(kappa, tangent, steps));
+            let summed = fine + (fine - coarse) / 3.0;
+            let followed = at_tangent(&course(kappa), tangent).pair_overlap;
+            assert!(
+                (followed - summed).abs() < 1e-7,
+                "{kappa}: {followed} {summed}"
+            );
+        }
+    }
+
+    #[test]
+    fn forces_balance_with_a_closed_contact() {
+        let course = course(0.4);
+        let stations = course.path.as_path().stations();
+        for parameter in stations.into_iter().skip(1) {
+            let point = course.point(parameter);
+            let angle = 2.0 * point.tangent.atan();
+            let c = bottom_force(&point);
+            let shear = point.pair_overlap * point.tangent + c / (1.0 + angle.cos());
+            let scale = point.pair_overlap;
+            assert!((point.pair_ratio * point.pair_overlap - shear).abs() < 1e-10 * scale);
+            assert!((point.floor_ratio * point.floor_overlap - shear).abs() < 1e-10 * scale);
+            let load = 2.0 * point.pair_overlap + 2.0 * c * point.tangent;
+            let floor = if parameter <= course.settled() {
+                1.5 * load
+            } else {
+                0.5 * load + course.epsilon
+            };
+            assert!((point.floor_overlap - floor).abs() < 1e-10 * scale);
+        }
+    }
+
+    #[test]
+    fn path_is_continuous_where_the_contact_opens_and_its_slope_is_not() {
+        let course = course(1.0);
+        let last = course.path.as_path().stations().into_iter().last().unwrap();
+        let outward = |parameter: f64| course.point(parameter).outward;
+        let opening = bracketed_root(outward, course.settled(), last).unwrap();
+        let at = |offset: f64| course.point(opening + offset).pair_overlap;
+        let width = 1e-4;
+        assert!((at(1e-9) - at(-1e-9)).abs() < 1e-8);
+        let (left, right) = (at(0.0) - at(-width), at(width) - at(0.0));
+        assert!((left - right).abs() > 1e-2 * left, "{left} {right}");
+    }
+
+    #[test]
+    fn contact_closes_below_the_closing_stiffness_ratio_only() {
+        assert!(course(CLOSING_STIFFNESS_RATIO * (1.0 - 1e-4)).closes());
+        assert!(!course(CLOSING_STIFFNESS_RATIO * (1.0 + 1e-4)).closes());
+        let defined = (2.0 + 3f64.sqrt()) / (2.0 * 3f64.sqrt());
+        assert!((CLOSING_STIFFNESS_RATIO - defined).abs() < 1e-15);
+    }
+}

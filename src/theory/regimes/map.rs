@@ -1,6 +1,7 @@
 //! A map over floor friction and one more property of the stack.
 
 use super::super::root::bracketed_root;
+use super::release::released_wall_tangent;
 use super::{Boundary, CLOSING_STIFFNESS_RATIO, Course, Outcome};
 use crate::stack::Stack;
 use serde::Serialize;
@@ -165,12 +166,18 @@ impl RegimeMap {
     }
 
     /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the
-    /// wall reaches the bottom cylinders: where the frictions of [`super::released_frictions`] cease to matter.
+    /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
+    /// and those at which what ends a stack beyond them changes.
     pub fn reopenings(&self) -> Vec<f64> {
         let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
         let settled = self.roots(|value| course(value).settled_outward());
         let wall = self.roots(|value| course(value).wall_contact_outward().unwrap_or(f64::NAN));
-        settled.chain(wall).collect()
+        let pair = self.roots(|value| {
+            let stack = self.axis.set(&self.base, value);
+            let needed = released_wall_tangent(&stack).unwrap_or(f64::NAN);
+            needed - stack.cylinder_friction
+        });
+        settled.chain(wall).chain(pair).collect()
     }
 
     /// Points on every boundary, with what lies on either side at a relative distance of `distance`: on the

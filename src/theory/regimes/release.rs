@@ -46,8 +46,8 @@ impl Release {
 }
 
 /// The two floor frictions between which a stack like this one has a yield force although it slips while
-/// c > 0: with less it falls under its own weight, with more the wall reaches the bottom cylinders. Neither
-/// depends on κ. For cylinders rough enough that the floor slips first.
+/// c > 0: with less it falls under its own weight, with more the cylinders slip or the wall reaches the bottom
+/// ones. Neither depends on κ. `None` if such a stack always falls.
 pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
     let epsilon = stack.epsilon();
     let needed = |beyond: f64| {
@@ -55,8 +55,19 @@ pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
         (CRITICAL_FRICTION + beyond) * overlap / (overlap + epsilon)
     };
     let settled = bracketed_root(|at| 2.0 * touching_overlap(at) - epsilon, 0.0, WIDEST)?;
-    let wall = bracketed_root(|at| clearance(at, epsilon), settled, WIDEST)?;
-    Some((needed(settled), needed(wall)))
+    let wall = wall_contact(epsilon)?;
+    let end = wall.min(stack.cylinder_friction - CRITICAL_FRICTION);
+    (end > settled).then(|| (needed(settled), needed(end)))
+}
+
+/// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0.
+pub fn released_wall_tangent(stack: &Stack) -> Option<f64> {
+    wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond)
+}
+
+/// T − μ_c where the wall reaches the bottom cylinders just as these part.
+fn wall_contact(epsilon: f64) -> Option<f64> {
+    bracketed_root(|at| clearance(at, epsilon), 0.0, WIDEST)
 }
 
 /// G₀(T) = 2 − (1 + T²)/(2T), the overlap of the contact 1–2 at which the bottom cylinders just touch, y = 0,

@@ -341,7 +341,7 @@ fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
 
 fn label(region: Region, (x, y): (f64, f64)) -> Vec<TextAnnotation> {
     let words = words(region);
-    let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 1.0) - 0.25 * LINE_HEIGHT;
+    let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 1.0) - 0.5 * LINE_HEIGHT;
     let lines = words.iter().enumerate();
     lines
         .map(|(index, text)| {

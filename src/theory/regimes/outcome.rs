@@ -72,7 +72,9 @@ impl fmt::Display for Consequence {
             Self::Saturates => {
                 "equilibrium ends at T = mu_d; the force there is the largest, whatever mu is"
             }
-            Self::Shares => "the path goes on with c > 0 until another event",
+            Self::Shares => {
+                "the path goes on with c > 0; a slip ends it only where the contact has opened again"
+            }
             Self::SecondLoadPath => {
                 "the wall rests on all three cylinders; the force grows without a peak"
             }

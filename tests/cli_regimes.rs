@@ -45,6 +45,7 @@ fn wrong_values_are_refused_by_the_name_of_their_flag() {
     for (line, flag) in [
         ("regimes --kappa -1", "`--kappa` is -1"),
         ("regimes --kappa nan", "`--kappa` is NaN"),
+        ("regimes --kappa 1.0774", "`--kappa` is 1.0774"),
         ("regimes --points 1", "`--points` is 1"),
     ] {
         let mut command = bench.tristack(line);

@@ -1,6 +1,7 @@
 //! The regime map: known boundaries, what the events do, and the native DEM on both sides.
 
 use tristack::crosscheck::{THREE_DIGITS, Verdict, confirm, examine, examined_stacks};
+use tristack::dem::{Loading, Until, watch_stack};
 use tristack::engine::Interrupt;
 use tristack::stack::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::theory::{
@@ -140,6 +141,38 @@ fn val_the_dem_contradicts_a_boundary_that_is_wrong_by_two_in_a_thousand() {
         point.stack = point.across.scale(&point.stack, factor);
         let confirmation = confirm(&point, &INTERRUPT);
         assert_eq!(confirmation.verdict(), Verdict::Differs, "{confirmation:?}");
+    }
+}
+
+/// The extended follower, at the moment the floor slips with c > 0. Two wall speeds are extrapolated; what
+/// remains is the force that one time step adds, less than 1e-6 of F + 3.
+#[test]
+fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
+    for (mu, stiffness_ratio) in [(0.3, 0.3), (0.25, 0.8)] {
+        let stack = Stack {
+            stiffness_ratio,
+            ..Stack::paper(mu, 1e2)
+        };
+        let claimed = Outcome::of(&stack).unwrap().last;
+        assert!(claimed.bottom_force > 0.0);
+        let force = |speed: f64| {
+            let loading = Loading {
+                gravity_rate: 2e-3,
+                wall_speed: speed * claimed.floor_overlap,
+                wall_travel: 1.05 * claimed.wall_travel,
+                time_step: 0.1,
+            };
+            let seen = watch_stack(&stack, &loading, Until::LastEvent, || true);
+            assert_eq!(seen.last, Some((Event::FloorSlip, Stage::Wall)));
+            seen.force
+        };
+        let extrapolated = 2.0 * force(2e-5) - force(4e-5);
+        let error = (extrapolated - claimed.force) / (claimed.force + 3.0);
+        println!(
+            "mu {mu} kappa {stiffness_ratio}: {extrapolated} {} {error:e}",
+            claimed.force
+        );
+        assert!(error.abs() < 1e-5, "{error:e}");
     }
 }
 

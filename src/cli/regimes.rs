@@ -10,7 +10,7 @@ use crate::report::{
     survey_table,
 };
 use crate::stack::{InvalidValue, PAPER_STIFFNESS_RATIO};
-use crate::theory::{BoundaryPoint, RegimeMap};
+use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -76,6 +76,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
     let maps = RegimeMap::standard(arguments.kappa);
     maps[0].base.validate().map_err(as_flag)?;
+    if (arguments.kappa / CLOSING_STIFFNESS_RATIO - 1.0).abs() < THREE_DIGITS {
+        let accepted = format!(
+            "further than {THREE_DIGITS:e} from {CLOSING_STIFFNESS_RATIO}, where contact 2-3 just closes: \
+             all of the map would be a boundary"
+        );
+        return Err(InvalidValue::new("--kappa", arguments.kappa, accepted));
+    }
     if !(FEWEST_POINTS..=MOST_POINTS).contains(&arguments.points) {
         let accepted = format!("a whole number from {FEWEST_POINTS} to {MOST_POINTS}");
         return Err(InvalidValue {

@@ -6,6 +6,7 @@ mod measure;
 mod plan;
 mod probing;
 mod recorded;
+mod regimes;
 mod schedule;
 mod store;
 mod twin;
@@ -20,6 +21,10 @@ pub use plan::{
 };
 pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};
+pub use regimes::{
+    Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,
+    survey,
+};
 pub use schedule::{Participant, Progress, RunError, Settings, run_all};
 pub use store::Store;
 pub use twin::{TwinForce, measure_with_twin};

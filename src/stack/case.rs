@@ -172,7 +172,7 @@ mod tests {
         let hash = case().content_hash();
         assert_eq!(
             hash,
-            "e3bfb845466dca98492b086c893239943693234962dbf8c41ec91fb677021aa8"
+            "2ae49df1aa0222f0c023995230b641e3036441e8a056e9ef3445cb9c7fdf9486"
         );
         let mut other = case();
         other.stack.cylinder_friction = 0.71;

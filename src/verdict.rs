@@ -50,3 +50,18 @@ impl std::fmt::Display for Verdict {
         formatter.write_str(self.as_str())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_small_error_that_is_known_well_agrees() {
+        assert_eq!(Verdict::of(0.5, 0.5, 1.0), Verdict::Agrees);
+        assert_eq!(Verdict::of(-2.0, 0.5, 1.0), Verdict::Differs);
+        assert_eq!(Verdict::of(0.5, 2.0, 1.0), Verdict::Inconclusive);
+        assert_eq!(Verdict::of(3.0, 2.0, 1.0), Verdict::Differs);
+        assert_eq!(Verdict::of(f64::NAN, 0.0, 1.0), Verdict::Inconclusive);
+        assert_eq!(Verdict::of(0.0, f64::NAN, 1.0), Verdict::Inconclusive);
+    }
+}

@@ -67,6 +67,7 @@ fn no_folder_points_back() {
         "archive",
         "dem",
         "engine",
+        "probe",
         "crosscheck",
         "report",
         "cli",

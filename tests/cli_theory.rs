@@ -91,6 +91,7 @@ fn every_command_has_help_with_an_example() {
         "crosscheck",
         "engines",
         "record",
+        "regimes",
     ] {
         let help = standard_output(&mut bench.tristack(&format!("{command} --help")));
         assert!(

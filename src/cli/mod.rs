@@ -8,6 +8,7 @@ mod options;
 mod probe;
 mod progress;
 mod record;
+mod regimes;
 mod simulate;
 mod sweep;
 mod theory;
@@ -48,6 +49,7 @@ enum Command {
     Engines(engines::Arguments),
     Probe(probe::Arguments),
     Record(record::Arguments),
+    Regimes(regimes::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -69,6 +71,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Engines(arguments) => engines::run(&arguments),
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
+        Command::Regimes(arguments) => regimes::run(&arguments),
     }
 }
 

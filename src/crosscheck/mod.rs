@@ -7,6 +7,7 @@ mod measure;
 mod plan;
 mod probing;
 mod recorded;
+mod regimes;
 mod schedule;
 mod store;
 mod trajectory;
@@ -22,6 +23,10 @@ pub use plan::{
 };
 pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};
+pub use regimes::{
+    Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,
+    survey,
+};
 pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use store::Store;
 pub use trajectory::{

@@ -132,6 +132,12 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
         &self.loads[cylinder]
     }
 
+    /// Force of a cylinder on another, the one with the higher index being named first, as of the last
+    /// evaluation of the forces.
+    pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R> {
+        &self.pair_contacts[first * (first - 1) / 2 + second].force
+    }
+
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     pub fn evaluate_forces(&mut self) {
         self.loads.fill(Load::weight(self.gravity));

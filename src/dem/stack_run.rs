@@ -24,9 +24,9 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
 /// Some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
-const TOP: usize = 0;
-const RIGHT: usize = 1;
-const LEFT: usize = 2;
+pub(super) const TOP: usize = 0;
+pub(super) const RIGHT: usize = 1;
+pub(super) const LEFT: usize = 2;
 
 /// Prepares and compresses the stack of `case`, and samples the compression as planned. Gives up once
 /// `wanted` is false; the series is then reported as truncated.
@@ -98,7 +98,7 @@ pub fn compress_stack_with<R: Real, Model: ContactModel<R>>(
 }
 
 /// Three just-touching cylinders on the floor, and the index of the floor.
-fn stress_free_stack<R: Real, Model: ContactModel<R>>(
+pub(super) fn stress_free_stack<R: Real, Model: ContactModel<R>>(
     case: &Case,
     model: Model,
 ) -> (Scene<R, Model>, usize) {

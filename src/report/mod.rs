@@ -5,6 +5,8 @@ mod explain;
 mod inventory;
 mod number;
 mod probe;
+mod regime_figure;
+mod regimes;
 mod simulation;
 mod table;
 mod theory;
@@ -17,6 +19,10 @@ pub use explain::explanation;
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
+pub use regime_figure::regimes_svg;
+pub use regimes::{
+    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
+};
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};

@@ -5,6 +5,7 @@ mod limit;
 mod path;
 mod predictions;
 mod quasistatic;
+mod regimes;
 mod root;
 mod small_displacement;
 
@@ -13,6 +14,10 @@ pub use limit::Limit;
 pub use path::followed_limit;
 pub use predictions::{Prediction, Predictions};
 pub use quasistatic::{closed_form_limit, pair_overlap};
+pub use regimes::{
+    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
+    Line, Outcome, Regime, RegimeMap, Stage, released_frictions,
+};
 pub use small_displacement::{
     ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,
     perturbation_load, quintic_displacement, rigid_yield,

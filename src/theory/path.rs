@@ -6,8 +6,14 @@
 //!
 //! where L is the load carried by cylinder 1: its growing weight along the gravity ramp, f + m g under
 //! the wall. The springs accumulate ρ dψ − R_c dθ and dx₂ + R_f dθ. Differentiated with respect to ψ this
-//! is a linear 3×3 system for (ρ′, θ′, L′), regular also where L has a maximum (docs/theory.md, Eqs. 10, 15
-//! and 36 to 40).
+//! is a linear 3×3 system for (ρ′, θ′, L′), regular also where L has a maximum
+//! (docs/theory.md, Eqs. 10, 15 and 36 to 40).
+//!
+//! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
+//! carries c = k_n (−2y), and nothing tangential: by mirror symmetry its surfaces do not move against each
+//! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are.
+//! The path is continuous where the contact closes or opens, its slope is not: the integration stops
+//! there and starts anew (docs/theory.md, Eqs. 47 to 52).
 
 use super::events::{Event, Path, PathPoint, half_angle_tangent, locate, outward_displacement};
 use super::limit::Limit;
@@ -25,6 +31,8 @@ const FIRST_STATION: f64 = 1e-7;
 const RAMP_SPACING: f64 = 0.125;
 /// Distance of the stations under the wall, in the logarithm of the angle turned.
 const WALL_SPACING: f64 = 0.125;
+/// Part of a step that is left out at its beginning when a change of contact 2–3 is located.
+const CHANGE_MARGIN: f64 = 1e-9;
 /// At ψ = 90° the centre of cylinder 1 has sunk to the level of the other two.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_3;
 
@@ -114,6 +122,11 @@ impl State {
         ]
     }
 
+    /// y = x₂ − r.
+    fn outward(&self) -> f64 {
+        outward_displacement(self.turned, self.pair_overlap)
+    }
+
     fn scaled(self, factor: f64) -> [f64; 6] {
         self.to_array().map(|component| component * factor)
     }
@@ -144,6 +157,15 @@ impl Leg {
     }
 }
 
+/// What becomes of the contact between the bottom cylinders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BottomContact {
+    /// It carries nothing, c = 0, even where the cylinders would overlap.
+    Ignored,
+    /// It closes where y < 0 and opens where y > 0.
+    Followed,
+}
+
 /// Everything about the contacts that does not change along the path.
 #[derive(Debug, Clone, Copy)]
 struct Contacts<Law> {
@@ -151,11 +173,13 @@ struct Contacts<Law> {
     pair_arm: f64,
     floor_arm: f64,
     epsilon: f64,
+    bottom: BottomContact,
 }
 
 impl<Law: SpringLaw> Contacts<Law> {
-    /// Derivative of the state with respect to ψ (docs/theory.md, Eqs. 37 to 39).
-    fn derivative(&self, state: &State, leg: Leg) -> State {
+    /// Derivative of the state with respect to ψ, with contact 2–3 closed or open (docs/theory.md,
+    /// Eqs. 37 to 39 and 52).
+    fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
         let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
         let distance = 2.0 - state.pair_overlap;
         let floor_force = leg.floor_force(state.load, self.epsilon);
@@ -169,6 +193,12 @@ impl<Law: SpringLaw> Contacts<Law> {
         let pair_radius = 1.0 + self.pair_arm * state.pair_overlap;
         let floor_radius = 1.0 + self.floor_arm * floor_overlap;
         let (b, e) = (state.pair_shear, state.floor_shear);
+        // −dc/dx₂: the bottom cylinders overlap by −2y.
+        let bottom_stiffness = if closed {
+            2.0 * self.law.normal_stiffness(-2.0 * state.outward())
+        } else {
+            0.0
+        };
 
         // Rows: torque on 2, horizontal force on 2, vertical force on 1. Columns: ρ′, θ′, L′.
         let system = Matrix3::new(
@@ -176,7 +206,7 @@ impl<Law: SpringLaw> Contacts<Law> {
             -pair_tangential * pair_radius * pair_radius
                 - floor_tangential * floor_radius * floor_radius,
             -e * self.floor_arm * floor_overlap_slope,
-            (normal_stiffness + floor_tangential) * sin,
+            (normal_stiffness + floor_tangential + bottom_stiffness) * sin,
             -pair_tangential * pair_radius * cos + floor_tangential * floor_radius,
             0.0,
             -2.0 * normal_stiffness * cos,
@@ -185,7 +215,9 @@ impl<Law: SpringLaw> Contacts<Law> {
         );
         let known = Vector3::new(
             (pair_tangential * pair_radius - floor_tangential * floor_radius * cos) * distance,
-            (pair_tangential + floor_tangential) * distance * cos - normal * cos - b * sin,
+            (pair_tangential + floor_tangential + bottom_stiffness) * distance * cos
+                - normal * cos
+                - b * sin,
             2.0 * (pair_tangential * distance * sin - normal * sin + b * cos),
         );
         let solution = system
@@ -210,7 +242,7 @@ impl<Law: SpringLaw> Contacts<Law> {
             tangent: half_angle_tangent(state.turned),
             pair_overlap: state.pair_overlap,
             floor_overlap: self.law.overlap(floor_force),
-            outward: outward_displacement(state.turned, state.pair_overlap),
+            outward: state.outward(),
             pair_ratio: state.pair_shear / self.law.normal_force(state.pair_overlap),
             floor_ratio: state.floor_shear / floor_force,
             wall_force: match leg {
@@ -225,6 +257,7 @@ impl<Law: SpringLaw> Contacts<Law> {
 struct LegEquation<'a, Law> {
     contacts: &'a Contacts<Law>,
     leg: Leg,
+    closed: bool,
     first_turn: f64,
 }
 
@@ -237,38 +270,52 @@ impl<Law: SpringLaw> ODE<f64, [f64; 6]> for LegEquation<'_, Law> {
         };
         *slope = self
             .contacts
-            .derivative(&state, self.leg)
+            .derivative(&state, self.leg, self.closed)
             .scaled(angle_per_parameter);
     }
 }
 
+/// A state on the followed path, and whether contact 2–3 is closed from there on.
+#[derive(Debug, Clone, Copy)]
+struct Knot {
+    parameter: f64,
+    state: State,
+    closed: bool,
+}
+
 /// The followed path: states at the stations, and the means to go on from any of them.
-struct FollowedPath<Law> {
+pub(super) struct FollowedPath<Law> {
     contacts: Contacts<Law>,
     /// The angle turned under gravity, to first order in ε.
     first_turn: f64,
     /// The parameter at which gravity is complete; infinite if the stack cannot carry its own weight.
     settled: f64,
-    knots: Vec<(f64, State)>,
+    knots: Vec<Knot>,
 }
 
 impl<Law: SpringLaw> FollowedPath<Law> {
     /// Follows the path until cylinder 1 has sunk to the level of the others, or no equilibrium follows.
     fn new(contacts: Contacts<Law>) -> Self {
         let origin = State::from_array([0.0; 6]);
-        let initial_slope = contacts.derivative(&origin, Leg::GravityRamp);
+        let open_slope = contacts.derivative(&origin, Leg::GravityRamp, false);
+        let closed = contacts.bottom == BottomContact::Followed && moves_inwards(&open_slope);
+        let initial_slope = contacts.derivative(&origin, Leg::GravityRamp, closed);
         let mut path = Self {
             first_turn: contacts.epsilon / initial_slope.load,
             contacts,
             settled: f64::INFINITY,
-            knots: vec![(0.0, origin)],
+            knots: vec![Knot {
+                parameter: 0.0,
+                state: origin,
+                closed,
+            }],
         };
         path.follow_gravity();
         path.follow_wall();
         path
     }
 
-    fn last(&self) -> (f64, State) {
+    fn last(&self) -> Knot {
         self.knots[self.knots.len() - 1]
     }
 
@@ -276,29 +323,33 @@ impl<Law: SpringLaw> FollowedPath<Law> {
         let epsilon = self.contacts.epsilon;
         let end = LARGEST_TURN / self.first_turn;
         loop {
-            let (from, state) = self.last();
+            let last = self.last();
+            let from = last.parameter;
             let spacing = from.clamp(FIRST_STATION, RAMP_SPACING);
-            let to = (from + spacing).min(end);
-            let Some(next) = self.advance((from, state), to) else {
+            let Some(next) = self.next_knot((from + spacing).min(end)) else {
                 return;
             };
-            if next.load >= epsilon {
+            if next.state.load >= epsilon {
                 let missing = |parameter: f64| {
-                    let reached = self.advance((from, state), parameter);
+                    let reached = self.advance(last, parameter);
                     reached.map_or(f64::NAN, |state| state.load / epsilon - 1.0)
                 };
-                let Some(settled) = bracketed_root(missing, from, to) else {
+                let Some(settled) = bracketed_root(missing, from, next.parameter) else {
                     return;
                 };
-                let Some(state) = self.advance((from, state), settled) else {
+                let Some(state) = self.advance(last, settled) else {
                     return;
                 };
                 self.settled = settled;
-                self.knots.push((settled, state));
+                self.knots.push(Knot {
+                    parameter: settled,
+                    state,
+                    closed: last.closed,
+                });
                 return;
             }
-            self.knots.push((to, next));
-            if to >= end {
+            self.knots.push(next);
+            if next.parameter >= end {
                 return;
             }
         }
@@ -308,14 +359,48 @@ impl<Law: SpringLaw> FollowedPath<Law> {
         if self.settled.is_infinite() {
             return;
         }
-        let length = libm::log(LARGEST_TURN / self.last().1.turned);
+        let length = libm::log(LARGEST_TURN / self.last().state.turned);
         let count = (length / WALL_SPACING).ceil().max(0.0) as usize;
         for index in 1..=count {
             let to = self.settled + length * index as f64 / count as f64;
-            let Some(state) = self.advance(self.last(), to) else {
-                return;
-            };
-            self.knots.push((to, state));
+            while self.last().parameter < to {
+                let Some(next) = self.next_knot(to) else {
+                    return;
+                };
+                self.knots.push(next);
+            }
+        }
+    }
+
+    /// The knot at `to`, or where contact 2–3 closes or opens before that.
+    fn next_knot(&self, to: f64) -> Option<Knot> {
+        let last = self.last();
+        let state = self.advance(last, to)?;
+        let on_the_way = Knot {
+            parameter: to,
+            state,
+            closed: last.closed,
+        };
+        if self.contacts.bottom == BottomContact::Ignored || last.closed == (state.outward() < 0.0)
+        {
+            return Some(on_the_way);
+        }
+        let outward = |parameter: f64| {
+            let reached = self.advance(last, parameter);
+            reached.map_or(f64::NAN, |state| state.outward())
+        };
+        // A contact that has just changed has y = 0 up to round-off, on either side of it.
+        let later = last.parameter + CHANGE_MARGIN * (to - last.parameter);
+        match bracketed_root(outward, later, to) {
+            None => Some(Knot {
+                closed: !last.closed,
+                ..on_the_way
+            }),
+            Some(change) => Some(Knot {
+                parameter: change,
+                state: self.advance(last, change)?,
+                closed: !last.closed,
+            }),
         }
     }
 
@@ -327,19 +412,20 @@ impl<Law: SpringLaw> FollowedPath<Law> {
         }
     }
 
-    fn advance(&self, (from, state): (f64, State), to: f64) -> Option<State> {
-        if from == to {
-            return Some(state);
+    fn advance(&self, from: Knot, to: f64) -> Option<State> {
+        if from.parameter == to {
+            return Some(from.state);
         }
         let equation = LegEquation {
             contacts: &self.contacts,
             leg: self.leg_at(to),
+            closed: from.closed,
             first_turn: self.first_turn,
         };
         let method = ExplicitRungeKutta::dop853()
             .rtol(RELATIVE_TOLERANCE)
             .atol(RELATIVE_TOLERANCE * 1e-3 * self.contacts.epsilon);
-        let solution = IVP::ode(&equation, from, to, state.to_array())
+        let solution = IVP::ode(&equation, from.parameter, to, from.state.to_array())
             .method(method)
             .solve()
             .ok()?;
@@ -349,12 +435,16 @@ impl<Law: SpringLaw> FollowedPath<Law> {
     }
 }
 
+/// Whether cylinder 2 begins to move inwards from the stress-free state.
+fn moves_inwards(slope: &State) -> bool {
+    // dy/dψ = ρ′ sin ψ + ρ cos ψ at ψ = 30°, ρ = 2.
+    let outward_slope = 3f64.sqrt() - 0.5 * slope.pair_overlap;
+    outward_slope < 0.0
+}
+
 impl<Law: SpringLaw> Path for FollowedPath<Law> {
     fn stations(&self) -> Vec<f64> {
-        self.knots[1..]
-            .iter()
-            .map(|&(parameter, _)| parameter)
-            .collect()
+        self.knots[1..].iter().map(|knot| knot.parameter).collect()
     }
 
     fn settled(&self) -> f64 {
@@ -362,7 +452,9 @@ impl<Law: SpringLaw> Path for FollowedPath<Law> {
     }
 
     fn point(&self, parameter: f64) -> PathPoint {
-        let after = self.knots.partition_point(|&(knot, _)| knot <= parameter);
+        let after = self
+            .knots
+            .partition_point(|knot| knot.parameter <= parameter);
         let knot = self.knots[after.saturating_sub(1)];
         let lost = State::from_array([f64::NAN; 6]);
         let state = self.advance(knot, parameter).unwrap_or(lost);
@@ -372,14 +464,25 @@ impl<Law: SpringLaw> Path for FollowedPath<Law> {
 
 /// The quasi-static limit of `stack` for any torque arms.
 pub fn followed_limit(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Limit {
-    let path = FollowedPath::new(Contacts {
+    let path = followed_path(stack, pair_arm, floor_arm, BottomContact::Ignored);
+    let slip = locate(&path, Event::FloorSlip, stack);
+    Limit::of(&path, slip, stack, pair_arm, floor_arm)
+}
+
+/// The path of equilibria of a stack like this one; its frictions play no part in it.
+pub(super) fn followed_path(
+    stack: &Stack,
+    pair_arm: f64,
+    floor_arm: f64,
+    bottom: BottomContact,
+) -> FollowedPath<LinearSprings> {
+    FollowedPath::new(Contacts {
         law: LinearSprings {
             tangential_stiffness: stack.tangential_stiffness(),
         },
         pair_arm,
         floor_arm,
         epsilon: stack.epsilon(),
-    });
-    let slip = locate(&path, Event::FloorSlip, stack);
-    Limit::of(&path, slip, stack, pair_arm, floor_arm)
+        bottom,
+    })
 }

@@ -51,13 +51,18 @@ pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
 
 /// The path of equilibria with the parameter T − μ_c (docs/theory.md, Eqs. 14 and 31; on the gravity ramp
 /// Eq. 10).
-struct ClosedForm {
+pub(super) struct ClosedForm {
     epsilon: f64,
     stiffness_ratio: f64,
     end: f64,
 }
 
 impl ClosedForm {
+    /// The whole path, up to T = 1.
+    pub(super) fn whole(stack: &Stack) -> Self {
+        Self::new(stack, WIDEST)
+    }
+
     fn new(stack: &Stack, end: f64) -> Self {
         Self {
             epsilon: stack.epsilon(),

@@ -1,0 +1,145 @@
+//! `tristack regimes`.
+
+use super::options::{Format, as_flag, writable};
+use super::progress::Counter;
+use super::{CliError, ExitStatus, INTERRUPT};
+use crate::archive::{ArchiveError, write_atomically};
+use crate::crosscheck::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::report::{
+    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, regimes_svg, survey_json,
+    survey_table,
+};
+use crate::stack::{InvalidValue, PAPER_STIFFNESS_RATIO};
+use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
+use crate::verdict::Verdict;
+use clap::Args;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// Values on the axis and floor frictions of regimes.csv.
+const GRID: (usize, usize) = (25, 40);
+const FEWEST_POINTS: usize = 2;
+const MOST_POINTS: usize = 1000;
+
+/// Which event comes first, and what it does
+///
+/// Maps the events over floor friction and stiffness, cylinder friction, or stiffness ratio. Every boundary
+/// is looked at with the native DEM on both sides, at a relative distance of 5e-4, and the largest force
+/// of stacks of every kind is held against theory.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: tristack regimes --out regimes")]
+pub struct Arguments {
+    /// Stiffness ratio k_n/k_t where it does not vary
+    #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
+    kappa: f64,
+    /// Points that are looked at on each boundary
+    #[arg(long, value_name = "N", default_value_t = 13)]
+    points: usize,
+    /// Runs at the same time [default: the number of cores]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Directory for regimes.csv, boundaries.csv, largest_forces.csv, regimes.md and regimes.svg
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// How to print boundaries and largest forces; csv prints the boundaries alone
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Looks at every boundary, prints and writes what was found.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let maps = checked_maps(arguments)?;
+    if let Some(directory) = &arguments.out {
+        writable(directory)?;
+    }
+    let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
+    let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
+    let threads = arguments.jobs.or(std::thread::available_parallelism().ok());
+    let counter = Counter::new(points.len() + examined_stacks().len());
+    let threads = threads.map_or(1, usize::from);
+    let survey = survey(&points, threads, &INTERRUPT, &|done| counter.add(done));
+    drop(counter);
+    if INTERRUPT.requested() {
+        eprintln!("interrupted: nothing is printed or written");
+        return Ok(ExitStatus::Interrupted);
+    }
+    if let Some(directory) = &arguments.out {
+        write(directory, &maps, &survey, &command_line(arguments))?;
+    }
+    super::print(&match arguments.format {
+        Format::Table => survey_table(&survey).into_bytes(),
+        Format::Json => survey_json(&survey).into_bytes(),
+        Format::Csv => boundaries_csv(&survey),
+    })?;
+    Ok(conclude(&survey))
+}
+
+fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
+    let maps = RegimeMap::standard(arguments.kappa);
+    maps[0].base.validate().map_err(as_flag)?;
+    if (arguments.kappa / CLOSING_STIFFNESS_RATIO - 1.0).abs() < THREE_DIGITS {
+        let accepted = format!(
+            "further than {THREE_DIGITS:e} from {CLOSING_STIFFNESS_RATIO}, where contact 2-3 just closes: \
+             all of the map would be a boundary"
+        );
+        return Err(InvalidValue::new("--kappa", arguments.kappa, accepted));
+    }
+    if !(FEWEST_POINTS..=MOST_POINTS).contains(&arguments.points) {
+        let accepted = format!("a whole number from {FEWEST_POINTS} to {MOST_POINTS}");
+        return Err(InvalidValue {
+            key: "--points".to_owned(),
+            value: arguments.points.to_string(),
+            accepted,
+        });
+    }
+    Ok(maps)
+}
+
+fn write(
+    directory: &Path,
+    maps: &[RegimeMap],
+    survey: &Survey,
+    command: &str,
+) -> Result<(), ArchiveError> {
+    let files = [
+        ("regimes.csv", regimes_csv(maps, GRID.0, GRID.1)),
+        ("boundaries.csv", boundaries_csv(survey)),
+        ("largest_forces.csv", largest_forces_csv(survey)),
+        ("regimes.md", regimes_markdown(survey, command).into_bytes()),
+        ("regimes.svg", regimes_svg(maps, survey).into_bytes()),
+    ];
+    for (name, content) in files {
+        write_atomically(&directory.join(name), &content)?;
+    }
+    Ok(())
+}
+
+/// The command that gives the same rows again.
+fn command_line(arguments: &Arguments) -> String {
+    let mut line = "tristack regimes".to_owned();
+    if arguments.kappa != PAPER_STIFFNESS_RATIO {
+        line += &format!(" --kappa {}", arguments.kappa);
+    }
+    line + &format!(" --points {}", arguments.points)
+}
+
+/// Says on standard error what it amounts to, and returns the exit status.
+fn conclude(survey: &Survey) -> ExitStatus {
+    let verdicts: Vec<Verdict> = survey.verdicts().collect();
+    let count = |verdict: Verdict| verdicts.iter().filter(|&&other| other == verdict).count();
+    let agree = count(Verdict::Agrees);
+    let (differ, all) = (count(Verdict::Differs), verdicts.len());
+    eprintln!(
+        "{agree} of {all} places agree ({} on boundaries, {} largest forces), {differ} differ, {} inconclusive",
+        survey.confirmations.len(),
+        survey.examinations.len(),
+        all - agree - differ
+    );
+    if differ > 0 {
+        ExitStatus::Disagreement
+    } else if agree < all {
+        ExitStatus::Inconclusive
+    } else {
+        ExitStatus::Success
+    }
+}

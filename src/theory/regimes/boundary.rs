@@ -1,0 +1,54 @@
+//! Boundaries of the regime map in the floor friction, at given stiffness, stiffness ratio and cylinder
+//! friction.
+
+use super::super::events::Event;
+use super::course::Course;
+use crate::stack::Stack;
+
+/// A floor friction at which something else begins to happen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Boundary {
+    /// The floor friction μ.
+    pub floor_friction: f64,
+    /// What ends the path at a little less friction …
+    pub below: Event,
+    /// … and at a little more.
+    pub above: Event,
+}
+
+impl Boundary {
+    /// Every boundary in μ of stacks like `stack` on their `course`, lowest first.
+    ///
+    /// Up to the largest e/d along the gravity ramp the floor slips under own weight; from e/d at the next
+    /// other event on, that event comes before floor slip. There is none where the cylinders slip under
+    /// own weight: the stack falls whatever the floor is like.
+    pub fn in_friction(course: &Course, stack: &Stack) -> Vec<Self> {
+        let slip = course.locate(Event::CylinderSlip, stack);
+        let Some((above, end)) = earlier(slip, course.wall_contact()) else {
+            return Vec::new();
+        };
+        let slips = |floor_friction, above| Self {
+            floor_friction,
+            below: Event::FloorSlip,
+            above,
+        };
+        let settled = course.settled();
+        if end <= settled {
+            return Vec::new();
+        }
+        let needed = |until: f64| course.largest_until(until, |point| point.floor_ratio);
+        vec![
+            slips(needed(settled), Event::FloorSlip),
+            slips(needed(end), above),
+        ]
+    }
+}
+
+/// Cylinder slip or wall contact, whichever comes first.
+fn earlier(slip: Option<f64>, wall: Option<f64>) -> Option<(Event, f64)> {
+    match (slip, wall) {
+        (Some(slip), Some(wall)) if slip > wall => Some((Event::WallContact, wall)),
+        (Some(slip), _) => Some((Event::CylinderSlip, slip)),
+        (None, wall) => wall.map(|wall| (Event::WallContact, wall)),
+    }
+}

@@ -1,0 +1,307 @@
+//! A map over floor friction and one more property of the stack.
+
+use super::super::root::bracketed_root;
+use super::release::released_wall_tangent;
+use super::{Boundary, CLOSING_STIFFNESS_RATIO, Course, Outcome};
+use crate::stack::Stack;
+use serde::Serialize;
+
+/// What varies besides the floor friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// 1/ε.
+    Stiffness,
+    /// μ_d.
+    CylinderFriction,
+    /// κ.
+    StiffnessRatio,
+}
+
+impl Axis {
+    /// `stack` with another value on this axis.
+    pub fn set(self, stack: &Stack, value: f64) -> Stack {
+        let mut changed = *stack;
+        match self {
+            Self::Stiffness => changed.stiffness = value,
+            Self::CylinderFriction => changed.cylinder_friction = value,
+            Self::StiffnessRatio => changed.stiffness_ratio = value,
+        }
+        changed
+    }
+
+    /// The value of `stack` on this axis.
+    pub fn get(self, stack: &Stack) -> f64 {
+        match self {
+            Self::Stiffness => stack.stiffness,
+            Self::CylinderFriction => stack.cylinder_friction,
+            Self::StiffnessRatio => stack.stiffness_ratio,
+        }
+    }
+
+    /// Its name in tables and on the command line.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Stiffness => "stiffness",
+            Self::CylinderFriction => "mu_d",
+            Self::StiffnessRatio => "kappa",
+        }
+    }
+
+    /// Whether its values spread over decades.
+    pub fn is_logarithmic(self) -> bool {
+        self != Self::CylinderFriction
+    }
+}
+
+/// A rectangle of stacks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RegimeMap {
+    /// What varies besides the floor friction.
+    pub axis: Axis,
+    /// Everything that does not vary.
+    pub base: Stack,
+    /// Lowest and highest value on the axis.
+    pub range: (f64, f64),
+    /// Lowest and highest floor friction.
+    pub frictions: (f64, f64),
+}
+
+/// Intervals of an axis in which a line is looked for.
+const SEARCHED_INTERVALS: usize = 64;
+
+impl RegimeMap {
+    /// The three maps: over stiffness, cylinder friction and stiffness ratio, each about the paper's stack at
+    /// stiffness 100, with `stiffness_ratio` where that does not vary.
+    pub fn standard(stiffness_ratio: f64) -> [Self; 3] {
+        let over = |axis, range| Self {
+            axis,
+            base: Stack {
+                stiffness_ratio,
+                ..Stack::paper(0.3, 100.0)
+            },
+            range,
+            frictions: (0.02, 0.8),
+        };
+        [
+            over(Axis::Stiffness, (10.0, 1e5)),
+            over(Axis::CylinderFriction, (0.2, 0.8)),
+            over(Axis::StiffnessRatio, (0.2, 20.0)),
+        ]
+    }
+
+    /// `count` values on the axis, both ends included; evenly spread, or over the logarithm.
+    pub fn axis_values(&self, count: usize) -> Vec<f64> {
+        spread(self.range, count, self.axis.is_logarithmic())
+    }
+
+    /// `count` floor frictions, both ends included.
+    pub fn friction_values(&self, count: usize) -> Vec<f64> {
+        spread(self.frictions, count, false)
+    }
+
+    /// How much of the axis a part of it takes up, on the scale on which it is spread.
+    pub fn width(&self, (from, to): (f64, f64)) -> f64 {
+        if self.axis.is_logarithmic() {
+            libm::log(to / from)
+        } else {
+            to - from
+        }
+    }
+
+    /// The middle of a part of the axis, on that scale.
+    pub fn middle(&self, part: (f64, f64)) -> f64 {
+        spread(part, 3, self.axis.is_logarithmic())[1]
+    }
+
+    /// The stack at a value on the axis and a floor friction.
+    pub fn stack(&self, value: f64, floor_friction: f64) -> Stack {
+        Stack {
+            floor_friction,
+            ..self.axis.set(&self.base, value)
+        }
+    }
+
+    /// The boundaries in μ at a value on the axis that lie on the map.
+    pub fn friction_boundaries(&self, value: f64) -> Vec<Boundary> {
+        let stack = self.axis.set(&self.base, value);
+        let all = Boundary::in_friction(&Course::new(&stack), &stack).into_iter();
+        let (lowest, highest) = self.frictions;
+        all.filter(|boundary| (lowest..=highest).contains(&boundary.floor_friction))
+            .collect()
+    }
+
+    /// The values on the axis at which something changes whatever the floor friction is: where the cylinders
+    /// just bear their own weight, where they slip just as the wall arrives, and where contact 2–3 closes.
+    pub fn lines(&self) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
+        let cylinder_friction = |value: f64| self.axis.set(&self.base, value).cylinder_friction;
+        let own_weight = |value| course(value).settled_pair_ratio() - cylinder_friction(value);
+        let wall = |value| {
+            let needed = course(value).wall_contact_pair_ratio();
+            needed.unwrap_or(f64::INFINITY) - cylinder_friction(value)
+        };
+        lines.extend(self.roots(own_weight).map(Line::CylindersBearTheirWeight));
+        lines.extend(self.roots(wall).map(Line::WallArrivesAsCylindersSlip));
+        let (lowest, highest) = self.range;
+        if self.axis == Axis::StiffnessRatio
+            && (lowest..=highest).contains(&CLOSING_STIFFNESS_RATIO)
+        {
+            lines.push(Line::ContactCloses(CLOSING_STIFFNESS_RATIO));
+        }
+        lines
+    }
+
+    /// The floor friction from which on `line` separates anything: with less, the floor slips first on both
+    /// sides of it.
+    pub fn lowest_friction_of(&self, line: Line) -> f64 {
+        let course = Course::new(&self.axis.set(&self.base, line.value()));
+        let end = match line {
+            Line::WallArrivesAsCylindersSlip(_) => course.wall_contact(),
+            _ => Some(course.settled()),
+        };
+        let needed = end.map(|end| course.largest_until(end, |point| point.floor_ratio));
+        needed.map_or(self.frictions.0, |needed| needed.max(self.frictions.0))
+    }
+
+    /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the
+    /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
+    /// and those at which what ends a stack beyond them changes.
+    pub fn reopenings(&self) -> Vec<f64> {
+        let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
+        let settled = self.roots(|value| course(value).settled_outward());
+        let wall = self.roots(|value| course(value).wall_contact_outward().unwrap_or(f64::NAN));
+        let pair = self.roots(|value| {
+            let stack = self.axis.set(&self.base, value);
+            let needed = released_wall_tangent(&stack).unwrap_or(f64::NAN);
+            needed - stack.cylinder_friction
+        });
+        settled.chain(wall).chain(pair).collect()
+    }
+
+    /// Points on every boundary, with what lies on either side at a relative distance of `distance`: on the
+    /// boundaries in μ at `count` values on the axis, on each line at `count` floor frictions.
+    pub fn boundary_points(&self, count: usize, distance: f64) -> Vec<BoundaryPoint> {
+        let mut places = Vec::new();
+        for value in self.axis_values(count) {
+            let boundaries = self.friction_boundaries(value).into_iter();
+            let stacks = boundaries.map(|boundary| self.stack(value, boundary.floor_friction));
+            places.extend(stacks.map(|stack| (stack, Across::Friction)));
+        }
+        for line in self.lines() {
+            let lowest = self.lowest_friction_of(line);
+            let width = (self.frictions.1 - lowest).max(0.0) / count as f64;
+            // In the middle of each part, so that no point lies where the line meets another boundary.
+            let frictions = (0..count).map(|index| lowest + width * (index as f64 + 0.5));
+            let stacks = frictions.map(|friction| self.stack(line.value(), friction));
+            places.extend(stacks.map(|stack| (stack, Across::Axis(self.axis))));
+        }
+        let points = places.into_iter();
+        points
+            .filter_map(|(stack, across)| BoundaryPoint::new(self.axis, stack, across, distance))
+            .collect()
+    }
+
+    fn roots(&self, function: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
+        let values = self.axis_values(SEARCHED_INTERVALS + 1);
+        let heights: Vec<f64> = values.iter().map(|&value| function(value)).collect();
+        let roots = (1..values.len()).filter_map(|index| {
+            let changes = heights[index - 1] * heights[index] < 0.0;
+            changes.then(|| bracketed_root(&function, values[index - 1], values[index]))?
+        });
+        roots.collect::<Vec<_>>().into_iter()
+    }
+}
+
+/// A boundary that does not depend on the floor friction: a value on the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Line {
+    /// b/a = μ_d when gravity is complete.
+    CylindersBearTheirWeight(f64),
+    /// b/a = μ_d when the wall reaches the bottom cylinders.
+    WallArrivesAsCylindersSlip(f64),
+    /// κ = κ_c.
+    ContactCloses(f64),
+}
+
+impl Line {
+    /// The value on the axis.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::CylindersBearTheirWeight(value)
+            | Self::WallArrivesAsCylindersSlip(value)
+            | Self::ContactCloses(value) => value,
+        }
+    }
+}
+
+/// What changes when a boundary is crossed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Across {
+    /// μ.
+    Friction,
+    /// The other property of the map.
+    Axis(Axis),
+}
+
+impl Across {
+    /// `stack` with the property multiplied by `factor`.
+    pub fn scale(self, stack: &Stack, factor: f64) -> Stack {
+        match self {
+            Self::Friction => Stack {
+                floor_friction: stack.floor_friction * factor,
+                ..*stack
+            },
+            Self::Axis(axis) => axis.set(stack, axis.get(stack) * factor),
+        }
+    }
+}
+
+/// A stack on a boundary, and what is claimed of its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoundaryPoint {
+    /// The map, by the axis that it has besides the floor friction.
+    pub map: Axis,
+    /// The stack on the boundary.
+    pub stack: Stack,
+    /// What changes across the boundary.
+    pub across: Across,
+    /// Relative distance of the neighbours.
+    pub distance: f64,
+    /// What becomes of the neighbour below and of the one above.
+    pub sides: [Outcome; 2],
+}
+
+impl BoundaryPoint {
+    /// `stack` as a point on a boundary. `None` if a neighbour has no outcome.
+    fn new(map: Axis, stack: Stack, across: Across, distance: f64) -> Option<Self> {
+        let side = |factor: f64| Outcome::of(&across.scale(&stack, factor));
+        Some(Self {
+            map,
+            sides: [side(1.0 - distance)?, side(1.0 + distance)?],
+            stack,
+            across,
+            distance,
+        })
+    }
+
+    /// The neighbour below and the one above.
+    pub fn neighbours(&self) -> [Stack; 2] {
+        [1.0 - self.distance, 1.0 + self.distance]
+            .map(|factor| self.across.scale(&self.stack, factor))
+    }
+}
+
+fn spread((lowest, highest): (f64, f64), count: usize, logarithmic: bool) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1) as f64;
+    let between = |index: usize| {
+        let fraction = index as f64 / last;
+        if logarithmic {
+            lowest * libm::pow(highest / lowest, fraction)
+        } else {
+            lowest + (highest - lowest) * fraction
+        }
+    };
+    (0..count).map(between).collect()
+}

@@ -1,0 +1,226 @@
+//! What becomes of one stack: the first event, what it does, and the force that the stack carries.
+
+use super::super::events::Event;
+use super::course::Course;
+use super::release::Release;
+use crate::stack::Stack;
+use serde::Serialize;
+use std::fmt;
+
+/// When something happens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// While gravity grows, before there is a wall.
+    OwnWeight,
+    /// Under the wall.
+    Wall,
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::OwnWeight => "own weight",
+            Self::Wall => "wall",
+        })
+    }
+}
+
+/// An event on the path, and the state in which it happens.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Happening {
+    /// What happens.
+    pub event: Event,
+    /// When.
+    pub stage: Stage,
+    /// F = f/(m g); 0 under own weight.
+    pub force: f64,
+    /// T = tan(ψ/2).
+    #[serde(rename = "T")]
+    pub tangent: f64,
+    /// z, overlap of the floor contacts, in r.
+    pub floor_overlap: f64,
+    /// c, force between the bottom cylinders, in k_n r.
+    pub bottom_force: f64,
+    /// How far the top wall has moved, in r.
+    pub wall_travel: f64,
+}
+
+/// What the first event does to the stack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Consequence {
+    /// It does not stand.
+    Collapses,
+    /// The floor gives way under the wall.
+    Yields,
+    /// The cylinders give way under the wall.
+    Saturates,
+    /// The bottom cylinders carry part of the load between them.
+    Shares,
+    /// The wall rests on the bottom cylinders too.
+    SecondLoadPath,
+    /// The load has passed a maximum before anything happened.
+    Softens,
+}
+
+impl fmt::Display for Consequence {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Collapses => "the stack does not carry its own weight",
+            Self::Yields => "equilibrium ends; the force there is the yield force",
+            Self::Saturates => {
+                "equilibrium ends at T = mu_d; the force there is the largest, whatever mu is"
+            }
+            Self::Shares => {
+                "the path goes on with c > 0; a slip ends it only where the contact has opened again"
+            }
+            Self::SecondLoadPath => {
+                "the wall rests on all three cylinders; the force grows without a peak"
+            }
+            Self::Softens => "the load has passed its maximum before anything slips",
+        })
+    }
+}
+
+/// The first event, the first slip or wall contact, and the stages in which they come: what all stacks of
+/// one region of the map have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Regime {
+    /// The first event.
+    pub first: Event,
+    /// When it comes.
+    pub first_stage: Stage,
+    /// The first slip or wall contact; another one than the first where contact 2–3 closes before it.
+    pub last: Event,
+    /// When that comes.
+    pub last_stage: Stage,
+}
+
+impl fmt::Display for Regime {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let when = |stage| match stage {
+            Stage::OwnWeight => " under own weight",
+            Stage::Wall => "",
+        };
+        if self.first != self.last {
+            write!(formatter, "{}, then ", self.first)?;
+        }
+        write!(formatter, "{}{}", self.last, when(self.last_stage))
+    }
+}
+
+/// What becomes of a stack on its way up in load.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Outcome {
+    /// The first event.
+    pub first: Happening,
+    /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
+    pub last: Happening,
+    /// What the first event does.
+    pub consequence: Consequence,
+    /// Where equilibrium ends; `None` where the stack does not stand, and where the wall comes to rest on the
+    /// bottom cylinders. Later than `last` where that is a slip with c > 0.
+    pub end: Option<Happening>,
+    /// The largest force F that the stack carries, that at the end unless it softens before.
+    pub largest_force: Option<f64>,
+}
+
+impl Outcome {
+    /// What becomes of `stack`, with torque arms 0. `None` if its path of equilibria ends before any event.
+    ///
+    /// ```
+    /// use tristack::stack::Stack;
+    /// use tristack::theory::{Consequence, Event, Outcome};
+    ///
+    /// let slippery = Stack { cylinder_friction: 0.4, ..Stack::paper(0.5, 1e2) };
+    /// let outcome = Outcome::of(&slippery).unwrap();
+    /// assert_eq!(outcome.first.event, Event::CylinderSlip);
+    /// assert_eq!(outcome.consequence, Consequence::Saturates);
+    /// assert!((outcome.first.tangent - 0.4).abs() < 1e-12);
+    /// ```
+    pub fn of(stack: &Stack) -> Option<Self> {
+        Self::on(&Course::new(stack), stack)
+    }
+
+    /// The same for a `stack` whose path is known.
+    pub fn on(course: &Course, stack: &Stack) -> Option<Self> {
+        let (event, parameter) = last_event(course, stack)?;
+        let last = course.happening(event, parameter);
+        let release = (last.bottom_force > 0.0 && event != Event::WallContact)
+            .then(|| Release::of(stack, course.settled_height()));
+        let end = match (release, last.stage, event) {
+            (Some(Release::Ends(end)), ..) => Some(end),
+            (Some(_), ..) | (_, Stage::OwnWeight, _) | (_, _, Event::WallContact) => None,
+            _ => Some(last),
+        };
+        // A stack that slips from the start and falls never gets to stand on a fifth contact.
+        let falls_at_once = parameter == 0.0 && release.is_none_or(|end| end == Release::Falls);
+        let closing = course.locate(Event::ContactCloses, stack);
+        let closing = closing.filter(|&closing| closing <= parameter && !falls_at_once);
+        let first = closing.map_or(last, |closing| {
+            course.happening(Event::ContactCloses, closing)
+        });
+        let passed = course.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
+        let softens = end.is_some_and(|end| passed > end.force * (1.0 + MAXIMUM_MARGIN));
+        Some(Self {
+            consequence: consequence(&first, softens),
+            largest_force: end.map(|end| end.force.max(passed)),
+            first,
+            last,
+            end,
+        })
+    }
+
+    /// The region of the map that the stack belongs to.
+    pub fn regime(&self) -> Regime {
+        Regime {
+            first: self.first.event,
+            first_stage: self.first.stage,
+            last: self.last.event,
+            last_stage: self.last.stage,
+        }
+    }
+}
+
+/// Forces closer than this are the same: the quadrature behind them is exact to some units of round-off.
+const MAXIMUM_MARGIN: f64 = 1e-12;
+
+fn consequence(first: &Happening, softens: bool) -> Consequence {
+    match (first.event, first.stage) {
+        (Event::ContactCloses, _) => Consequence::Shares,
+        (_, Stage::OwnWeight) => Consequence::Collapses,
+        (Event::WallContact, _) => Consequence::SecondLoadPath,
+        _ if softens => Consequence::Softens,
+        (Event::CylinderSlip, _) => Consequence::Saturates,
+        _ => Consequence::Yields,
+    }
+}
+
+/// The first slip or wall contact, and the parameter at which it comes.
+fn last_event(course: &Course, stack: &Stack) -> Option<(Event, f64)> {
+    let slips = [Event::FloorSlip, Event::CylinderSlip];
+    let slips = slips.map(|event| course.locate(event, stack).map(|at| (event, at)));
+    if let [Some((_, floor)), Some((_, pair))] = slips
+        && floor == 0.0
+        && pair == 0.0
+    {
+        return Some((weaker_contact(course, stack), 0.0));
+    }
+    let wall = course.wall_contact().map(|at| (Event::WallContact, at));
+    let candidates = slips.into_iter().chain([wall]).flatten();
+    candidates.min_by(|left, right| left.1.total_cmp(&right.1))
+}
+
+/// Where neither friction suffices from the start, the contact that lacks more of what it needs slides: it
+/// limits b = e to less than the other one can bear.
+fn weaker_contact(course: &Course, stack: &Stack) -> Event {
+    let point = course.point(course.beginning());
+    let floor = stack.floor_friction / point.floor_ratio;
+    let pair = stack.cylinder_friction / point.pair_ratio;
+    if floor <= pair {
+        Event::FloorSlip
+    } else {
+        Event::CylinderSlip
+    }
+}

@@ -1,0 +1,118 @@
+//! Slip while contact 2–3 is closed: the stack goes on until that contact opens.
+
+use super::super::events::Event;
+use super::super::root::bracketed_root;
+use super::outcome::{Happening, Stage};
+use crate::stack::{CRITICAL_FRICTION, Stack};
+
+/// T − μ_c where the centre of cylinder 1 has sunk to the level of the other two, T = 1.
+const WIDEST: f64 = 1.0 - CRITICAL_FRICTION;
+
+/// How a stack ends that slips while c > 0, Eq. (R6).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Release {
+    /// Contact 2–3 opens before gravity is complete: the stack falls.
+    Falls,
+    /// It opens under the wall, with the largest force.
+    Ends(Happening),
+    /// The wall reaches the bottom cylinders before.
+    WallFirst,
+}
+
+impl Release {
+    /// How `stack` ends; `settled_height` is that of the top wall where it first touches.
+    pub(super) fn of(stack: &Stack, settled_height: f64) -> Self {
+        let (beyond, event) = slip_without_contact(stack);
+        let epsilon = stack.epsilon();
+        let overlap = touching_overlap(beyond);
+        if 2.0 * overlap < epsilon {
+            return Self::Falls;
+        }
+        let clearance = clearance(beyond, epsilon);
+        if clearance < 0.0 {
+            return Self::WallFirst;
+        }
+        let wall_height = 2.0 - (overlap + epsilon) + clearance;
+        Self::Ends(Happening {
+            event,
+            stage: Stage::Wall,
+            force: 2.0 * overlap / epsilon - 1.0,
+            tangent: CRITICAL_FRICTION + beyond,
+            floor_overlap: overlap + epsilon,
+            bottom_force: 0.0,
+            wall_travel: settled_height - wall_height,
+        })
+    }
+}
+
+/// The two floor frictions between which a stack like this one has a yield force although it slips while
+/// c > 0: with less it falls under its own weight, with more the cylinders slip or the wall reaches the bottom
+/// ones. Neither depends on κ. `None` if such a stack always falls.
+pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
+    let epsilon = stack.epsilon();
+    let needed = |beyond: f64| {
+        let overlap = touching_overlap(beyond);
+        (CRITICAL_FRICTION + beyond) * overlap / (overlap + epsilon)
+    };
+    let settled = bracketed_root(|at| 2.0 * touching_overlap(at) - epsilon, 0.0, WIDEST)?;
+    let wall = wall_contact(epsilon)?;
+    let end = wall.min(stack.cylinder_friction - CRITICAL_FRICTION);
+    (end > settled).then(|| (needed(settled), needed(end)))
+}
+
+/// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0.
+pub fn released_wall_tangent(stack: &Stack) -> Option<f64> {
+    wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond)
+}
+
+/// T − μ_c where the wall reaches the bottom cylinders just as these part.
+fn wall_contact(epsilon: f64) -> Option<f64> {
+    bracketed_root(|at| clearance(at, epsilon), 0.0, WIDEST)
+}
+
+/// G₀(T) = 2 − (1 + T²)/(2T), the overlap of the contact 1–2 at which the bottom cylinders just touch, y = 0,
+/// at T = μ_c + `beyond`; written free of cancellation.
+fn touching_overlap(beyond: f64) -> f64 {
+    let tangent = CRITICAL_FRICTION + beyond;
+    beyond * (CRITICAL_FRICTION.recip() - tangent) / (2.0 * tangent)
+}
+
+/// How far the top wall is above the bottom cylinders where these just touch, ρ cos ψ − ε F.
+fn clearance(beyond: f64, epsilon: f64) -> f64 {
+    let tangent = CRITICAL_FRICTION + beyond;
+    let square = tangent * tangent;
+    let overlap = touching_overlap(beyond);
+    (2.0 - overlap) * (1.0 - square) / (1.0 + square) - (2.0 * overlap - epsilon)
+}
+
+/// Where on G₀(T) the first friction is exhausted with c = 0, as T − μ_c, and which: G₀ (T − μ) = ε μ for the
+/// floor, T = μ_d for the cylinders.
+fn slip_without_contact(stack: &Stack) -> (f64, Event) {
+    let mu = stack.floor_friction;
+    let excess = |beyond: f64| {
+        let tangent = CRITICAL_FRICTION + beyond;
+        touching_overlap(beyond) * (tangent - mu) - stack.epsilon() * mu
+    };
+    let above_critical = (mu - CRITICAL_FRICTION).clamp(0.0, WIDEST);
+    let floor = bracketed_root(excess, above_critical, WIDEST).unwrap_or(WIDEST);
+    let pair = (stack.cylinder_friction - CRITICAL_FRICTION).max(0.0);
+    if floor <= pair {
+        (floor, Event::FloorSlip)
+    } else {
+        (pair, Event::CylinderSlip)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn touching_overlap_is_the_geometry_it_abbreviates() {
+        let tangent = CRITICAL_FRICTION + 0.1;
+        let direct = 2.0 - (1.0 + tangent * tangent) / (2.0 * tangent);
+        assert!((touching_overlap(0.1) - direct).abs() < 1e-15);
+        let sine = 2.0 * tangent / (1.0 + tangent * tangent);
+        assert!(((2.0 - direct) * sine - 1.0).abs() < 1e-15, "y = 0");
+    }
+}

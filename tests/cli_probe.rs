@@ -86,7 +86,7 @@ fn an_engine_whose_probe_contradicts_its_declaration_is_not_judged() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     replay::install_probe(&bench, |row| MotionRow {
-        torque1: row.torque1 * 1.001,
+        wall_force: row.wall_force * 1.001,
         ..row
     });
     let mut command = bench.tristack("crosscheck --engines yade --format json");
@@ -94,7 +94,9 @@ fn an_engine_whose_probe_contradicts_its_declaration_is_not_judged() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(
-        message.contains("not judged: its probe contradicts its declaration"),
+        message.contains(
+            "not judged: its probe contradicts its declaration: wall_reported_force is 1.001"
+        ),
         "{message}"
     );
     let rows = json(&String::from_utf8_lossy(&output.stdout));

@@ -160,7 +160,7 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
                 .map(|finding| {
                     let measured = finding
                         .measured
-                        .map_or_else(|| "unknown".to_owned(), |value| value.to_string());
+                        .map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
                     format!(
                         "its probe contradicts its declaration: {} is {measured}, declared {}",
                         finding.property, finding.declared

@@ -204,7 +204,7 @@ impl Engine for TwinEngine {
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Failure> {
+    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Box<Failure>> {
         let motions = tests.iter().map(|test| {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);

@@ -130,11 +130,11 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         Ok(motions)
     });
     if let Err(failure) = answered {
-        let failure: Failure = failure;
+        let failure: Box<Failure> = failure;
         if failure.left_evidence() {
             let _ = directory.keep();
         }
-        return Err(Box::new(failure).into());
+        return Err(failure.into());
     }
     let command = vec!["tristack".to_owned(), "probe".to_owned()];
     let steps = outcomes.iter().map(|(test, _)| test.steps).sum();

@@ -69,6 +69,41 @@ fn all_installed_engines_agree_with_their_limit_on_the_quick_profile() {
 }
 
 #[test]
+fn all_installed_engines_follow_their_native_twins() {
+    let installed = installed();
+    if installed.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = installed.iter().map(|engine| engine.as_str()).collect();
+    let bench = Bench::with_system_programs();
+    let line = format!("trajectories --engines {} --format json", names.join(","));
+    let output = bench.tristack(&line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = rows.as_array().expect("a list");
+    for engine in installed {
+        let own = rows.iter().filter(|row| row["engine"] == engine.as_str());
+        let own: Vec<_> = own.collect();
+        // Two twins, three time steps; four quantities on two branches and three on the last.
+        assert_eq!(own.len(), 2 * 3 * (2 * 4 + 3));
+        let force = own.iter().filter(|row| {
+            row["quantity"] == "wall_force"
+                && row["branch"] == "compression"
+                && row["time_step"] == 0.00625
+        });
+        for row in force {
+            assert_eq!(row["source"], "live");
+            println!(
+                "{engine}, {} twin: {} of the peak",
+                row["twin"], row["largest"]
+            );
+        }
+    }
+    assert_only(&bench.path("store/work"), &[]);
+}
+
+#[test]
 fn a_live_run_leaves_deck_output_and_series_for_inspection() {
     let deck = |engine| match engine {
         EngineName::Liggghts => vec![

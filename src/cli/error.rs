@@ -44,13 +44,20 @@ impl ExitStatus {
             .iter()
             .map(|judgement| match judgement.row.verdict {
                 _ if judgement.contradicted => Self::Disagreement,
-                Verdict::Agrees => Self::Success,
                 Verdict::NoYield if judgement.row.reference_force.is_none() => Self::Success,
-                Verdict::NoYield | Verdict::Differs => Self::Disagreement,
-                Verdict::Inconclusive => Self::Inconclusive,
-                Verdict::Failed | Verdict::Missing => Self::EngineFailed,
+                verdict => Self::of_verdict(verdict),
             });
         each.max().unwrap_or(Self::Success)
+    }
+
+    /// What a single verdict says, where a yield was expected.
+    pub(super) fn of_verdict(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Agrees => Self::Success,
+            Verdict::NoYield | Verdict::Differs => Self::Disagreement,
+            Verdict::Inconclusive => Self::Inconclusive,
+            Verdict::Failed | Verdict::Missing => Self::EngineFailed,
+        }
     }
 }
 

@@ -12,6 +12,7 @@ mod regimes;
 mod simulate;
 mod sweep;
 mod theory;
+mod trajectories;
 
 pub use error::{CliError, ExitStatus};
 
@@ -44,6 +45,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
     Crosscheck(crosscheck::Arguments),
+    Trajectories(trajectories::Arguments),
     Engines(engines::Arguments),
     Probe(probe::Arguments),
     Record(record::Arguments),
@@ -65,6 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
+        Command::Trajectories(arguments) => trajectories::run(&arguments),
         Command::Engines(arguments) => engines::run(&arguments),
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),

@@ -1,25 +1,42 @@
 //! `tristack record`.
 
-use super::options::{RunOptions, participants, reference_directory};
+use super::options::{RunOptions, participants, recorded_trajectories, reference_directory};
 use super::progress::Reporter;
+use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
 use crate::crosscheck::{
-    Measurement, Participant, Profile, RunError, Settings, plan, record_probe, run_all,
+    Measurement, Participant, Profile, Recorded, RunError, Settings, Workload, plan, record_probe,
+    run_all,
 };
 use crate::engine::EngineName;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// A part of what is recorded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Set {
+    /// The answers to `tristack probe`.
+    Probe,
+    /// The quick profile of `tristack crosscheck`.
+    Crosscheck,
+    /// The series of `tristack trajectories`.
+    Trajectories,
+}
 
 /// Refresh the recorded runs under reference/
 ///
-/// Runs the quick profile with the external engines and keeps every run with its provenance, so that it
-/// can stand in where an engine is not installed.
+/// Runs the quick profile and the trajectories with the external engines and keeps every run with its
+/// provenance, so that it can stand in where an engine is not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --engines yade --fresh")]
 pub struct Arguments {
     /// Which engines, separated by commas; each must be installed [default: all external ones]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
     engines: Vec<EngineName>,
+    /// Only what one command needs [default: all]
+    #[arg(long, value_enum, value_name = "COMMAND")]
+    only: Option<Set>,
     #[command(flatten)]
     run: RunOptions,
 }
@@ -37,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
     for participant in participants {
-        worst = worst.max(record(participant, &settings)?);
+        worst = worst.max(record(participant, arguments.only, &settings)?);
     }
     Ok(if INTERRUPT.requested() {
         ExitStatus::Interrupted
@@ -46,41 +63,84 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     })
 }
 
-fn record(participant: Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
+/// Records one engine, set by set.
+fn record(
+    participant: Participant,
+    only: Option<Set>,
+    settings: &Settings,
+) -> Result<ExitStatus, CliError> {
     let name = participant.name;
-    let stacks = Profile::Quick.stacks();
-    let measurements: Vec<Measurement> = stacks
-        .iter()
-        .map(|stack| plan(name, stack, name.convention()))
-        .collect();
+    let participant = [participant];
+    let wanted = |set: Set| only.is_none_or(|only| only == set);
+    let mut worst = ExitStatus::Success;
+    if wanted(Set::Probe) {
+        worst = worst.max(record_probe_of(&participant[0], settings)?);
+    }
+    if wanted(Set::Crosscheck) {
+        let stacks = Profile::Quick.stacks();
+        let plans = stacks
+            .iter()
+            .map(|stack| plan(name, stack, name.convention()));
+        let plans: Vec<Measurement> = plans.collect();
+        let place = (&settings.recorded, reference_directory());
+        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+    }
+    if wanted(Set::Trajectories) {
+        let plans = trajectories(std::iter::once(name));
+        let place = (
+            &recorded_trajectories(),
+            reference_directory().join("trajectories"),
+        );
+        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+    }
+    Ok(worst)
+}
+
+/// Records the runs of one engine, in place of those that are there.
+fn record_runs<W: Workload>(
+    workloads: &[W],
+    participant: &[Participant; 1],
+    settings: &Settings,
+    (recorded, directory): (&Recorded, PathBuf),
+) -> Result<ExitStatus, CliError> {
+    let name = participant[0].name;
     let reporter = Reporter::new();
-    let probe = record_probe(&participant, settings, &reporter);
-    let results = run_all(&measurements, &[participant], settings, &reporter, |run| {
-        run
-    });
+    let results = run_all(workloads, participant, settings, &reporter, |run| run);
     drop(reporter);
-    let probe = match probe {
-        Ok(probe) => probe,
-        Err(error) => {
-            eprintln!("{name} is not recorded: {error}");
-            return Ok(ExitStatus::EngineFailed);
-        }
-    };
     let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
     match runs {
         Ok(runs) => {
-            settings.recorded.replace(name, &runs)?;
-            settings.recorded.replace_probe(name, &probe)?;
-            let directory = reference_directory();
+            recorded.replace(name, &runs)?;
+            let directory = directory.join(name.as_str());
+            let count = runs.len();
             eprintln!(
-                "{} runs and the probe of {name} recorded under {}",
-                runs.len(),
+                "{count} runs of {name} recorded under {}",
                 directory.display()
             );
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            eprintln!("{name} is not recorded: {error}");
+            eprintln!("the runs of {name} are not recorded: {error}");
+            Ok(ExitStatus::EngineFailed)
+        }
+    }
+}
+
+/// Records the probe of one engine, in place of the one that is there.
+fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
+    let name = participant.name;
+    let reporter = Reporter::new();
+    let probe = record_probe(participant, settings, &reporter);
+    drop(reporter);
+    match probe {
+        Ok(probe) => {
+            settings.recorded.replace_probe(name, &probe)?;
+            let directory = reference_directory();
+            eprintln!("probe of {name} recorded under {}", directory.display());
+            Ok(ExitStatus::Success)
+        }
+        Err(error) => {
+            eprintln!("the probe of {name} is not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }

@@ -1,4 +1,5 @@
-//! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge.
+//! From a list of stacks to a table of verdicts: plan, run, extrapolate, judge. And whole series beside
+//! those of a native twin.
 
 mod evidence;
 mod extrapolate;
@@ -9,6 +10,7 @@ mod recorded;
 mod regimes;
 mod schedule;
 mod store;
+mod trajectory;
 mod twin;
 mod verdict;
 
@@ -25,7 +27,12 @@ pub use regimes::{
     Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,
     survey,
 };
-pub use schedule::{Participant, Progress, RunError, Settings, run_all};
+pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use store::Store;
+pub use trajectory::{
+    Branch, Comparison, DEVIATIONS, Distance, Documented, DocumentedOrder, FORCE_BAR, Milestones,
+    ORDER_TOLERANCE, Quantity, TIME_STEPS, Trajectory, TrajectoryJudgement, TrajectoryRow, Twin,
+    TwinRuns, WALL_SPEED, documented, measure_trajectories, plan_trajectory, trajectory_stack,
+};
 pub use twin::{TwinForce, measure_with_twin};
 pub use verdict::{BAR, FLOOR, Row, Source};

@@ -1,4 +1,4 @@
-//! Runs the cases of all measurements on all cores, keeping each result the moment it is there.
+//! Runs the cases of all workloads on all cores, keeping each result the moment it is there.
 
 use super::plan::Measurement;
 use super::recorded::{Recorded, RecordedError};
@@ -66,36 +66,49 @@ pub trait Progress: Sync {
     fn warn(&self, message: &str);
 }
 
-/// One case of one measurement.
+/// Cases that one engine is to run.
+pub trait Workload: Sync {
+    /// Who runs them.
+    fn engine(&self) -> EngineName;
+    /// The cases.
+    fn cases(&self) -> &[Case];
+}
+
+impl Workload for Measurement {
+    fn engine(&self) -> EngineName {
+        self.engine
+    }
+
+    fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+}
+
+/// One case of one workload.
 #[derive(Clone, Copy)]
 struct Task {
-    measurement: usize,
+    workload: usize,
     case: usize,
 }
 
 type Slot<T> = Mutex<Option<Result<T, RunError>>>;
 
-/// What `keep` makes of each run, case by case, of every measurement. Runs themselves are not held longer
+/// What `keep` makes of each run, case by case, of every workload. Runs themselves are not held longer
 /// than that, so that memory does not grow with their number.
-pub fn run_all<T: Send>(
-    measurements: &[Measurement],
+pub fn run_all<W: Workload, T: Send>(
+    workloads: &[W],
     participants: &[Participant],
     settings: &Settings,
     progress: &dyn Progress,
     keep: impl Fn(Run) -> T + Sync,
 ) -> Vec<Vec<Result<T, RunError>>> {
-    let slots: Vec<Vec<Slot<T>>> = measurements
-        .iter()
-        .map(|measurement| {
-            measurement
-                .cases
-                .iter()
-                .map(|_| Slot::<T>::default())
-                .collect()
-        })
-        .collect();
+    let slots = workloads.iter().map(|workload| {
+        let cases = workload.cases().iter();
+        cases.map(|_| Slot::<T>::default()).collect()
+    });
+    let slots: Vec<Vec<Slot<T>>> = slots.collect();
     let floor = Floor {
-        measurements,
+        workloads,
         settings,
         progress,
         keep,
@@ -121,21 +134,21 @@ struct Job<'a> {
 }
 
 /// Everything the workers share.
-struct Floor<'a, T, Keep> {
-    measurements: &'a [Measurement],
+struct Floor<'a, W, T, Keep> {
+    workloads: &'a [W],
     settings: &'a Settings<'a>,
     progress: &'a dyn Progress,
     keep: Keep,
     slots: Vec<Vec<Slot<T>>>,
 }
 
-impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
+impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
     fn case(&self, task: Task) -> &Case {
-        &self.measurements[task.measurement].cases[task.case]
+        &self.workloads[task.workload].cases()[task.case]
     }
 
     fn fill(&self, task: Task, result: Result<Run, RunError>) {
-        if let Ok(mut slot) = self.slots[task.measurement][task.case].lock() {
+        if let Ok(mut slot) = self.slots[task.workload][task.case].lock() {
             *slot = Some(result.map(&self.keep));
         }
     }
@@ -171,12 +184,12 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
     }
 
     fn tasks_of(&self, engine: EngineName) -> Vec<Task> {
-        let own = self.measurements.iter().enumerate();
-        own.filter(|(_, measurement)| measurement.engine == engine)
-            .flat_map(|(index, measurement)| {
-                let cases = 0..measurement.cases.len();
+        let own = self.workloads.iter().enumerate();
+        own.filter(|(_, workload)| workload.engine() == engine)
+            .flat_map(|(index, workload)| {
+                let cases = 0..workload.cases().len();
                 cases.map(move |case| Task {
-                    measurement: index,
+                    workload: index,
                     case,
                 })
             })

@@ -10,6 +10,7 @@ mod regimes;
 mod simulation;
 mod table;
 mod theory;
+mod trajectory;
 
 pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
@@ -25,3 +26,6 @@ pub use regimes::{
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};
+pub use trajectory::{
+    trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
+};

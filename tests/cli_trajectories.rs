@@ -1,0 +1,182 @@
+//! `tristack trajectories` on a machine without engines: the twins live, the codes recorded.
+
+mod common;
+
+use common::{Bench, assert_only, json, standard_output};
+use insta::assert_snapshot;
+use std::fs;
+use std::path::Path;
+
+const COMPARISONS: usize = 110;
+const TIME_STEPS: usize = 3;
+
+#[test]
+fn every_comparison_agrees_and_says_where_it_comes_from() {
+    let bench = Bench::without_engines();
+    let mut command = bench.tristack("trajectories --out results");
+    let output = command.output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(
+        message.contains("110 of 110 comparisons agree"),
+        "{message}"
+    );
+    assert!(
+        message.contains("lammps is not installed: recorded runs stand in for it"),
+        "{message}"
+    );
+    assert_snapshot!(String::from_utf8(output.stdout).expect("text"));
+    assert_only(
+        &bench.path("results"),
+        &["trajectories.csv", "trajectories.json", "trajectories.md"],
+    );
+    let page = fs::read_to_string(bench.path("results/trajectories.md")).expect("the page");
+    let words = page.lines().filter(|line| !line.starts_with('|'));
+    assert_snapshot!("words_of_the_page", words.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn rows_meet_the_accuracy_and_the_orders_that_are_promised() {
+    let bench = Bench::without_engines();
+    let rows = json(&standard_output(
+        &mut bench.tristack("trajectories --format json"),
+    ));
+    let rows = rows.as_array().expect("a list");
+    assert_eq!(rows.len(), COMPARISONS * TIME_STEPS);
+    let finest = rows.iter().filter(|row| row["time_step"] == 0.00625);
+    let mut orders = 0;
+    for row in finest {
+        let largest = row["largest"].as_f64().expect("a distance");
+        if row["quantity"] == "wall_force" && row["branch"] == "compression" {
+            assert!(largest < 1e-6, "{row}");
+        }
+        let round_off = row["round_off"].as_f64().expect("a bound");
+        let documented = match row["documented_order"].as_str() {
+            Some("first") => 1.0,
+            Some("second") => 2.0,
+            _ => continue,
+        };
+        // Some seven times above rounding is where an order is looked at.
+        if largest > 10.0 * round_off {
+            let order = row["order"].as_f64().expect("an order");
+            assert!((order - documented).abs() < 0.1, "{row}");
+            orders += 1;
+        }
+    }
+    assert!(orders > 40, "{orders} orders were seen");
+}
+
+#[test]
+fn csv_has_the_agreed_columns() {
+    let bench = Bench::without_engines();
+    let text = standard_output(&mut bench.tristack("trajectories --format csv"));
+    assert_eq!(
+        text.lines().next(),
+        Some(
+            "engine,version,source,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
+             first_above_1e-4,first_above_1e-2,order,documented_order,round_off,step_error,verdict"
+        )
+    );
+    assert_eq!(text.lines().count(), 1 + COMPARISONS * TIME_STEPS);
+}
+
+#[test]
+fn the_native_engine_is_refused_as_a_code() {
+    let bench = Bench::without_engines();
+    let output = bench
+        .tristack("trajectories --engines native")
+        .output()
+        .expect("it runs");
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        message.contains("`--engines` is native, but must be liggghts, yade,")
+            && message.contains("what they are compared with"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
+    let bench = Bench::without_engines();
+    let mut command = bench.tristack("trajectories --format json");
+    command.env("TRISTACK_REFERENCE", bench.path("nothing"));
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(3));
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = rows.as_array().expect("a list");
+    assert_eq!(rows.len(), 5);
+    for row in rows {
+        assert_eq!(row["verdict"], "missing");
+        assert!(row["largest"].is_null());
+    }
+}
+
+/// Two parts in a million on one code's force are seen, and seen as what they are.
+#[test]
+fn a_code_whose_force_is_slightly_off_differs() {
+    let bench = Bench::without_engines();
+    copy_recordings(&bench.path("reference/trajectories"), |engine, series| {
+        if engine == "lammps" {
+            with_wall_force_times(1.0 + 2e-6, &series)
+        } else {
+            series
+        }
+    });
+    let mut command = bench.tristack("trajectories --format json");
+    command.env("TRISTACK_REFERENCE", bench.path("reference"));
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        message.contains("lammps, full twin, compression, wall_force")
+            && message.contains("the wall force deviates by 2.0e-6 of its peak, accepted is 1e-6"),
+        "{message}"
+    );
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    for row in rows.as_array().expect("a list") {
+        let disturbed = row["engine"] == "lammps" && row["quantity"] == "wall_force";
+        match row["branch"].as_str() {
+            _ if !disturbed => assert_eq!(row["verdict"], "agrees", "{row}"),
+            Some("compression") => assert_eq!(row["verdict"], "differs", "{row}"),
+            // The collapse has other distances of this size.
+            _ => {}
+        }
+    }
+}
+
+fn with_wall_force_times(factor: f64, series: &str) -> String {
+    let mut lines = series.lines();
+    let header = lines.next().expect("a header");
+    let rows = lines.map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let force: f64 = cells[2].parse().expect("a force");
+        cells[2] = (force * factor).to_string();
+        cells.join(",")
+    });
+    let rows: Vec<String> = rows.collect();
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+fn copy_recordings(target: &Path, change: impl Fn(&str, String) -> String) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
+    for engine in fs::read_dir(source).expect("recorded engines").flatten() {
+        let name = engine.file_name().to_string_lossy().into_owned();
+        for run in fs::read_dir(engine.path())
+            .expect("recorded runs")
+            .flatten()
+        {
+            let copy = target.join(&name).join(run.file_name());
+            fs::create_dir_all(&copy).expect("a directory");
+            for file in ["case.json", "series.csv", "provenance.json"] {
+                let text = fs::read_to_string(run.path().join(file)).expect("a file");
+                let text = if file == "series.csv" {
+                    change(&name, text)
+                } else {
+                    text
+                };
+                fs::write(copy.join(file), text).expect("a copy");
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! A native twin with one part of its convention wrong differs from the code; from recorded runs.
+
+use std::path::Path;
+use tristack::archive::Run;
+use tristack::crosscheck::{
+    Branch, Participant, Progress, Recorded, Settings, Store, TIME_STEPS, TrajectoryJudgement,
+    Twin, measure_trajectories, plan_trajectory, trajectory_stack,
+};
+use tristack::engine::{EngineName, Failure, Interrupt};
+use tristack::stack::{
+    Case, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
+};
+use tristack::verdict::Verdict;
+
+static INTERRUPT: Interrupt = Interrupt::new();
+
+struct Silence;
+
+impl Progress for Silence {
+    fn planned(&self, _: usize, _: usize) {}
+    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn warn(&self, _: &str) {}
+}
+
+/// The recorded runs of `engine` beside twins with the convention `declared`.
+fn judged(engine: EngineName, declared: Convention) -> TrajectoryJudgement {
+    let store = tempfile::tempdir().expect("a temporary directory");
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
+    let settings = Settings {
+        store: Store::open(store.path()).expect("a store"),
+        recorded: Recorded::new(&reference),
+        fresh: false,
+        threads: 2,
+        time_limit: None,
+        interrupt: &INTERRUPT,
+    };
+    let participants = [
+        Participant {
+            name: engine,
+            engine: None,
+        },
+        Participant::find(EngineName::Native),
+    ];
+    let plan = plan_trajectory(engine, &trajectory_stack(), declared);
+    let mut judgements = measure_trajectories(&[plan], &participants, &settings, &Silence);
+    judgements.pop().expect("one code")
+}
+
+/// `convention` with one thing changed, each named.
+fn wrong(convention: Convention) -> Vec<(&'static str, Convention)> {
+    let mut all = vec![
+        ("pair arm", convention),
+        ("floor arm", convention),
+        ("restitution", convention),
+        ("inertia", convention),
+        ("operand", convention),
+        ("sliding spring", convention),
+        ("transport", convention),
+        ("separating force", convention),
+    ];
+    all[0].1.pair_arm += 1e-3;
+    all[1].1.floor_arm += 1e-3;
+    all[2].1.restitution = 0.701;
+    all[3].1.moment_of_inertia = 0.9 - convention.moment_of_inertia;
+    all[4].1.coulomb_operand = match convention.coulomb_operand {
+        CoulombOperand::Spring => CoulombOperand::SpringAndDamping,
+        CoulombOperand::SpringAndDamping => CoulombOperand::Spring,
+    };
+    all[5].1.sliding_spring = SlidingSpring::Frozen;
+    all[6].1.spring_transport = match convention.spring_transport {
+        SpringTransport::Linearised => SpringTransport::Projected,
+        _ => SpringTransport::Linearised,
+    };
+    all[7].1.separating_force = match convention.separating_force {
+        SeparatingForce::MayPull => SeparatingForce::NeverPulls,
+        SeparatingForce::NeverPulls => SeparatingForce::MayPull,
+    };
+    all
+}
+
+fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
+    let verdicts = judgement.verdicts();
+    verdicts.iter().filter(|&&each| each == verdict).count()
+}
+
+#[test]
+fn a_twin_with_one_part_of_its_convention_wrong_differs() {
+    for engine in [EngineName::Liggghts, EngineName::Yade, EngineName::Lammps] {
+        let own = judged(engine, engine.convention());
+        assert_eq!(count(&own, Verdict::Agrees), own.comparisons.len());
+        for (what, convention) in wrong(engine.convention()) {
+            let judgement = judged(engine, convention);
+            let differing = count(&judgement, Verdict::Differs);
+            println!("{engine}, another {what}: {differing} comparisons differ");
+            assert!(differing > 0, "{engine}: another {what} is not seen");
+        }
+    }
+}
+
+/// What is wrong is no error of the time step: it is ten times the largest one.
+#[test]
+fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
+    for what in ["inertia", "operand", "sliding spring"] {
+        let engine = EngineName::Liggghts;
+        let (_, convention) = wrong(engine.convention())
+            .into_iter()
+            .find(|(name, _)| *name == what)
+            .expect("its name");
+        let judgement = judged(engine, convention);
+        let full = judgement.comparisons.iter().filter(|comparison| {
+            comparison.branch == Branch::Collapse && comparison.twin == Twin::Full
+        });
+        for comparison in full {
+            assert_eq!(comparison.verdict, Verdict::Differs);
+            let finest = comparison.distances[TIME_STEPS.len() - 1].largest;
+            assert!(
+                finest > 10.0 * comparison.step_error,
+                "{what}: {comparison:?}"
+            );
+        }
+    }
+}

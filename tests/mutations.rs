@@ -161,15 +161,17 @@ impl TwinEngine {
         }
     }
 
-    fn compress(&self, case: &Case) -> Result<Trace, Failure> {
+    fn compress(&self, case: &Case) -> Result<Trace, Box<Failure>> {
         let stiffness = case.stack.tangential_stiffness();
         let twin = Twin::new(&case.convention, stiffness, self.mutation);
-        compress_stack_with(case, twin, || true).map_err(|error| Failure {
-            engine: EngineName::Native,
-            subject: case.to_string(),
-            kind: error.into(),
-            run_directory: None,
-            last_lines: Vec::new(),
+        compress_stack_with(case, twin, || true).map_err(|error| {
+            Box::new(Failure {
+                engine: EngineName::Native,
+                subject: case.to_string(),
+                kind: error.into(),
+                run_directory: None,
+                last_lines: Vec::new(),
+            })
         })
     }
 }
@@ -200,11 +202,11 @@ impl Engine for TwinEngine {
                     0.0,
                 ),
             });
-            finished(index, run);
+            finished(index, run.map_err(|failure| *failure));
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Failure> {
+    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Box<Failure>> {
         let motions = tests.iter().map(|test| {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);

@@ -130,11 +130,11 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         Ok(motions)
     });
     if let Err(failure) = answered {
-        let failure: Failure = failure;
+        let failure: Box<Failure> = failure;
         if failure.left_evidence() {
             let _ = directory.keep();
         }
-        return Err(Box::new(failure).into());
+        return Err(failure.into());
     }
     let command = vec!["tristack".to_owned(), "probe".to_owned()];
     let steps = outcomes.iter().map(|(test, _)| test.steps).sum();
@@ -160,7 +160,7 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
                 .map(|finding| {
                     let measured = finding
                         .measured
-                        .map_or_else(|| "unknown".to_owned(), |value| value.to_string());
+                        .map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
                     format!(
                         "its probe contradicts its declaration: {} is {measured}, declared {}",
                         finding.property, finding.declared

@@ -1,21 +1,39 @@
 //! What a deck has to be told, under the same names in every code.
 
-use crate::stack::{Case, ContactTest, Launch};
+use crate::stack::{Case, ContactTest, Convention, Launch};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The parameters of a case as the decks of the external codes read them. Stiffness and damping are those
-/// of the contact itself; units r = m = k_n = 1.
+/// What every deck is told of its contacts. Stiffness and damping are those of the contact itself; units
+/// r = m = k_n = 1.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct ContactParameters {
+    /// k_n.
+    normal_stiffness: f64,
+    /// k_t.
+    tangential_stiffness: f64,
+    /// η_n.
+    damping_normal: f64,
+    /// η_t.
+    damping_tangential: f64,
+}
+
+impl ContactParameters {
+    fn new(convention: &Convention, tangential_stiffness: f64) -> Self {
+        Self {
+            normal_stiffness: 1.0,
+            tangential_stiffness,
+            damping_normal: convention.damping(1.0),
+            damping_tangential: convention.damping(tangential_stiffness),
+        }
+    }
+}
+
+/// The parameters of a case as the decks of the external codes read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DeckParameters {
-    /// k_n.
-    pub normal_stiffness: f64,
-    /// k_t.
-    pub tangential_stiffness: f64,
-    /// η_n.
-    pub damping_normal: f64,
-    /// η_t.
-    pub damping_tangential: f64,
+    #[serde(flatten)]
+    contact: ContactParameters,
     /// μ.
     pub floor_friction: f64,
     /// μ_d.
@@ -44,12 +62,8 @@ impl DeckParameters {
     /// The parameters of `case`.
     pub fn new(case: &Case) -> Self {
         let schedule = case.protocol.schedule();
-        let tangential_stiffness = case.stack.tangential_stiffness();
         Self {
-            normal_stiffness: 1.0,
-            tangential_stiffness,
-            damping_normal: case.convention.damping(1.0),
-            damping_tangential: case.convention.damping(tangential_stiffness),
+            contact: ContactParameters::new(&case.convention, case.stack.tangential_stiffness()),
             floor_friction: case.stack.floor_friction,
             cylinder_friction: case.stack.cylinder_friction,
             gravity: case.stack.epsilon(),
@@ -68,14 +82,8 @@ impl DeckParameters {
 /// The parameters of a micro-test as the decks of the external codes read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProbeParameters {
-    /// k_n.
-    pub normal_stiffness: f64,
-    /// k_t.
-    pub tangential_stiffness: f64,
-    /// η_n.
-    pub damping_normal: f64,
-    /// η_t.
-    pub damping_tangential: f64,
+    #[serde(flatten)]
+    contact: ContactParameters,
     /// Friction of the floor.
     pub floor_friction: f64,
     /// Friction between cylinders.
@@ -96,17 +104,13 @@ pub struct ProbeParameters {
 impl ProbeParameters {
     /// The parameters of `test`.
     pub fn new(test: &ContactTest) -> Self {
-        let tangential_stiffness = test.tangential_stiffness();
         let launches = test.launches.iter().zip(1..).flat_map(|(launch, body)| {
             let Launch { x, y, vx, vy, spin } = *launch;
             let values = [("x", x), ("y", y), ("vx", vx), ("vy", vy), ("spin", spin)];
             values.map(|(name, value)| (format!("{name}{body}"), value))
         });
         Self {
-            normal_stiffness: 1.0,
-            tangential_stiffness,
-            damping_normal: test.convention.damping(1.0),
-            damping_tangential: test.convention.damping(tangential_stiffness),
+            contact: ContactParameters::new(&test.convention, test.tangential_stiffness()),
             floor_friction: test.floor_friction,
             cylinder_friction: test.cylinder_friction,
             time_step: test.time_step,

@@ -155,7 +155,11 @@ impl Engine for ExternalEngine {
         });
     }
 
-    fn probe(&self, tests: &[ContactTest], workplace: &Workplace) -> Result<Vec<Motion>, Failure> {
+    fn probe(
+        &self,
+        tests: &[ContactTest],
+        workplace: &Workplace,
+    ) -> Result<Vec<Motion>, Box<Failure>> {
         let mut motions: Vec<Option<Motion>> = vec![None; tests.len()];
         let mut failure = None;
         self.carry_out(
@@ -169,7 +173,7 @@ impl Engine for ExternalEngine {
             },
         );
         match failure {
-            Some(failure) => Err(failure),
+            Some(failure) => Err(Box::new(failure)),
             None => Ok(motions.into_iter().flatten().collect()),
         }
     }

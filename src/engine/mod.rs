@@ -261,5 +261,9 @@ pub trait Engine: Send + Sync {
     ///
     /// # Errors
     /// The first failure, if there is one.
-    fn probe(&self, tests: &[ContactTest], workplace: &Workplace) -> Result<Vec<Motion>, Failure>;
+    fn probe(
+        &self,
+        tests: &[ContactTest],
+        workplace: &Workplace,
+    ) -> Result<Vec<Motion>, Box<Failure>>;
 }

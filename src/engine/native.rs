@@ -99,14 +99,20 @@ impl Engine for Native {
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _workplace: &Workplace) -> Result<Vec<Motion>, Failure> {
+    fn probe(
+        &self,
+        tests: &[ContactTest],
+        _workplace: &Workplace,
+    ) -> Result<Vec<Motion>, Box<Failure>> {
         let motions = tests.iter().map(|test| {
-            run_contact_test(test).map_err(|error| Failure {
-                engine: EngineName::Native,
-                subject: test.to_string(),
-                kind: error.into(),
-                run_directory: None,
-                last_lines: Vec::new(),
+            run_contact_test(test).map_err(|error| {
+                Box::new(Failure {
+                    engine: EngineName::Native,
+                    subject: test.to_string(),
+                    kind: error.into(),
+                    run_directory: None,
+                    last_lines: Vec::new(),
+                })
             })
         });
         motions.collect()

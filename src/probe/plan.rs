@@ -76,6 +76,12 @@ impl Plan {
     }
 }
 
+/// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ; a
+/// twentieth of the distance from the brink does not matter.
+fn rounded(spin: f64) -> f64 {
+    format!("{spin:.10e}").parse().unwrap_or(spin)
+}
+
 /// The laws of one site.
 pub struct Laws {
     plan: Plan,
@@ -101,7 +107,7 @@ impl Laws {
             .map(|spin| {
                 // A contact without friction or damping has no brink; any other motion tells as much.
                 let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
-                experiments::brink(self.plan.site, &self.plan.convention, spin)
+                experiments::brink(self.plan.site, &self.plan.convention, rounded(spin))
             })
             .collect()
     }

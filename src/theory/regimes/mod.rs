@@ -1,5 +1,8 @@
 //! Which event comes first, what it does to the stack, and where in the space of stacks that changes.
 //!
+//! Derived in docs/theory.md, section 7, independently of the equations here: (R2) is its Eq. (44), (R3) Eq. (45),
+//! (R4) Eq. (46), (R5) Eq. (54), (R6) Eq. (55); (R1) Eqs. (13) and (48).
+//!
 //! All for torque arms 0, contact forces in k_n r and lengths in r. On the path of equilibria b = e, by the
 //! torques on cylinder 2, and the horizontal and vertical balance give, with a contact force c ≥ 0 between
 //! the bottom cylinders and T = tan(ψ/2),

@@ -21,11 +21,23 @@ pub enum Disturbance {
     Instead(&'static str),
 }
 
-/// Installs the fake on `bench`; `disturb` decides for every recorded case. Returns how many there are.
+/// Installs the fake on `bench`; `disturb` decides for every recorded run of the crosscheck. Returns how many
+/// there are.
 pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
     let replay = bench.path("replay");
     fs::create_dir_all(&replay).expect("a directory");
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/yade");
+    let count = install_runs(&replay, "reference/yade", disturb);
+    install_runs(&replay, "reference/trajectories/yade", |_| {
+        Disturbance::None
+    });
+    install_probe(bench, |row| row);
+    bench.install("yade", &script(&replay, ""));
+    count
+}
+
+/// The runs recorded in one directory, as `disturb` makes them. Returns how many there are.
+fn install_runs(replay: &Path, recorded: &str, disturb: impl Fn(&Case) -> Disturbance) -> usize {
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join(recorded);
     let mut count = 0;
     for entry in fs::read_dir(recorded).expect("recorded runs").flatten() {
         let case = Case::read(&entry.path().join("case.json")).expect("a case");
@@ -42,8 +54,6 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
         }
         count += 1;
     }
-    install_probe(bench, |row| row);
-    bench.install("yade", &script(&replay, ""));
     count
 }
 

@@ -1,8 +1,10 @@
 //! How a command ends.
 
 use crate::archive::ArchiveError;
-use crate::crosscheck::{Judgement, NoYield};
+use crate::claims::RegisterError;
+use crate::crosscheck::{Judgement, NoYield, RunError};
 use crate::engine::{EngineName, Failure, FailureKind};
+use crate::report::PdfError;
 use crate::stack::{CaseError, InvalidValue};
 use crate::verdict::Verdict;
 use thiserror::Error;
@@ -79,6 +81,15 @@ pub enum CliError {
     /// An engine was asked for by name, but is not installed.
     #[error("{0} is not installed: its program is not in the search path; install it with: {hint}", hint = .0.installation_hint())]
     MissingEngine(EngineName),
+    /// A run that everything else needs is not there.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The register of claims is wrong.
+    #[error(transparent)]
+    Register(#[from] RegisterError),
+    /// A figure cannot be written as PDF.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
     /// An engine failed.
     #[error(transparent)]
     Engine(#[from] Box<Failure>),
@@ -93,7 +104,7 @@ impl CliError {
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
                 _ => ExitStatus::EngineFailed,
             },
-            Self::MissingEngine(_) => ExitStatus::EngineFailed,
+            Self::Run(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
             _ => ExitStatus::WrongInput,
         }
     }

@@ -9,6 +9,7 @@ mod probe;
 mod progress;
 mod record;
 mod regimes;
+mod report;
 mod simulate;
 mod sweep;
 mod theory;
@@ -50,6 +51,7 @@ enum Command {
     Probe(probe::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
+    Report(report::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -72,6 +74,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
     }
 }
 

@@ -9,6 +9,7 @@ use crate::crosscheck::{
     Participant, Profile, Recorded, RunError, Settings, Workload, record_probe, run_all,
 };
 use crate::engine::EngineName;
+use crate::reproduction::readings_to_record;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -21,12 +22,14 @@ enum Set {
     Crosscheck,
     /// The series of `tristack trajectories`.
     Trajectories,
+    /// The readings of `tristack report`.
+    Report,
 }
 
 /// Refresh the recorded runs under reference/
 ///
-/// Runs the quick profile and the trajectories with the external engines and keeps every run with its
-/// provenance, so that it can stand in where an engine is not installed.
+/// Runs the quick profile, the trajectories and the report with the external engines and keeps every run, or
+/// what is read off it, with its provenance, so that it can stand in where an engine is not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --engines yade --fresh")]
 pub struct Arguments {
@@ -88,7 +91,34 @@ fn record(
         );
         worst = worst.max(record_runs(&plans, &participant, settings, place)?);
     }
+    if wanted(Set::Report) {
+        worst = worst.max(record_readings(&participant[0], settings)?);
+    }
     Ok(worst)
+}
+
+/// Records what is read off the runs of the report, in place of what is there.
+fn record_readings(participant: &Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
+    let name = participant.name;
+    let reporter = Reporter::new();
+    let readings = readings_to_record(participant, settings, &reporter);
+    drop(reporter);
+    match readings {
+        Ok(readings) => {
+            settings.recorded.replace_readings(name, &readings)?;
+            let (count, directory) = (readings.len(), reference_directory());
+            let directory = directory.join("readings");
+            eprintln!(
+                "{count} readings of {name} recorded under {}",
+                directory.display()
+            );
+            Ok(ExitStatus::Success)
+        }
+        Err(error) => {
+            eprintln!("the readings of {name} are not recorded: {error}");
+            Ok(ExitStatus::EngineFailed)
+        }
+    }
 }
 
 /// Records the runs of one engine, in place of those that are there.

@@ -119,7 +119,7 @@ pub fn crosscheck_json(judgements: &[Judgement]) -> String {
 
 /// The engines and the rows for a terminal.
 pub fn crosscheck_table(judgements: &[Judgement]) -> String {
-    engines(judgements).terminal() + &rows(judgements).terminal()
+    engines(judgements).terminal() + &crosscheck_rows(judgements).terminal()
 }
 
 /// A page with the rows, what they mean, and what explains every verdict that is not `agrees`.
@@ -135,7 +135,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     );
     page += &engines(judgements).markdown();
     page += "\n";
-    page += &rows(judgements).markdown();
+    page += &crosscheck_rows(judgements).markdown();
     page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
              the order with which the runs converge in the wall speed. How each part is computed, and all \
              runs behind a row: `tristack crosscheck --explain ENGINE/MU/STIFFNESS`.\n\n";
@@ -199,7 +199,8 @@ fn engines(judgements: &[Judgement]) -> Table {
     table
 }
 
-fn rows(judgements: &[Judgement]) -> Table {
+/// The rows, with the digits that people want.
+pub fn crosscheck_rows(judgements: &[Judgement]) -> Table {
     let mut table = Table::new(&[
         "stiffness>",
         "mu>",

@@ -2,8 +2,10 @@
 
 mod crosscheck;
 mod explain;
+mod figures;
 mod inventory;
 mod number;
+mod page;
 mod probe;
 mod regime_figure;
 mod regimes;
@@ -13,11 +15,14 @@ mod theory;
 mod trajectory;
 
 pub use crosscheck::{
-    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
+    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_rows,
+    crosscheck_table,
 };
 pub use explain::explanation;
+pub use figures::PdfError;
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
+pub use page::{Origin, ReportFile, report_files};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
 pub use regime_figure::regimes_svg;
 pub use regimes::{

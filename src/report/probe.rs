@@ -24,15 +24,16 @@ pub fn probe_json(findings: &[Finding]) -> String {
 
 /// For a terminal: one line a property, one column an engine.
 pub fn probe_table(findings: &[Finding]) -> String {
-    table(findings).terminal()
+    probe_rows(findings).terminal()
 }
 
 /// The same for a page.
 pub fn probe_markdown(findings: &[Finding]) -> String {
-    table(findings).markdown()
+    probe_rows(findings).markdown()
 }
 
-fn table(findings: &[Finding]) -> Table {
+/// One row a property, one column an engine.
+pub fn probe_rows(findings: &[Finding]) -> Table {
     let mut engines: Vec<EngineName> = findings.iter().map(|finding| finding.engine).collect();
     engines.sort();
     engines.dedup();

@@ -1,9 +1,10 @@
 //! A table of text cells and its views.
 
 use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
+use serde::Serialize;
 
 /// Named columns and rows of cells.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Table {
     columns: Vec<&'static str>,
     rows: Vec<Vec<String>>,
@@ -27,6 +28,33 @@ impl Table {
     pub fn push(&mut self, cells: Vec<String>) {
         debug_assert_eq!(cells.len(), self.columns.len());
         self.rows.push(cells);
+    }
+
+    /// The names of the columns.
+    pub fn columns(&self) -> &[&'static str] {
+        &self.columns
+    }
+
+    /// Which columns are numbers.
+    pub fn numeric(&self) -> &[bool] {
+        &self.numeric
+    }
+
+    /// The cells, row by row.
+    pub fn rows(&self) -> &[Vec<String>] {
+        &self.rows
+    }
+
+    /// For a spreadsheet.
+    pub fn csv(&self) -> Vec<u8> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let lines = std::iter::once(self.columns.iter().map(|&name| name.to_owned()).collect());
+        for line in lines.chain(self.rows.iter().cloned()) {
+            writer
+                .write_record(&line)
+                .expect("plain cells are written to memory");
+        }
+        writer.into_inner().expect("memory is flushed")
     }
 
     /// For a terminal.

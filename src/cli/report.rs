@@ -1,0 +1,131 @@
+//! `tristack report`.
+
+use super::options::{RunOptions, participants, recorded_trajectories, writable};
+use super::progress::{Counter, Reporter};
+use super::{CliError, ExitStatus, INTERRUPT};
+use crate::archive::{ArchiveError, write_atomically};
+use crate::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge_theory};
+use crate::crosscheck::Participant;
+use crate::engine::EngineName;
+use crate::report::{Origin, ReportFile, report_files};
+use crate::reproduction::{Reproduction, Scope, examined_points, reproduce};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Name of the directory that is written if none is given.
+const DEFAULT_DIRECTORY: &str = "report";
+
+/// The reproducibility report for the paper
+///
+/// Carries out everything behind the paper's figures, and some that it lacks, tests every statement of the
+/// paper, and writes report.html, report.md, claims.json, junit.xml, ro-crate-metadata.json, tables/ and
+/// figures/. Finished runs are reused, and engines that are not installed are represented by recorded runs.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: tristack report --out report")]
+pub struct Arguments {
+    /// Which engines, separated by commas, native among them; each must be installed [default: all, recorded
+    /// if necessary]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    engines: Vec<EngineName>,
+    /// Also run all of figure 2(a) at the paper's literal wall speed and time step: a quarter of an hour
+    #[arg(long)]
+    literal: bool,
+    /// Directory of the report
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_DIRECTORY)]
+    out: PathBuf,
+    #[command(flatten)]
+    run: RunOptions,
+}
+
+/// Reproduces the paper and writes the report.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let mut engines = arguments.engines.clone();
+    if !engines.is_empty() && !engines.contains(&EngineName::Native) {
+        engines.push(EngineName::Native);
+    }
+    let participants = participants(&engines)?;
+    let register = Register::paper()?;
+    writable(&arguments.out)?;
+    let settings = arguments.run.settings()?;
+    let scope = Scope {
+        participants: &participants,
+        settings: &settings,
+        trajectories: recorded_trajectories(),
+        literal: arguments.literal,
+    };
+    let (reporter, counter) = (Reporter::new(), Counter::new(examined_points()));
+    let reproduced = reproduce(&scope, &reporter, &|done| counter.add(done));
+    drop((reporter, counter));
+    let reproduced = match reproduced {
+        Ok(Some(reproduced)) => reproduced,
+        _ if INTERRUPT.requested() => return Ok(interrupted()),
+        Ok(None) => return Ok(interrupted()),
+        Err(error) => return Err(error.into()),
+    };
+    let claims = judge_theory(&register, &PaperTheory::printed());
+    let origin = origin(arguments, &participants);
+    let files = report_files(&reproduced, &claims, &origin)?;
+    write(&arguments.out, &files)?;
+    Ok(conclude(&arguments.out, &reproduced, &claims))
+}
+
+fn interrupted() -> ExitStatus {
+    eprintln!(
+        "interrupted: no report is written; every finished run is kept, and the same command goes on from here"
+    );
+    ExitStatus::Interrupted
+}
+
+/// How the report came about; where it is written does not matter.
+fn origin(arguments: &Arguments, participants: &[Participant]) -> Origin {
+    let mut command = "tristack report".to_owned();
+    if !arguments.engines.is_empty() {
+        let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
+        command += &format!(" --engines {}", names.join(","));
+    }
+    if arguments.literal {
+        command += " --literal";
+    }
+    let absent = participants.iter().filter(|who| who.engine.is_none());
+    Origin {
+        command,
+        recorded: absent.map(|who| who.name).collect(),
+        literal: arguments.literal,
+    }
+}
+
+fn write(directory: &Path, files: &[ReportFile]) -> Result<(), ArchiveError> {
+    for file in files {
+        let path = directory.join(&file.name);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
+        }
+        write_atomically(&path, &file.content)?;
+    }
+    Ok(())
+}
+
+/// Says what was found, and returns the exit status of the runs: a claim that does not hold is a result.
+fn conclude(
+    directory: &Path,
+    reproduction: &Reproduction,
+    claims: &[ClaimJudgement],
+) -> ExitStatus {
+    let count = |verdict| {
+        claims
+            .iter()
+            .filter(|claim| claim.verdict == verdict)
+            .count()
+    };
+    eprintln!(
+        "{} claims: {} hold, {} hold approximately, {} do not hold as stated, {} cannot be tested",
+        claims.len(),
+        count(ClaimVerdict::Holds),
+        count(ClaimVerdict::Approximately),
+        count(ClaimVerdict::Fails),
+        count(ClaimVerdict::Untestable)
+    );
+    eprintln!("{}", directory.join("report.html").display());
+    let curves = ExitStatus::of(&reproduction.yield_curves);
+    curves.max(ExitStatus::of(&reproduction.scaling))
+}

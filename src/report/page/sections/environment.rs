@@ -1,0 +1,135 @@
+//! With what, where and when.
+
+use super::super::document::{Block, DataTable, Section};
+use super::Origin;
+use crate::archive::{Identity, Provenance};
+use crate::engine::EngineName;
+use crate::report::Table;
+use crate::reproduction::Reproduction;
+use crate::stack::sha256_hex;
+
+/// Digits of a hash that are shown.
+const SHORT: usize = 12;
+
+/// The section.
+pub fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
+    let lock = sha256_hex(include_bytes!("../../../../Cargo.lock"));
+    let blocks = vec![
+        Block::paragraph(format!(
+            "Made by `{}`, tristack {}, built from the dependencies in the lock file with SHA-256 `{lock}`. \
+             Dates and durations are those of the runs.",
+            origin.command,
+            env!("CARGO_PKG_VERSION")
+        )),
+        Block::Table(programs(reproduction, origin)),
+        Block::Table(decks()),
+    ];
+    Section {
+        id: "environment",
+        title: "Environment",
+        blocks,
+    }
+}
+
+/// The runs of one program on one machine.
+struct Program<'a> {
+    identity: &'a Identity,
+    machine: &'a str,
+    runs: usize,
+    first: &'a str,
+    last: &'a str,
+    steps: u64,
+    seconds: f64,
+}
+
+fn programs_of(provenances: &[Provenance]) -> Vec<Program<'_>> {
+    let mut programs: Vec<Program> = Vec::new();
+    for run in provenances {
+        let known = programs
+            .iter_mut()
+            .find(|program| *program.identity == run.identity && program.machine == run.machine);
+        match known {
+            Some(program) => {
+                program.runs += 1;
+                program.first = program.first.min(&run.date);
+                program.last = program.last.max(&run.date);
+                program.steps += run.steps;
+                program.seconds += run.seconds;
+            }
+            None => programs.push(Program {
+                identity: &run.identity,
+                machine: &run.machine,
+                runs: 1,
+                first: &run.date,
+                last: &run.date,
+                steps: run.steps,
+                seconds: run.seconds,
+            }),
+        }
+    }
+    programs
+}
+
+fn programs(reproduction: &Reproduction, origin: &Origin) -> DataTable {
+    let mut table = Table::new(&[
+        "engine",
+        "version",
+        "package",
+        "program",
+        "source",
+        "runs>",
+        "steps>",
+        "seconds>",
+        "first run",
+        "last run",
+        "machine",
+    ]);
+    for program in programs_of(&reproduction.provenances) {
+        let Program { identity, .. } = &program;
+        let hash = identity.program_hash.as_deref().unwrap_or("-");
+        table.push(vec![
+            identity.engine.clone(),
+            identity.version.clone(),
+            identity.package.clone().unwrap_or_else(|| "-".to_owned()),
+            hash.chars().take(SHORT).collect(),
+            origin.source_of(&identity.engine).to_owned(),
+            program.runs.to_string(),
+            format!("{:.1e}", program.steps as f64),
+            format!("{:.1}", program.seconds),
+            program.first.to_owned(),
+            program.last.to_owned(),
+            program.machine.to_owned(),
+        ]);
+    }
+    DataTable {
+        name: "environment",
+        caption: format!(
+            "Programs, with the first {SHORT} digits of their SHA-256, and their runs."
+        ),
+        csv: table.csv(),
+        table,
+        long: false,
+    }
+}
+
+fn decks() -> DataTable {
+    let mut table = Table::new(&[
+        "engine",
+        "SHA-256 of the deck of a stack",
+        "of the micro-tests",
+    ]);
+    for engine in EngineName::ALL {
+        table.push(vec![
+            engine.to_string(),
+            engine.static_deck_hash(),
+            engine.probe_hash(),
+        ]);
+    }
+    DataTable {
+        name: "decks",
+        caption: "Decks; for the native DEM its sources take their place.".to_owned(),
+        csv: table.csv(),
+        table,
+        long: false,
+    }
+}

@@ -1,0 +1,261 @@
+//! `tristack report` on a machine without engines, and its page in a real browser.
+
+mod common;
+
+use common::{Bench, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+/// In the environment: a browser must be there.
+const REQUIRED: &str = "TRISTACK_REQUIRE_BROWSER";
+
+/// The report, made once for all tests from recorded runs and the native DEM.
+fn report() -> &'static (Bench, Output) {
+    static REPORT: OnceLock<(Bench, Output)> = OnceLock::new();
+    REPORT.get_or_init(|| {
+        let bench = Bench::without_engines();
+        let output = bench.tristack("report --out report").output();
+        (bench, output.expect("it runs"))
+    })
+}
+
+fn file(name: &str) -> String {
+    let path = report().0.path("report").join(name);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn message() -> String {
+    String::from_utf8_lossy(&report().1.stderr).into_owned()
+}
+
+#[test]
+fn a_machine_without_engines_gets_the_whole_report_from_recorded_runs() {
+    assert_eq!(report().1.status.code(), Some(0), "{}", message());
+    let page = file("report.md");
+    for section in [
+        "Summary",
+        "Errata",
+        "Figures",
+        "Claims",
+        "Agreement",
+        "Environment",
+        "not tested",
+    ] {
+        let found = page
+            .lines()
+            .any(|line| line.starts_with("## ") && line.contains(section));
+        assert!(found, "no section on {section}");
+    }
+    assert!(
+        page.contains("450 of 450 yield forces agree"),
+        "{}",
+        &page[..3000]
+    );
+    assert!(page.contains("recorded runs stand in"));
+}
+
+#[test]
+fn every_table_and_figure_has_its_files() {
+    let page = file("report.md");
+    for (folder, endings) in [("tables", ["csv", "tex"]), ("figures", ["svg", "pdf"])] {
+        let mark = format!("({folder}/");
+        let names = page.split(mark.as_str()).skip(1);
+        let mut names: Vec<&str> = names.filter_map(|rest| rest.split('.').next()).collect();
+        names.dedup();
+        assert!(names.len() >= 5, "{folder}: {names:?}");
+        for name in names {
+            for ending in endings {
+                let path = report().0.path(&format!("report/{folder}/{name}.{ending}"));
+                let size = fs::metadata(&path).map_or(0, |data| data.len());
+                assert!(size > 100, "{} has {size} bytes", path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_store_gives_the_same_bytes() {
+    let (bench, first) = report();
+    assert!(first.status.success(), "{}", message());
+    let again = bench
+        .tristack("report --out again")
+        .output()
+        .expect("it runs");
+    assert!(again.status.success());
+    let files = files_below(&bench.path("report"));
+    assert!(files.len() > 30, "{files:?}");
+    assert_eq!(files, files_below(&bench.path("again")));
+    for name in files {
+        let [one, other] = ["report", "again"]
+            .map(|directory| fs::read(bench.path(directory).join(&name)).expect("a file"));
+        assert!(one == other, "{} differs", name.display());
+    }
+}
+
+#[test]
+fn claims_are_listed_for_programs_and_every_view_has_the_same_rows() {
+    let claims = json(&file("claims.json"));
+    let claims = claims.as_array().expect("a list");
+    assert!(claims.len() > 100);
+    let verdicts = ["holds", "approximately", "fails", "untestable"];
+    let mut table =
+        csv::Reader::from_reader(file("tables/claims.csv").as_bytes().to_vec().leak() as &[u8]);
+    let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("a row")).collect();
+    assert_eq!(rows.len(), claims.len());
+    for (claim, row) in claims.iter().zip(&rows) {
+        assert!(verdicts.contains(&claim["verdict"].as_str().expect("a verdict")));
+        assert_eq!(claim["id"], row[0]);
+        assert!(
+            !claim["evidence"].as_str().expect("text").is_empty(),
+            "{claim}"
+        );
+    }
+}
+
+#[test]
+fn metadata_name_every_file_and_its_digest() {
+    let metadata = json(&file("ro-crate-metadata.json"));
+    let graph = metadata["@graph"].as_array().expect("a graph");
+    let described = graph.iter().filter(|entry| entry["@type"] == "File");
+    let mut names: Vec<PathBuf> = Vec::new();
+    for entry in described {
+        let name = entry["@id"].as_str().expect("a name");
+        let content = fs::read(report().0.path("report").join(name)).expect("a file");
+        assert_eq!(entry["sha256"], tristack::stack::sha256_hex(&content));
+        names.push(name.into());
+    }
+    names.push("ro-crate-metadata.json".into());
+    names.sort();
+    assert_eq!(names, files_below(&report().0.path("report")));
+}
+
+fn files_below(root: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut open = vec![root.to_owned()];
+    while let Some(directory) = open.pop() {
+        for entry in fs::read_dir(&directory).expect("a directory").flatten() {
+            if entry.path().is_dir() {
+                open.push(entry.path());
+            } else {
+                let path = entry.path();
+                files.push(path.strip_prefix(root).expect("below").to_owned());
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// What a browser finds on the page: see tests/page_inspection.js.
+fn inspected(width: u32) -> Option<serde_json::Value> {
+    let browser = browser()?;
+    let bench = Bench::without_engines();
+    let script = include_str!("page_inspection.js");
+    let page = file("report.html").replace("</body>", &format!("<script>{script}</script></body>"));
+    let path = bench.path("page.html");
+    fs::write(&path, page).expect("a page");
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .args([
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--virtual-time-budget=20000",
+        ])
+        .arg(format!("--window-size={width},1000"))
+        .arg(format!(
+            "--user-data-dir={}",
+            bench.path("profile").display()
+        ))
+        .arg(format!("file://{}", path.display()))
+        .output()
+        .expect("the browser starts");
+    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
+    let found = dom.split("<pre id=\"inspection\">").nth(1);
+    let found = found.and_then(|rest| rest.split("</pre>").next());
+    let found = found
+        .unwrap_or_else(|| panic!("no inspection: {}", String::from_utf8_lossy(&output.stderr)));
+    Some(json(
+        &found
+            .replace("&lt;", "<")
+            .replace("&gt;", ">")
+            .replace("&amp;", "&"),
+    ))
+}
+
+fn browser() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&path)
+        .flat_map(|directory| BROWSERS.map(|name| directory.join(name)))
+        .find(|path| path.is_file());
+    if found.is_none() {
+        assert!(
+            std::env::var_os(REQUIRED).is_none(),
+            "no browser among {BROWSERS:?}"
+        );
+        eprintln!("skipped: no browser among {BROWSERS:?}");
+    }
+    found
+}
+
+#[test]
+fn a_browser_draws_every_figure_fetches_nothing_and_overlaps_no_text() {
+    for width in [1400, 800] {
+        let Some(found) = inspected(width) else {
+            return;
+        };
+        let pictures = files_below(&report().0.path("report/figures")).len() / 2;
+        let figures = found["figures"].as_array().expect("figures");
+        assert_eq!(figures.len(), pictures);
+        for figure in figures {
+            let wide = figure["width"].as_f64().expect("a width");
+            assert!(
+                wide > 200.0 && figure["height"].as_f64() > Some(100.0),
+                "{figure}"
+            );
+            assert!(
+                figure["shapes"].as_u64() > Some(10) && figure["texts"].as_u64() > Some(4),
+                "{figure}"
+            );
+        }
+        assert_eq!(found["fetched"], serde_json::json!([]));
+        assert_eq!(found["overlaps"], serde_json::json!([]), "at width {width}");
+        assert_eq!(found["cut"], serde_json::json!([]), "at width {width}");
+        assert_eq!(
+            found["sideways"], false,
+            "the page scrolls sideways at width {width}"
+        );
+    }
+}
+
+#[test]
+fn the_inspection_sees_what_it_looks_for() {
+    let Some(browser) = browser() else { return };
+    let bench = Bench::without_engines();
+    let script = include_str!("page_inspection.js");
+    let page = format!(
+        "<!doctype html><body><img src=\"http://example.invalid/a.png\"><figure><svg width=\"90\" height=\"90\">\
+         <text x=\"5\" y=\"40\">one</text><text x=\"8\" y=\"42\">two</text><text x=\"80\" y=\"80\">cut off</text>\
+         </svg></figure><script>{script}</script></body>"
+    );
+    let path = bench.path("page.html");
+    fs::write(&path, page).expect("a page");
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .args([
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--virtual-time-budget=20000",
+        ])
+        .arg(format!(
+            "--user-data-dir={}",
+            bench.path("profile").display()
+        ))
+        .arg(format!("file://{}", path.display()))
+        .output()
+        .expect("the browser starts");
+    let dom = String::from_utf8_lossy(&output.stdout);
+    assert!(dom.contains("\"one / two\""), "{dom}");
+    assert!(dom.contains("example.invalid"), "{dom}");
+    assert!(dom.contains("\"cut\":[\"cut off\"]"), "{dom}");
+}

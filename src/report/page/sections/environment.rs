@@ -80,8 +80,8 @@ fn programs(reproduction: &Reproduction, origin: &Origin) -> DataTable {
         "runs>",
         "steps>",
         "seconds>",
-        "first run",
-        "last run",
+        "first run, UTC",
+        "last run, UTC",
         "machine",
     ]);
     for program in programs_of(&reproduction.provenances) {
@@ -91,13 +91,13 @@ fn programs(reproduction: &Reproduction, origin: &Origin) -> DataTable {
             identity.engine.clone(),
             identity.version.clone(),
             identity.package.clone().unwrap_or_else(|| "-".to_owned()),
-            hash.chars().take(SHORT).collect(),
+            short(hash),
             origin.source_of(&identity.engine).to_owned(),
             program.runs.to_string(),
             format!("{:.1e}", program.steps as f64),
             format!("{:.1}", program.seconds),
-            program.first.to_owned(),
-            program.last.to_owned(),
+            minute(program.first),
+            minute(program.last),
             program.machine.to_owned(),
         ]);
     }
@@ -112,6 +112,15 @@ fn programs(reproduction: &Reproduction, origin: &Origin) -> DataTable {
     }
 }
 
+fn short(hash: &str) -> String {
+    hash.chars().take(SHORT).collect()
+}
+
+/// A date to the minute.
+fn minute(date: &str) -> String {
+    date.get(..16).unwrap_or(date).replace('T', " ")
+}
+
 fn decks() -> DataTable {
     let mut table = Table::new(&[
         "engine",
@@ -121,13 +130,15 @@ fn decks() -> DataTable {
     for engine in EngineName::ALL {
         table.push(vec![
             engine.to_string(),
-            engine.static_deck_hash(),
-            engine.probe_hash(),
+            short(&engine.static_deck_hash()),
+            short(&engine.probe_hash()),
         ]);
     }
     DataTable {
         name: "decks",
-        caption: "Decks; for the native DEM its sources take their place.".to_owned(),
+        caption: format!(
+            "First {SHORT} digits of the SHA-256 of the decks; for the native DEM its sources take their place."
+        ),
         csv: table.csv(),
         table,
         long: false,

@@ -59,18 +59,16 @@ fn recorded(judgements: &[Judgement]) -> Option<String> {
 
 /// Rows without a judgement, each with its reason.
 fn unjudged(reproduction: &Reproduction) -> Vec<String> {
-    let parts = [
-        &reproduction.yield_curves,
-        &reproduction.scaling,
-        &reproduction.literal,
-    ];
-    let rows = parts.into_iter().flatten();
+    let rows = reproduction
+        .yield_curves
+        .iter()
+        .chain(&reproduction.scaling);
     let open = rows
         .filter(|judgement| !matches!(judgement.row.verdict, Verdict::Agrees | Verdict::Differs));
     open.map(|judgement| {
         let row = &judgement.row;
         format!(
-            "{} at μ = {}, stiffness {}: {}. {}",
+            "{} at μ = {}, stiffness {} was not judged, {}: {}.",
             row.engine,
             friction(row.mu),
             row.stiffness,

@@ -7,6 +7,7 @@ pub mod dem;
 pub mod engine;
 pub mod probe;
 pub mod report;
+pub mod reproduction;
 pub mod stack;
 pub mod theory;
 pub mod trace;

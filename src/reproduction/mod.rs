@@ -1,0 +1,5 @@
+//! What the paper did, done again.
+
+mod preparation;
+
+pub use preparation::between_side_walls;

@@ -6,7 +6,7 @@ use super::probing::{Probed, contradictions, probe_all};
 use super::schedule::{Participant, Progress, RunError, Settings, run_all};
 use super::verdict::{Row, Source, judge, tolerance};
 use crate::archive::Run;
-use crate::stack::Case;
+use crate::stack::{Case, Protocol};
 use crate::trace::YieldEstimates;
 use crate::verdict::Verdict;
 
@@ -163,12 +163,13 @@ fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &m
     let Some(reference) = measurement.limit.yield_force else {
         return;
     };
-    let (Some(peak), Some(allowance)) = (judgement.peak, peak_allowance(measurement, reference))
-    else {
+    let planned = measurement.limit.wall_travel.zip(measurement.cases.first());
+    let (Some(peak), Some((travel, fastest))) = (judgement.peak, planned) else {
         judgement.row.verdict = Verdict::NoYield;
         judgement.notes.push(no_yield_note(readings));
         return;
     };
+    let allowance = peak_allowance(travel, &fastest.protocol, reference);
     let peak_uncertainty = peak.budget.total() + allowance;
     let Some(slip) = judgement.slip else {
         judgement.decide(peak.force, peak_uncertainty, reference);
@@ -259,12 +260,11 @@ fn friction_note(measurement: &Measurement, estimates: &[YieldEstimates]) -> Opt
 /// of 1, 1/2 and 1/4 of the fastest: four steps at the fastest speed.
 const GRAINY_STEPS: f64 = 4.0;
 
-/// Uncertainty of the extrapolated peak beyond its budget, in m g.
-fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
-    let travel = measurement.limit.wall_travel?;
-    let fastest = &measurement.cases.first()?.protocol;
-    let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
-    Some(GRAINY_STEPS * load_per_step)
+/// Uncertainty of a peak extrapolated to `force`, beyond its budget, in m g: of runs the fastest of which has
+/// the protocol `fastest`, in which the wall moves by `travel` until the yield.
+pub fn peak_allowance(travel: f64, fastest: &Protocol, force: f64) -> f64 {
+    let load_per_step = (force + 3.0) * fastest.wall_speed * fastest.time_step / travel;
+    GRAINY_STEPS * load_per_step
 }
 
 fn no_yield_note(readings: &[Reading]) -> String {

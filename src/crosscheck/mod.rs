@@ -16,10 +16,10 @@ mod verdict;
 
 pub use evidence::Evidence;
 pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
-pub use measure::{Judgement, measure};
+pub use measure::{Judgement, measure, peak_allowance};
 pub use plan::{
-    Measurement, NoYield, Profile, no_yield, plan, planned_protocol, protocol_at_speed,
-    yielding_frictions,
+    COARSE_TIME_STEP_RUN, MIDDLE_RUN, Measurement, NoYield, Profile, SHORT_RAMP_RUN, no_yield,
+    plan, planned_protocol, protocol_at_speed, yielding_frictions,
 };
 pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use recorded::{Recorded, RecordedError};

@@ -2,4 +2,7 @@
 
 mod preparation;
 
-pub use preparation::between_side_walls;
+pub use preparation::{
+    CriticalPush, Estimator, PreparationPlan, PreparationRow, PreparationStudy, between_side_walls,
+    critical_pushes, plan_preparation, predicted_critical_push, study_preparation,
+};

@@ -73,9 +73,7 @@ impl Preparation {
                 ramp: rounded(ramp_time),
                 rest: rounded(rest_time),
             },
-            Self::SideWalls(walls) => {
-                PreparationSteps::SideWalls(walls.steps(time_step, rounded))
-            },
+            Self::SideWalls(walls) => PreparationSteps::SideWalls(walls.steps(time_step, rounded)),
         }
     }
 

@@ -1,0 +1,134 @@
+//! A*, the push up to which the bottom cylinders end without contact.
+
+use super::plan::{PreparationPlan, plan_preparation};
+use crate::crosscheck::{MIDDLE_RUN, Participant, Progress, RunError, Settings, run_all};
+use crate::engine::EngineName;
+use crate::stack::{CRITICAL_FRICTION, Stack};
+use serde::Serialize;
+
+/// Pushes that are looked at first, in units of ε, up to the largest of them.
+const GRID: f64 = 0.25;
+const LARGEST: f64 = 2.0;
+/// Halvings of the interval in which c appears; it is then 3 × 10⁻⁵ ε wide.
+const HALVINGS: usize = 13;
+
+/// Where c appears, in native runs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CriticalPush {
+    /// A* in r, the largest push that was found to end with c = 0; c appears within `width` above it.
+    pub push: f64,
+    /// Width of the interval in which it appears, in r.
+    pub width: f64,
+}
+
+/// A* of a stack that slides nowhere while it is prepared, to leading order in ε, in r.
+///
+/// With A* the bottom cylinders end just touching, at x₂ = 1, with a = G = ε/2 and b = e = a T (docs/theory.md).
+/// Both tangential springs of cylinder 2 were free of force at x₂ = 1 − A/3 and sin ψ = x₂/2. What they have
+/// accumulated since, without the rotation, is 2 κ b = A/3 + ∫ρ dψ. To leading order T = μ_c, b = ε μ_c/2, and ψ
+/// has changed by ε/(4√3) from just touching at 30° (2 sin ψ = 1 + ε/4) plus A/(3√3), so that
+///
+/// ```text
+/// κ μ_c ε = A/3 + 2 (ε/(4√3) + A/(3√3))    =>    A* = 3 ε (κ μ_c − 1/(2√3))/(1 + 2/√3)
+/// ```
+///
+/// It is 0 at κ = 1.07735, below which contact 2–3 closes under any load (docs/theory.md, section 7).
+///
+/// ```
+/// use tristack::stack::Stack;
+/// let push = tristack::reproduction::predicted_critical_push(&Stack::paper(0.2, 1e4));
+/// assert!((push - 0.53074e-4).abs() < 1e-9);
+/// ```
+pub fn predicted_critical_push(stack: &Stack) -> f64 {
+    let root = 3f64.sqrt();
+    let spread = stack.stiffness_ratio * CRITICAL_FRICTION - 0.5 / root;
+    3.0 * stack.epsilon() * spread / (1.0 + 2.0 / root)
+}
+
+/// A* of each of `stacks` by bisection, every step a native run under the paper's convention; `None` where
+/// c > 0 already at A = 0, or c = 0 up to A = 2 ε.
+///
+/// # Errors
+/// The first run that failed.
+pub fn critical_pushes(
+    stacks: &[Stack],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Option<CriticalPush>>, RunError> {
+    let count = (LARGEST / GRID) as usize + 1;
+    let on_grid = |index: usize, stack: &Stack| GRID * index as f64 * stack.epsilon();
+    let grid = stacks
+        .iter()
+        .flat_map(|stack| (0..count).map(move |index| (*stack, on_grid(index, stack))));
+    let grid: Vec<(Stack, f64)> = grid.collect();
+    let touching = touching(&grid, settings, progress)?;
+    let mut intervals: Vec<Option<(f64, f64)>> = stacks
+        .iter()
+        .zip(touching.chunks(count))
+        .map(|(stack, touching)| {
+            let first = touching.iter().position(|&touches| touches)?;
+            Some((on_grid(first.checked_sub(1)?, stack), on_grid(first, stack)))
+        })
+        .collect();
+    for _ in 0..HALVINGS {
+        let open = stacks.iter().zip(&intervals);
+        let middles: Vec<(Stack, f64)> = open
+            .filter_map(|(stack, interval)| {
+                interval.map(|(low, high)| (*stack, 0.5 * (low + high)))
+            })
+            .collect();
+        let answers = self::touching(&middles, settings, progress)?;
+        let answered = middles.iter().zip(answers);
+        for ((low, high), ((_, middle), touches)) in intervals.iter_mut().flatten().zip(answered) {
+            *(if touches { high } else { low }) = *middle;
+        }
+    }
+    let result = |(low, high): (f64, f64)| CriticalPush {
+        push: low,
+        width: high - low,
+    };
+    Ok(intervals
+        .into_iter()
+        .map(|interval| interval.map(result))
+        .collect())
+}
+
+/// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given
+/// push.
+fn touching(
+    pushed: &[(Stack, f64)],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<bool>, RunError> {
+    let name = EngineName::Native;
+    let plans = pushed.iter().map(|(stack, push)| {
+        let mut plan = plan_preparation(name, name, stack, Some(*push));
+        plan.cases = plan.cases.get(MIDDLE_RUN).copied().into_iter().collect();
+        plan
+    });
+    let plans: Vec<PreparationPlan> = plans.collect();
+    let native = [Participant::find(name)];
+    let results = run_all(&plans, &native, settings, progress, |run| {
+        let start = run.trace.samples().first();
+        start.is_some_and(|sample| sample.bottom_contact_force() > 0.0)
+    });
+    let first = |results: Vec<Result<bool, RunError>>| results.into_iter().next();
+    results
+        .into_iter()
+        .map(|results| first(results).unwrap_or(Ok(false)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_push_is_not_needed_for_contact_where_it_closes_by_itself() {
+        let stack = Stack {
+            stiffness_ratio: crate::theory::CLOSING_STIFFNESS_RATIO,
+            ..Stack::paper(0.2, 1e2)
+        };
+        assert!(predicted_critical_push(&stack).abs() < 1e-7);
+    }
+}

@@ -4,5 +4,5 @@ mod preparation;
 
 pub use preparation::{
     CriticalPush, Estimator, PreparationPlan, PreparationRow, PreparationStudy, between_side_walls,
-    critical_pushes, plan_preparation, predicted_critical_push, study_preparation,
+    critical_pushes, plan_preparation, study_preparation,
 };

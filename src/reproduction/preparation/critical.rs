@@ -3,7 +3,7 @@
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::crosscheck::{MIDDLE_RUN, Participant, Progress, RunError, Settings, run_all};
 use crate::engine::EngineName;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::stack::Stack;
 use serde::Serialize;
 
 /// Pushes that are looked at first, in units of ε, up to the largest of them.
@@ -19,30 +19,6 @@ pub struct CriticalPush {
     pub push: f64,
     /// Width of the interval in which it appears, in r.
     pub width: f64,
-}
-
-/// A* of a stack that slides nowhere while it is prepared, to leading order in ε, in r.
-///
-/// With A* the bottom cylinders end just touching, at x₂ = 1, with a = G = ε/2 and b = e = a T (docs/theory.md).
-/// Both tangential springs of cylinder 2 were free of force at x₂ = 1 − A/3 and sin ψ = x₂/2. What they have
-/// accumulated since, without the rotation, is 2 κ b = A/3 + ∫ρ dψ. To leading order T = μ_c, b = ε μ_c/2, and ψ
-/// has changed by ε/(4√3) from just touching at 30° (2 sin ψ = 1 + ε/4) plus A/(3√3), so that
-///
-/// ```text
-/// κ μ_c ε = A/3 + 2 (ε/(4√3) + A/(3√3))    =>    A* = 3 ε (κ μ_c − 1/(2√3))/(1 + 2/√3)
-/// ```
-///
-/// It is 0 at κ = 1.07735, below which contact 2–3 closes under any load (docs/theory.md, section 7).
-///
-/// ```
-/// use tristack::stack::Stack;
-/// let push = tristack::reproduction::predicted_critical_push(&Stack::paper(0.2, 1e4));
-/// assert!((push - 0.53074e-4).abs() < 1e-9);
-/// ```
-pub fn predicted_critical_push(stack: &Stack) -> f64 {
-    let root = 3f64.sqrt();
-    let spread = stack.stiffness_ratio * CRITICAL_FRICTION - 0.5 / root;
-    3.0 * stack.epsilon() * spread / (1.0 + 2.0 / root)
 }
 
 /// A* of each of `stacks` by bisection, every step a native run under the paper's convention; `None` where
@@ -117,18 +93,4 @@ fn touching(
         .into_iter()
         .map(|results| first(results).unwrap_or(Ok(false)))
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_push_is_not_needed_for_contact_where_it_closes_by_itself() {
-        let stack = Stack {
-            stiffness_ratio: crate::theory::CLOSING_STIFFNESS_RATIO,
-            ..Stack::paper(0.2, 1e2)
-        };
-        assert!(predicted_critical_push(&stack).abs() < 1e-7);
-    }
 }

@@ -9,6 +9,6 @@ mod critical;
 mod plan;
 mod study;
 
-pub use critical::{CriticalPush, critical_pushes, predicted_critical_push};
+pub use critical::{CriticalPush, critical_pushes};
 pub use plan::{PreparationPlan, between_side_walls, plan_preparation};
 pub use study::{Estimator, PreparationRow, PreparationStudy, study_preparation};

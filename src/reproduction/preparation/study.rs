@@ -1,6 +1,6 @@
 //! c(A) and F(A) of every engine, beside the gravity ramp and the exact limit.
 
-use super::critical::{CriticalPush, critical_pushes, predicted_critical_push};
+use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::archive::Run;
 use crate::crosscheck::{
@@ -9,7 +9,7 @@ use crate::crosscheck::{
 };
 use crate::engine::EngineName;
 use crate::stack::{Case, Stack};
-use crate::theory::quasistatic_limit;
+use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use crate::trace::YieldEstimates;
 use serde::Serialize;
 
@@ -33,6 +33,9 @@ pub struct PreparationRow {
     pub convention_of: EngineName,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
+    /// The exact limit after a gravity ramp under this convention, in m g, or with a push, and arms 0, what
+    /// becomes of it if nothing slides during the preparation ([`pushed_slip_force`]).
+    pub limit_force: Option<f64>,
     /// c between the bottom cylinders when the compression begins, in m g.
     pub contact_force: Option<f64>,
     /// What twice the time step and half the rests change of it, in m g.
@@ -120,11 +123,11 @@ pub fn study_preparation(
     let mut rows = all.iter().zip(results).map(|(plan, runs)| row(plan, runs));
     let studies = stacks.iter().zip(critical).zip(plans);
     Ok(studies
-        .map(|((stack, critical_push), plans)| PreparationStudy {
+        .map(|((stack, found), plans)| PreparationStudy {
             stack: *stack,
             exact_force: quasistatic_limit(stack, 0.0, 0.0).yield_force,
-            predicted_critical_push: predicted_critical_push(stack),
-            critical_push,
+            predicted_critical_push: critical_push(stack),
+            critical_push: found,
             rows: rows.by_ref().take(plans.len()).collect(),
         })
         .collect())
@@ -175,11 +178,22 @@ impl Reading {
     }
 }
 
+fn limit_force(plan: &PreparationPlan) -> Option<f64> {
+    let convention = plan.convention_of.convention();
+    let arms = (convention.pair_arm, convention.floor_arm);
+    match plan.push {
+        None => quasistatic_limit(&plan.stack, arms.0, arms.1).yield_force,
+        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.stack, push),
+        Some(_) => None,
+    }
+}
+
 fn row(plan: &PreparationPlan, runs: Vec<Result<Reading, RunError>>) -> PreparationRow {
     let mut row = PreparationRow {
         engine: plan.engine,
         convention_of: plan.convention_of,
         push: plan.push,
+        limit_force: limit_force(plan),
         contact_force: None,
         contact_uncertainty: None,
         yield_force: None,

@@ -1,7 +1,7 @@
 //! What the decks of the external codes are told, and which deck it is.
 
 use insta::assert_snapshot;
-use tristack::crosscheck::plan;
+use tristack::crosscheck::{Workload, plan};
 use tristack::engine::{EngineName, ParameterFile, Task};
 use tristack::reproduction::plan_preparation;
 use tristack::stack::Stack;
@@ -49,7 +49,7 @@ fn examples_for_running_by_hand_are_complete() {
 fn examples_of_side_walls_are_complete() {
     let stack = Stack::paper(0.2, 1e2);
     let plan = plan_preparation(EngineName::Yade, EngineName::Yade, &stack, Some(0.005));
-    let parameters = plan.cases[1].parameters();
+    let parameters = plan.cases()[1].parameters();
     let given = names_in_json(&ParameterFile::Json.content(&parameters));
     let json = include_str!("../yade_scripts/side_walls_parameters.json");
     let variables = include_str!("../liggghts_inputs/side_walls_parameters.in");

@@ -5,7 +5,7 @@ mod common;
 
 use common::{Bench, json, standard_error, standard_output};
 use tristack::archive::Run;
-use tristack::crosscheck::{Progress, Recorded, Settings, Store};
+use tristack::crosscheck::{Progress, Recorded, Settings, Store, Workload};
 use tristack::dem::compress_stack;
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::reproduction::{
@@ -127,7 +127,7 @@ fn a_stack_that_slides_while_the_walls_go_is_judged_by_its_peak() {
 #[test]
 fn series_has_the_same_bits_everywhere() {
     let name = EngineName::Native;
-    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.005)).cases[0];
+    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.005)).cases()[0];
     let trace = compress_stack(&case, || true).expect("a finite series");
     let expected = "68791e22bc8117047ae649ce4371d1b1277e428e0aa3f4f59706ddec998d20c9";
     assert_eq!(tristack::stack::sha256_hex(&trace.to_csv()), expected);
@@ -179,7 +179,7 @@ fn what_cannot_be_prepared_is_refused_with_what_can() {
 fn a_case_file_with_side_walls_is_refused_where_they_are_not_offered() {
     let bench = Bench::without_engines();
     let name = EngineName::Lammps;
-    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases[0];
+    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
     assert!(matches!(
         case.protocol.preparation,
         Preparation::SideWalls(_)

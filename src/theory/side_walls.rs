@@ -2,7 +2,7 @@
 //! order in what the walls do.
 //!
 //! The push A rolls the bottom cylinders to x₂ = 1 − A/3 before the top one lies on them. From there the springs
-//! of both tangential contacts accumulate as they do from just touching (docs/theory.md, Eq. 14):
+//! of both tangential contacts accumulate as they do from just touching (docs/theory.md, Eqs. 68 and 69):
 //!
 //! 2 κ b = (x₂ − x₂⁰) + ∫ρ dψ,  x₂⁰ = 1 − A/3 = 2 sin ψ₀.
 //!
@@ -19,7 +19,7 @@ use crate::stack::{CRITICAL_FRICTION, Stack};
 const HIGHEST_TANGENT: f64 = 1.0;
 
 /// A*, the largest push after which the bottom cylinders end without contact, in r, to leading order in ε, if
-/// nothing slides during the preparation.
+/// nothing slides during the preparation (docs/theory.md, Eq. 70).
 ///
 /// With A* they end just touching, at x₂ = 1, with a = G = ε/2 and b = a T. To leading order T = μ_c and b = ε μ_c/2,
 /// and ψ has changed by ε/(4√3) since just touching at 30° (2 sin ψ = 1 + ε/4) and by A/(3√3) more since ψ₀:

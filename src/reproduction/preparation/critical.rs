@@ -1,7 +1,8 @@
 //! A*, the push up to which the bottom cylinders end without contact.
 
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::crosscheck::{MIDDLE_RUN, Participant, Progress, RunError, Settings, run_all};
+use crate::archive::Reading;
+use crate::crosscheck::{MIDDLE_RUN, Participant, Progress, RunError, Settings, read_all};
 use crate::engine::EngineName;
 use crate::stack::Stack;
 use serde::Serialize;
@@ -79,18 +80,19 @@ fn touching(
     let name = EngineName::Native;
     let plans = pushed.iter().map(|(stack, push)| {
         let mut plan = plan_preparation(name, name, stack, Some(*push));
-        plan.cases = plan.cases.get(MIDDLE_RUN).copied().into_iter().collect();
+        let middle = plan.measurement.cases.get(MIDDLE_RUN).copied();
+        plan.measurement.cases = middle.into_iter().collect();
         plan
     });
     let plans: Vec<PreparationPlan> = plans.collect();
     let native = [Participant::find(name)];
-    let results = run_all(&plans, &native, settings, progress, |run| {
-        let start = run.trace.samples().first();
-        start.is_some_and(|sample| sample.bottom_contact_force() > 0.0)
-    });
-    let first = |results: Vec<Result<bool, RunError>>| results.into_iter().next();
+    let touches = |reading: Reading| reading.contact_force.is_some_and(|force| force > 0.0);
+    let results = read_all(&plans, &native, settings, progress);
     results
         .into_iter()
-        .map(|results| first(results).unwrap_or(Ok(false)))
+        .map(|results| {
+            let first = results.into_iter().next();
+            first.map_or(Ok(false), |reading| reading.map(touches))
+        })
         .collect()
 }

@@ -11,4 +11,7 @@ mod study;
 
 pub use critical::{CriticalPush, critical_pushes};
 pub use plan::{PreparationPlan, between_side_walls, plan_preparation};
-pub use study::{Estimator, PreparationRow, PreparationStudy, study_preparation};
+pub use study::{
+    Estimator, PreparationRow, PreparationStudy, preparation_cases, preparation_studies,
+    study_preparation,
+};

@@ -1,8 +1,8 @@
 //! The runs behind one yield force of one preparation.
 
-use crate::crosscheck::{Measurement, SHORT_RAMP_RUN, Workload, peak_allowance, plan};
+use crate::crosscheck::{Measurement, SHORT_RAMP_RUN, Workload, plan};
 use crate::engine::EngineName;
-use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, SideWalls, Stack};
+use crate::stack::{Case, Preparation, Protocol, Sampling, SideWalls, Stack};
 
 /// How much further the wall goes than after a gravity ramp: a stack that starts with c > 0 yields later.
 const FURTHER: f64 = 1.3;
@@ -32,15 +32,12 @@ pub struct PreparationPlan {
     pub engine: EngineName,
     /// Whose convention it runs them with; another one's than its own makes it a twin.
     pub convention_of: EngineName,
-    /// The stack.
-    pub stack: Stack,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
-    /// How far the wall moves until the yield, after a gravity ramp.
-    pub wall_travel: Option<f64>,
-    /// Three wall speeds, then twice the time step, then half the rests, or half the gravity ramp: the
-    /// order that [`crate::crosscheck::extrapolate`] expects. None where nothing yields.
-    pub cases: Vec<Case>,
+    /// What is measured. Its limit is that of the gravity ramp; its cases are three wall speeds, then twice the
+    /// time step, then half the rests, or half the gravity ramp: the order that
+    /// [`crate::crosscheck::extrapolate`] expects.
+    pub measurement: Measurement,
 }
 
 impl Workload for PreparationPlan {
@@ -49,17 +46,7 @@ impl Workload for PreparationPlan {
     }
 
     fn cases(&self) -> &[Case] {
-        &self.cases
-    }
-}
-
-impl PreparationPlan {
-    /// What the grain of the peak may cost its extrapolation to `force`, in m g.
-    pub(super) fn peak_allowance(&self, force: f64) -> f64 {
-        let fastest = self.cases.first().zip(self.wall_travel);
-        fastest.map_or(0.0, |(case, travel)| {
-            peak_allowance(travel, &case.protocol, force)
-        })
+        &self.measurement.cases
     }
 }
 
@@ -71,12 +58,9 @@ pub fn plan_preparation(
     stack: &Stack,
     push: Option<f64>,
 ) -> PreparationPlan {
-    let convention: Convention = convention_of.convention();
-    let Measurement {
-        mut cases, limit, ..
-    } = plan(engine, stack, convention);
+    let mut measurement = plan(engine, stack, convention_of.convention());
     if let Some(push) = push {
-        for (run, case) in cases.iter_mut().enumerate() {
+        for (run, case) in measurement.cases.iter_mut().enumerate() {
             let mut walls = SideWalls::paper(push, stack.epsilon());
             if run == SHORT_RAMP_RUN {
                 walls.settle_time *= 0.5;
@@ -89,10 +73,8 @@ pub fn plan_preparation(
     PreparationPlan {
         engine,
         convention_of,
-        stack: *stack,
         push,
-        wall_travel: limit.wall_travel,
-        cases,
+        measurement,
     }
 }
 
@@ -107,8 +89,8 @@ mod tests {
                 let stack = Stack::paper(0.3, stiffness);
                 let yade = EngineName::Yade;
                 let plan = plan_preparation(yade, yade, &stack, push);
-                assert_eq!(plan.cases.len(), SHORT_RAMP_RUN + 1);
-                for case in plan.cases {
+                assert_eq!(plan.cases().len(), SHORT_RAMP_RUN + 1);
+                for case in plan.cases() {
                     assert_eq!(case.validate(), Ok(()));
                 }
             }
@@ -120,6 +102,6 @@ mod tests {
         let stack = Stack::paper(0.3, 1e2);
         let native = EngineName::Native;
         let own = plan_preparation(native, native, &stack, None);
-        assert_eq!(own.cases, plan(native, &stack, Convention::PAPER).cases);
+        assert_eq!(own.measurement, plan(native, &stack, native.convention()));
     }
 }

@@ -2,13 +2,13 @@
 
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::archive::Run;
+use crate::archive::{Provenance, Reading};
 use crate::crosscheck::{
     COARSE_TIME_STEP_RUN, MIDDLE_RUN, Participant, Progress, RunError, SHORT_RAMP_RUN, Settings,
-    extrapolate, run_all,
+    Workload, extrapolate, peak_allowance, read_all,
 };
 use crate::engine::EngineName;
-use crate::stack::{Case, Stack};
+use crate::stack::{CRITICAL_FRICTION, Case, Stack};
 use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use crate::trace::YieldEstimates;
 use serde::Serialize;
@@ -48,6 +48,9 @@ pub struct PreparationRow {
     pub estimator: Option<Estimator>,
     /// Why something is missing.
     pub note: Option<String>,
+    /// Where its runs come from.
+    #[serde(skip)]
+    pub provenances: Vec<Provenance>,
 }
 
 /// What the choice of the preparation moves, for one stack.
@@ -96,6 +99,53 @@ impl PreparationStudy {
     }
 }
 
+/// Frictions below, at and above the critical one, and stiffnesses, of the paper's figures.
+const FRICTIONS: [f64; 3] = [0.2, CRITICAL_FRICTION, 0.3];
+const STIFFNESSES: [f64; 2] = [1e2, 1e4];
+/// Pushes in units of ε, besides 0 and A*: two below A*, three above.
+const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
+
+/// Everything about the preparation that the paper's figures call for: every one of `engines` at μ = 0.2 and
+/// stiffness 100, and native at frictions below, at and above the critical one at the stiffnesses 100 and 10⁴.
+///
+/// # Errors
+/// See [`study_preparation`].
+pub fn preparation_studies(
+    engines: &[EngineName],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<PreparationStudy>, RunError> {
+    let stacks: Vec<Stack> = STIFFNESSES
+        .iter()
+        .flat_map(|&stiffness| FRICTIONS.map(|friction| Stack::paper(friction, stiffness)))
+        .collect();
+    let (first, others) = stacks.split_at(1);
+    let mut studies = study_preparation(first, &PUSHES, engines, settings, progress)?;
+    studies.extend(study_preparation(others, &PUSHES, &[], settings, progress)?);
+    Ok(studies)
+}
+
+/// The cases of [`preparation_studies`] that `engine` runs.
+///
+/// # Errors
+/// If a step of the bisection failed.
+pub fn preparation_cases(
+    engine: EngineName,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Case>, RunError> {
+    let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
+    let critical = critical_pushes(&[stack], settings, progress)?;
+    let critical = critical.first().and_then(Option::as_ref);
+    let mut plans = plans(&stack, &PUSHES, critical, &[engine]);
+    plans.retain(|plan| plan.engine == engine);
+    Ok(plans
+        .iter()
+        .flat_map(|plan| plan.cases())
+        .copied()
+        .collect())
+}
+
 /// Measures c(A) and F(A) of each of `stacks` with native and every one of `engines`, at A = 0, at A* and at
 /// the pushes `relative_pushes` × ε; those that do not offer side walls show the gravity ramp alone. Native
 /// computes a twin of every other engine.
@@ -112,14 +162,15 @@ pub fn study_preparation(
     let critical = critical_pushes(stacks, settings, progress)?;
     let others = engines.iter().filter(|&&name| name != EngineName::Native);
     let names = [EngineName::Native].iter().chain(others);
-    let participants: Vec<Participant> = names.copied().map(Participant::find).collect();
+    let names: Vec<EngineName> = names.copied().collect();
+    let participants: Vec<Participant> = names.iter().copied().map(Participant::find).collect();
     let plans: Vec<Vec<PreparationPlan>> = stacks
         .iter()
         .zip(&critical)
-        .map(|(stack, critical)| plans(stack, relative_pushes, critical.as_ref(), &participants))
+        .map(|(stack, critical)| plans(stack, relative_pushes, critical.as_ref(), &names))
         .collect();
     let all: Vec<PreparationPlan> = plans.concat();
-    let results = run_all(&all, &participants, settings, progress, Reading::new);
+    let results = read_all(&all, &participants, settings, progress);
     let mut rows = all.iter().zip(results).map(|(plan, runs)| row(plan, runs));
     let studies = stacks.iter().zip(critical).zip(plans);
     Ok(studies
@@ -137,7 +188,7 @@ fn plans(
     stack: &Stack,
     relative_pushes: &[f64],
     critical: Option<&CriticalPush>,
-    participants: &[Participant],
+    engines: &[EngineName],
 ) -> Vec<PreparationPlan> {
     let relative = relative_pushes.iter().map(|push| push * stack.epsilon());
     let mut pushes: Vec<f64> = relative.chain(critical.map(|found| found.push)).collect();
@@ -146,7 +197,7 @@ fn plans(
     pushes.dedup();
     let preparations = || [None].into_iter().chain(pushes.iter().copied().map(Some));
     let mut plans = Vec::new();
-    for name in participants.iter().map(|participant| participant.name) {
+    for &name in engines {
         let twin = (name != EngineName::Native).then_some(EngineName::Native);
         for engine in [name].into_iter().chain(twin) {
             plans.extend(preparations().map(|push| plan_preparation(engine, name, stack, push)));
@@ -154,36 +205,17 @@ fn plans(
     }
     plans.retain(|plan| {
         let offers = |case: &Case| plan.engine.check_preparation(&case.protocol.preparation);
-        plan.cases.iter().all(|case| offers(case).is_ok())
+        plan.cases().iter().all(|case| offers(case).is_ok())
     });
     plans
-}
-
-/// What is kept of a run.
-struct Reading {
-    estimates: YieldEstimates,
-    /// c at the beginning of the compression, in m g.
-    contact_force: f64,
-}
-
-impl Reading {
-    fn new(run: Run) -> Self {
-        let stack = &run.case.stack;
-        let start = run.trace.samples().first();
-        let contact_force = start.map_or(0.0, |sample| sample.bottom_contact_force());
-        Self {
-            estimates: YieldEstimates::read(&run.trace, stack),
-            contact_force: contact_force * stack.stiffness,
-        }
-    }
 }
 
 fn limit_force(plan: &PreparationPlan) -> Option<f64> {
     let convention = plan.convention_of.convention();
     let arms = (convention.pair_arm, convention.floor_arm);
     match plan.push {
-        None => quasistatic_limit(&plan.stack, arms.0, arms.1).yield_force,
-        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.stack, push),
+        None => plan.measurement.limit.yield_force,
+        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.measurement.stack, push),
         Some(_) => None,
     }
 }
@@ -200,6 +232,7 @@ fn row(plan: &PreparationPlan, runs: Vec<Result<Reading, RunError>>) -> Preparat
         uncertainty: None,
         estimator: None,
         note: None,
+        provenances: Vec::new(),
     };
     match runs.into_iter().collect::<Result<Vec<Reading>, RunError>>() {
         Ok(runs) if runs.is_empty() => row.note = Some("nothing yields".to_owned()),
@@ -211,19 +244,22 @@ fn row(plan: &PreparationPlan, runs: Vec<Result<Reading, RunError>>) -> Preparat
 
 impl PreparationRow {
     fn read(&mut self, plan: &PreparationPlan, runs: &[Reading]) {
-        let contact = |run: usize| runs[run].contact_force;
-        let change = |run: usize| (contact(run) - contact(MIDDLE_RUN)).abs();
-        self.contact_force = Some(contact(MIDDLE_RUN));
-        self.contact_uncertainty = Some(change(COARSE_TIME_STEP_RUN) + change(SHORT_RAMP_RUN));
+        let contact = |run: usize| runs.get(run)?.contact_force;
+        let change = |run: usize| Some((contact(run)? - contact(MIDDLE_RUN)?).abs());
+        let changes = change(COARSE_TIME_STEP_RUN).zip(change(SHORT_RAMP_RUN));
+        self.contact_force = contact(MIDDLE_RUN);
+        self.contact_uncertainty = changes.map(|(time_step, rest)| time_step + rest);
+        self.provenances = runs.iter().map(|run| run.provenance.clone()).collect();
         let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
-        let steps: Vec<u64> = plan.cases.iter().map(Case::total_steps).collect();
-        let stiffness = plan.stack.stiffness;
+        let steps: Vec<u64> = plan.cases().iter().map(Case::total_steps).collect();
+        let stiffness = plan.measurement.stack.stiffness;
         let slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
         let Some(peak) = extrapolate(&estimates, &steps, stiffness, |run| run.peak) else {
             self.note = Some("the wall force has no peak".to_owned());
             return;
         };
-        let peak_uncertainty = peak.budget.total() + plan.peak_allowance(peak.force);
+        let allowance = peak_allowance(&plan.measurement, peak.force).unwrap_or(0.0);
+        let peak_uncertainty = peak.budget.total() + allowance;
         let same = slip.filter(|slip| {
             (slip.force - peak.force).abs() <= slip.budget.total() + peak_uncertainty
         });

@@ -4,6 +4,7 @@ mod claims;
 mod conventions;
 mod environment;
 mod figures;
+mod preparation;
 mod summary;
 mod tolerances;
 mod untested;
@@ -55,6 +56,7 @@ pub fn document(
             figures::section(reproduction, origin),
             claims::register(judged),
             tolerances::section(reproduction),
+            preparation::section(reproduction),
             conventions::section(reproduction),
             environment::section(reproduction, origin),
             untested::section(reproduction, judged, origin),

@@ -5,6 +5,7 @@ pub mod cli;
 pub mod crosscheck;
 pub mod dem;
 pub mod engine;
+pub mod experiment;
 pub mod probe;
 pub mod report;
 pub mod stack;

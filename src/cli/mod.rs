@@ -5,6 +5,7 @@ mod engines;
 mod error;
 mod explain;
 mod options;
+mod predict;
 mod probe;
 mod progress;
 mod record;
@@ -50,6 +51,7 @@ enum Command {
     Probe(probe::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
+    Predict(predict::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -72,6 +74,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments),
+        Command::Predict(arguments) => predict::run(&arguments),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod crosscheck;
 mod explain;
+mod forecast;
 mod inventory;
 mod number;
 mod probe;
@@ -16,6 +17,7 @@ pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
 };
 pub use explain::explanation;
+pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};

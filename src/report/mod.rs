@@ -9,6 +9,8 @@ mod probe;
 mod regime_figure;
 mod regimes;
 mod simulation;
+mod stack_figure;
+mod svg;
 mod table;
 mod theory;
 mod trajectory;
@@ -26,6 +28,7 @@ pub use regimes::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
 };
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
+pub use stack_figure::{StackPanel, run_svg, stack_svg, telling_panels};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};
 pub use trajectory::{

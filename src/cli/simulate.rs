@@ -6,7 +6,9 @@ use crate::archive::{ArchiveError, Run, write_atomically};
 use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
 use crate::dem::compress_stack_into_frames;
 use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace};
-use crate::report::{Simulation, run_svg, simulation_csv, simulation_json, simulation_table};
+use crate::report::{
+    Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
+};
 use crate::stack::{Case, Stack};
 use crate::theory::quasistatic_limit;
 use crate::trace::{Frames, YieldEstimates};
@@ -56,6 +58,9 @@ pub struct Arguments {
     /// Picture of the stack with its contact forces, at rest, at yield and in collapse
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Directory for a time series that ParaView opens (stack.pvd): cylinders and contact forces, at most some 500 rows
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
     /// Longest time in seconds [default: 30 s and 100 us a step for external engines, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
@@ -68,6 +73,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
+    if let Some(directory) = &arguments.vtk {
+        writable(directory)?;
+    }
     let name = arguments.engine;
     let engine = name.find().ok_or(CliError::MissingEngine(name))?;
     let scratch = match &arguments.out {
@@ -115,12 +123,33 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 
 /// Draws what was asked for.
 fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
-    let Some(file) = &arguments.svg else {
+    if arguments.svg.is_none() && arguments.vtk.is_none() {
         return Ok(());
-    };
+    }
     let frames = frames(arguments.engine, run)?;
-    let name = &run.provenance.identity.engine;
-    write_atomically(file, run_svg(name, &run.case, &frames).as_bytes())?;
+    if let Some(file) = &arguments.svg {
+        let name = &run.provenance.identity.engine;
+        write_atomically(file, run_svg(name, &run.case, &frames).as_bytes())?;
+    }
+    if let Some(directory) = &arguments.vtk {
+        let files = vtk_series(&frames, run.case.stack.epsilon());
+        remove_vtk_series(directory)?;
+        for file in files {
+            write_atomically(&directory.join(&file.name), file.content.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes the files of an earlier series, which may have had more rows.
+fn remove_vtk_series(directory: &Path) -> Result<(), ArchiveError> {
+    let entries = std::fs::read_dir(directory).map_err(ArchiveError::writing(directory))?;
+    for entry in entries.flatten() {
+        if is_vtk_row(&entry.file_name().to_string_lossy()) {
+            let path = entry.path();
+            std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
+        }
+    }
     Ok(())
 }
 

@@ -133,7 +133,7 @@ fn estimates(estimates: &[Forecasted]) -> Table {
         newton(one.yield_force)
     });
     line("paper's perturbation", "N", &|one| newton(one.perturbation));
-    line("paper's f = m g/epsilon", "N", &|one| {
+    line("paper's f = m g/epsilon, mu > mu_c", "N", &|one| {
         newton(Some(one.paper_formula))
     });
     line("largest force", "N", &|one| newton(one.largest_force));
@@ -166,12 +166,12 @@ fn forces_between(range: &ForceRange) -> String {
     let newton = |force: f64| significant(force, 3);
     match (range.lowest, range.highest) {
         (Some(lowest), Some(highest)) => format!(
-            "the stack carries at most {} to {} N",
+            "the largest force is {} to {} N",
             newton(lowest),
             newton(highest)
         ),
         (Some(lowest), None) => format!(
-            "the stack carries {} N or more, without a peak for some",
+            "the largest force is {} N or more, without a peak for some",
             newton(lowest)
         ),
         _ => "the force grows without a peak".to_owned(),

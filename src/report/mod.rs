@@ -14,6 +14,7 @@ mod svg;
 mod table;
 mod theory;
 mod trajectory;
+mod vtk;
 
 pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
@@ -34,3 +35,4 @@ pub use theory::{theory_csv, theory_json, theory_table};
 pub use trajectory::{
     trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
 };
+pub use vtk::{VtkFile, is_vtk_row, vtk_series};

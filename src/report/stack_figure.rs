@@ -5,15 +5,19 @@ use crate::stack::Case;
 use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 
 /// Pixels per r.
-const SCALE: f64 = 52.0;
+const SCALE: f64 = 60.0;
 /// Length of the arrow of the largest force of a panel, in r.
-const LONGEST_ARROW: f64 = 0.74;
+const LONGEST_ARROW: f64 = 1.0;
 /// Forces smaller than this part of the largest are too short to be drawn.
 const SMALLEST_SHARE: f64 = 0.02;
 /// How far the arrows of action and reaction are drawn apart, in r.
 const SIDESTEP: f64 = 0.055;
+/// From the tip of an arrow to its letter, in r.
+const LETTER_DISTANCE: f64 = 0.13;
 /// Half the width of a panel at least, in r.
 const NARROWEST: f64 = 2.35;
+/// A stack whose force is below this part of the largest collapses.
+const FALLEN: f64 = 0.75;
 const ABOVE_WALL: f64 = 0.3;
 const BELOW_FLOOR: f64 = 0.3;
 const TITLE_HEIGHT: f64 = 44.0;
@@ -30,30 +34,36 @@ pub struct StackPanel<'a> {
     pub title: String,
     /// The stack.
     pub frame: &'a Frame,
+    /// Whether the forces between the cylinders are among its contacts.
+    pub pair_forces_known: bool,
 }
 
-/// The stack of a run at rest, at its largest force, and in collapse: when cylinder 1 has come down by r/3
-/// since, or else at the end.
+/// The stack of a run at rest, at its largest force, and in collapse, when the force has fallen to about half of
+/// that; where a run ends before, at its end.
 pub fn telling_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
     let all = &frames.frames;
-    let force = |index: &usize| all[*index].wall_force;
-    let highest = (0..all.len()).max_by(|i, j| force(i).total_cmp(&force(j)));
-    let (Some(highest), Some(first), Some(last)) = (highest, all.first(), all.last()) else {
+    let force = |index: usize| all[index].wall_force;
+    let highest = (0..all.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)));
+    let (Some(highest), Some(last)) = (highest, all.len().checked_sub(1)) else {
         return Vec::new();
     };
-    let height = |frame: &Frame| frame.cylinders[0].position[1];
-    let fallen = height(&all[highest]) - 1.0 / 3.0;
-    let collapsing = all[highest..].iter().find(|frame| height(frame) < fallen);
-    let panel = |title: &str, frame| StackPanel {
+    let bearing = (highest + 1..all.len()).take_while(|&index| force(index) > 0.0);
+    let from_half = |index: usize| (force(index) - 0.5 * force(highest)).abs();
+    let half = bearing.min_by(|&i, &j| from_half(i).total_cmp(&from_half(j)));
+    let fallen = |index: &usize| force(*index) < FALLEN * force(highest);
+    let collapsing = half.filter(fallen).or((highest..=last).find(fallen));
+    let panel = |title: &str, index: usize| StackPanel {
         title: title.to_owned(),
-        frame,
+        frame: &all[index],
+        pair_forces_known: frames.pair_forces_known,
     };
-    let yields = highest + 1 < all.len();
-    let mut panels = vec![panel("at rest", first)];
-    panels.extend(yields.then(|| panel("at yield", &all[highest])));
+    let mut panels = vec![panel("at rest", 0)];
+    if highest < last {
+        panels.push(panel("at yield", highest));
+    }
     panels.push(match collapsing {
-        Some(frame) => panel("in collapse", frame),
-        None => panel("at the end", last),
+        Some(index) => panel("in collapse", index),
+        None => panel("at the end of the run", last),
     });
     panels
 }
@@ -62,7 +72,7 @@ pub fn telling_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
 pub fn run_svg(engine: &str, case: &Case, frames: &Frames) -> String {
     let stack = &case.stack;
     let mut caption = vec![format!(
-        "{engine}: _μ_ = {}, _k_ₙ _r_/(_m_ _g_) = {}, _κ_ = {}, _μ_[d] = {}. Circles are undeformed cylinders to scale; ticks: orientation, at rest light.",
+        "{engine}: _μ_ = {}, _k_ₙ _r_/(_m_ _g_) = {}, _κ_ = {}, _μ_[d] = {}. Circles: undeformed cylinders, so that overlaps show compression; ticks: orientation now and (light) at the start.",
         super::friction(stack.floor_friction),
         stack.stiffness,
         stack.stiffness_ratio,
@@ -137,7 +147,7 @@ fn legend(drawing: &mut Drawing, y: f64) {
         [164.0, y],
         Align::Start,
         11.0,
-        "tangential force on each cylinder, from the contact inwards; each panel has its own scale of force",
+        "tangential force on each cylinder, from the contact inwards; numbers in _m_ _g_",
     );
 }
 
@@ -177,7 +187,7 @@ impl View {
             }
             arrow.scale_bar(drawing, largest / self.epsilon);
         }
-        self.values(drawing, frame);
+        self.values(drawing, panel);
     }
 
     /// Floor and top wall, hatched on their far side.
@@ -209,17 +219,14 @@ impl View {
             let to = self.at([x + cosine, y + sine]);
             drawing.line(from, to, colour, width);
         }
-        let beside = [
-            x + [0.0, 0.36, -0.36][index % 3],
-            y - [0.0, 0.04, 0.04][index % 3],
-        ];
-        let mut place = self.at(beside);
+        let mut place = self.at([x + [-0.5, 0.45, -0.45][index % 3], y]);
         place[1] += 5.0;
         drawing.text(place, Align::Middle, 14.0, &(index + 1).to_string());
     }
 
-    /// The letters of the paper's figure, with the values on the right side.
-    fn values(&self, drawing: &mut Drawing, frame: &Frame) {
+    /// The values of the forces, with the letters of the paper's figure.
+    fn values(&self, drawing: &mut Drawing, panel: &StackPanel) {
+        let frame = panel.frame;
         let find = |cylinder: usize, partner: Partner| {
             let mut contacts = frame.contacts.iter();
             contacts.find(|contact| contact.cylinder == cylinder && contact.partner == partner)
@@ -233,19 +240,15 @@ impl View {
         let pair = find(1, Partner::Cylinder(0));
         let bottom = find(2, Partner::Cylinder(1));
         let floor = find(1, Partner::Floor);
-        let between = frame.contacts.iter();
-        let known = between
-            .filter(|contact| matches!(contact.partner, Partner::Cylinder(_)))
-            .count();
         let mut parts = Vec::new();
-        if known > 0 {
+        if panel.pair_forces_known {
             parts.push(value("a", normal(pair)));
             parts.push(value("b", shear(pair)));
             parts.push(value("c", normal(bottom)));
         }
         parts.push(value("d", normal(floor)));
         parts.push(value("e", shear(floor)));
-        let line = parts.join(",  ") + "  (_m_ _g_)";
+        let line = parts.join(",  ");
         let below = self.floor + BELOW_FLOOR * SCALE;
         drawing.text([self.middle, below + 10.0], Align::Middle, 11.0, &line);
     }
@@ -281,9 +284,14 @@ impl Arrows<'_> {
                 inwards,
                 SIDESTEP * f64::from(u8::from(partners)),
             );
-            self.arrow(drawing, start, along, NORMAL, true);
+            let named = if is_named(contact, side) {
+                letters(contact.partner)
+            } else {
+                ("", "")
+            };
+            self.arrow(drawing, start, along, (NORMAL, true), named.0);
             let start = shifted(contact.position, inwards, 1.6 * SIDESTEP);
-            self.arrow(drawing, start, across, TANGENTIAL, false);
+            self.arrow(drawing, start, across, (TANGENTIAL, false), named.1);
         }
     }
 
@@ -292,8 +300,8 @@ impl Arrows<'_> {
         drawing: &mut Drawing,
         start: [f64; 2],
         force: [f64; 2],
-        colour: &str,
-        filled: bool,
+        (colour, filled): (&str, bool),
+        letter: &str,
     ) {
         let size = (force[0] * force[0] + force[1] * force[1]).sqrt();
         if size < self.least {
@@ -301,6 +309,11 @@ impl Arrows<'_> {
         }
         let end = shifted(start, force, self.per_force);
         drawing.arrow(self.view.at(start), self.view.at(end), colour, filled);
+        if !letter.is_empty() {
+            let beyond = shifted(end, force, LETTER_DISTANCE / size);
+            let [x, y] = self.view.at(beyond);
+            drawing.text([x, y + 4.0], Align::Middle, 12.0, &format!("_{letter}_"));
+        }
     }
 
     /// A round force and its length.
@@ -319,6 +332,25 @@ impl Arrows<'_> {
         let text = format!("{round} _m_ _g_");
         drawing.text([to + 7.0, y + 4.0], Align::Start, 11.0, &text);
     }
+}
+
+/// The letters of normal and tangential force in the paper's figure.
+fn letters(partner: Partner) -> (&'static str, &'static str) {
+    match partner {
+        Partner::Cylinder(0) => ("a", "b"),
+        Partner::Cylinder(_) => ("c", ""),
+        Partner::Floor => ("d", "e"),
+        Partner::TopWall => ("f", ""),
+    }
+}
+
+/// Whether the arrows on one side of a contact get their letters: those on cylinder 2, and the wall's.
+fn is_named(contact: &ContactPoint, side: f64) -> bool {
+    let on = match contact.partner {
+        Partner::Cylinder(other) if side < 0.0 => other,
+        _ => contact.cylinder,
+    };
+    on == 1 || contact.partner == Partner::TopWall
 }
 
 fn shifted(from: [f64; 2], direction: [f64; 2], by: f64) -> [f64; 2] {

@@ -5,7 +5,7 @@ use super::options::{Format, RunOptions, participants, writable};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure, plan};
+use crate::crosscheck::{Judgement, Participant, Profile, Source, measure};
 use crate::engine::EngineName;
 use crate::report::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
@@ -53,7 +53,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
-    let measurements = measurements(arguments.profile, &participants);
+    let engines: Vec<EngineName> = participants.iter().map(|who| who.name).collect();
+    let measurements = arguments.profile.measurements(&engines);
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
     let judgements = measure(&measurements, &participants, &settings, &reporter);
@@ -68,16 +69,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Csv => crosscheck_csv(&judgements),
     })?;
     Ok(conclude(&judgements, measurements.len(), &participants))
-}
-
-/// The measurements of `profile`, stack by stack, by each of the `participants`.
-fn measurements(profile: Profile, participants: &[Participant]) -> Vec<Measurement> {
-    let stacks = profile.stacks();
-    let rows = stacks.iter().flat_map(|stack| {
-        let engines = participants.iter().map(|participant| participant.name);
-        engines.map(move |engine| plan(engine, stack, engine.convention()))
-    });
-    rows.collect()
 }
 
 fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), ArchiveError> {

@@ -6,8 +6,7 @@ use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
 use crate::crosscheck::{
-    Measurement, Participant, Profile, Recorded, RunError, Settings, Workload, plan, record_probe,
-    run_all,
+    Participant, Profile, Recorded, RunError, Settings, Workload, record_probe, run_all,
 };
 use crate::engine::EngineName;
 use clap::{Args, ValueEnum};
@@ -77,11 +76,7 @@ fn record(
         worst = worst.max(record_probe_of(&participant[0], settings)?);
     }
     if wanted(Set::Crosscheck) {
-        let stacks = Profile::Quick.stacks();
-        let plans = stacks
-            .iter()
-            .map(|stack| plan(name, stack, name.convention()));
-        let plans: Vec<Measurement> = plans.collect();
+        let plans = Profile::Quick.measurements(&[name]);
         let place = (&settings.recorded, reference_directory());
         worst = worst.max(record_runs(&plans, &participant, settings, place)?);
     }

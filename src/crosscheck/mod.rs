@@ -6,6 +6,8 @@ mod extrapolate;
 mod measure;
 mod plan;
 mod probing;
+mod profile;
+mod reading;
 mod recorded;
 mod regimes;
 mod schedule;
@@ -18,10 +20,12 @@ pub use evidence::Evidence;
 pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
 pub use measure::{Judgement, measure};
 pub use plan::{
-    Measurement, NoYield, Profile, no_yield, plan, planned_protocol, protocol_at_speed,
-    yielding_frictions,
+    Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,
+    planned_protocol, protocol_at_speed, yielding_frictions,
 };
 pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
+pub use profile::{PAPER_STIFFNESSES, Profile};
+pub use reading::{Load, read_all};
 pub use recorded::{Recorded, RecordedError};
 pub use regimes::{
     Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,

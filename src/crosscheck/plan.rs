@@ -1,7 +1,7 @@
 //! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
 
 use crate::engine::EngineName;
-use crate::stack::{CRITICAL_FRICTION, Case, Convention, Preparation, Protocol, Sampling, Stack};
+use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -30,25 +30,6 @@ const TRAVEL_MARGIN: f64 = 1.05;
 /// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
 
-/// Which stacks a crosscheck covers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Profile {
-    /// Six frictions around the critical one at three stiffnesses.
-    Quick,
-}
-
-impl Profile {
-    /// The stacks, stiffness by stiffness.
-    pub fn stacks(self) -> Vec<Stack> {
-        let frictions = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
-        let stiffnesses = [1e2, 1e3, 1e4];
-        stiffnesses
-            .into_iter()
-            .flat_map(|stiffness| frictions.map(|friction| Stack::paper(friction, stiffness)))
-            .collect()
-    }
-}
-
 /// There is nothing to run because the stack does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("`--mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
@@ -67,6 +48,22 @@ fn accepted(range: Option<(f64, f64)>) -> String {
     })
 }
 
+/// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
+pub const PAPER_WALL_SPEED: f64 = 1e-6;
+/// Time step of the paper, in √(m/k_n) (supplement I.C).
+pub const PAPER_TIME_STEP: f64 = 1e-3;
+/// Wall speeds of a literal measurement: the paper's, and twice it to learn what it costs.
+const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
+
+/// How the yield force is read off the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Slip onset, extrapolated to vanishing wall speed.
+    Extrapolated,
+    /// As in the paper: the peak at the wall speed and time step of the paper.
+    Literal,
+}
+
 /// All that one row of a crosscheck needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
@@ -80,20 +77,40 @@ pub struct Measurement {
     pub limit: Limit,
     /// Distance of that limit from the one under the paper's convention, relative to F + 3.
     pub model_form: Option<f64>,
-    /// One case per wall speed, then one with a coarse time step and one with a short gravity ramp; none
-    /// where nothing yields.
+    /// How its yield force is read.
+    pub method: Method,
+    /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
+    /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
 }
 
 /// Plans the measurement of `stack` with `engine` under `convention`.
 pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measurement {
+    planned(engine, stack, convention, Method::Extrapolated)
+}
+
+/// Plans the measurement of `stack` as the paper made it.
+pub fn plan_literal(engine: EngineName, stack: &Stack, convention: Convention) -> Measurement {
+    planned(engine, stack, convention, Method::Literal)
+}
+
+fn planned(
+    engine: EngineName,
+    stack: &Stack,
+    convention: Convention,
+    method: Method,
+) -> Measurement {
     let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
     let paper = quasistatic_limit(stack, 0.0, 0.0);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / (paper + 3.0));
-    let protocols = planned_protocols(&limit).into_iter().flatten();
+    let protocols = match method {
+        Method::Extrapolated => planned_protocols(&limit),
+        Method::Literal => literal_protocols(&limit),
+    };
+    let protocols = protocols.into_iter().flatten();
     let cases = protocols.map(|protocol| Case {
         stack: *stack,
         convention,
@@ -103,6 +120,7 @@ pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measur
         engine,
         stack: *stack,
         convention,
+        method,
         cases: cases.collect(),
         limit,
         model_form,
@@ -128,6 +146,11 @@ fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
         ..middle
     });
     Some(protocols)
+}
+
+fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
+    let protocols = LITERAL_SPEEDS.map(|speed| protocol_at_speed(limit, speed, PAPER_TIME_STEP));
+    protocols.into_iter().collect()
 }
 
 /// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time, or
@@ -213,10 +236,11 @@ pub fn yielding_frictions(stack: &Stack, convention: &Convention) -> Option<(f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stack::CRITICAL_FRICTION;
 
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
-        for stack in Profile::Quick.stacks() {
+        for stack in crate::crosscheck::Profile::Quick.stacks() {
             let measurement = plan(EngineName::Yade, &stack, EngineName::Yade.convention());
             assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
             for case in &measurement.cases {

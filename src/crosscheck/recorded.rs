@@ -1,6 +1,6 @@
 //! Recorded runs, which stand in for engines that are not installed.
 
-use crate::archive::{Archive, ArchiveError, ProbeRecord, Run};
+use crate::archive::{Archive, ArchiveError, ProbeRecord, Provenance, Reading, Run};
 use crate::engine::EngineName;
 use crate::stack::Case;
 use std::path::{Path, PathBuf};
@@ -61,16 +61,48 @@ impl Recorded {
         else {
             return Err(RecordedError::Absent { engine, path });
         };
-        let current = engine.deck_hash(case);
-        if run.provenance.deck_hash != current {
-            return Err(RecordedError::OtherDeck {
-                engine,
-                path,
-                recorded: run.provenance.deck_hash,
-                current,
-            });
-        }
+        up_to_date(engine, case, path, &run.provenance)?;
         Ok(run)
+    }
+
+    /// What was read off the recorded runs of `engine` whose series are not kept.
+    ///
+    /// # Errors
+    /// If the record is damaged.
+    pub fn readings(&self, engine: EngineName) -> Result<Vec<Reading>, ArchiveError> {
+        Reading::load_all(&self.readings_path(engine))
+    }
+
+    /// `reading` of `case`, if it was made with today's deck.
+    ///
+    /// # Errors
+    /// If it was not.
+    pub fn unless_outdated(
+        &self,
+        engine: EngineName,
+        case: &Case,
+        reading: Reading,
+    ) -> Result<Reading, RecordedError> {
+        let path = self.readings_path(engine);
+        up_to_date(engine, case, path, &reading.provenance)?;
+        Ok(reading)
+    }
+
+    /// Records `readings` of `engine` in place of older ones.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn replace_readings(
+        &self,
+        engine: EngineName,
+        readings: &[Reading],
+    ) -> Result<(), ArchiveError> {
+        Reading::save_all(&self.readings_path(engine), readings)
+    }
+
+    fn readings_path(&self, engine: EngineName) -> PathBuf {
+        let name = format!("{engine}.jsonl");
+        self.archive.root().join("readings").join(name)
     }
 
     /// The recorded probe of `engine`.
@@ -132,6 +164,25 @@ impl Recorded {
         }
         Ok(())
     }
+}
+
+/// Refuses what was made with another deck than today's.
+fn up_to_date(
+    engine: EngineName,
+    case: &Case,
+    path: PathBuf,
+    provenance: &Provenance,
+) -> Result<(), RecordedError> {
+    let (recorded, current) = (provenance.deck_hash.clone(), engine.deck_hash(case));
+    if recorded == current {
+        return Ok(());
+    }
+    Err(RecordedError::OtherDeck {
+        engine,
+        path,
+        recorded,
+        current,
+    })
 }
 
 fn name(engine: EngineName, case: &Case) -> PathBuf {

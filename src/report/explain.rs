@@ -69,10 +69,12 @@ fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
             case.protocol.time_step.to_string(),
             ramp_time.to_string(),
             case.total_steps().to_string(),
-            force(run.slip),
-            force(run.peak),
-            optional(run.slip, |slip| format!("{:.0e}", slip.sampling)),
-            optional(run.slip, |slip| format!("{:.0} x", slip.sensitivity)),
+            force(run.estimates.slip),
+            force(run.estimates.peak),
+            optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling)),
+            optional(run.estimates.slip, |slip| {
+                format!("{:.0} x", slip.sensitivity)
+            }),
         ]);
     }
     format!(

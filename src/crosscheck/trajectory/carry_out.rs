@@ -6,28 +6,13 @@ use super::judge::{FORCE_BAR, judge_order};
 use super::judgement::{Comparison, TrajectoryJudgement};
 use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::archive::Run;
-use crate::crosscheck::schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
+use crate::crosscheck::reading::Load;
+use crate::crosscheck::schedule::{Participant, Progress, RunError, Settings, run_all};
 use crate::crosscheck::verdict::Source;
 use crate::engine::EngineName;
 use crate::stack::Case;
 use crate::trace::Sample;
 use crate::verdict::Verdict;
-
-/// Some cases for one engine.
-struct Load {
-    engine: EngineName,
-    cases: Vec<Case>,
-}
-
-impl Workload for Load {
-    fn engine(&self) -> EngineName {
-        self.engine
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
-}
 
 /// What is kept of a run: who made it, and the rows.
 type Kept = (String, Vec<Sample>);

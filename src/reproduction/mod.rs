@@ -1,0 +1,203 @@
+//! What the paper did, done again: the runs behind each of its figures, and some that it lacks.
+
+mod convergence;
+mod curves;
+mod force_series;
+mod scaling;
+
+pub use convergence::{
+    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_loads, convergence_stack,
+};
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use force_series::{ForceSeries, force_series, force_series_stack};
+pub use scaling::{
+    Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
+    scaling_measurements,
+};
+
+use crate::archive::{Provenance, Reading};
+use crate::crosscheck::{
+    Judgement, Measurement, Participant, Probed, Profile, Progress, Recorded, RunError, Settings,
+    Survey, THREE_DIGITS, Trajectory, TrajectoryJudgement, examined_stacks, measure,
+    measure_trajectories, plan_trajectory, probe_all, survey, trajectory_stack,
+};
+use crate::engine::EngineName;
+use crate::stack::PAPER_STIFFNESS_RATIO;
+use crate::theory::{BoundaryPoint, RegimeMap};
+
+/// Points looked at on every boundary of the regime maps.
+const BOUNDARY_POINTS: usize = 13;
+
+/// Everything that was computed and measured for the paper.
+pub struct Reproduction {
+    /// What every code means by a contact.
+    pub probes: Vec<(EngineName, Probed)>,
+    /// Fig. 2(a): every stack of the standard profile with every code.
+    pub yield_curves: Vec<Judgement>,
+    /// Fig. 2(b).
+    pub scaling: Vec<Judgement>,
+    /// The exponents of Fig. 2(b).
+    pub exponents: Vec<Exponent>,
+    /// At the paper's literal wall speed and time step.
+    pub literal: Vec<Judgement>,
+    /// The supplement's figure on wall speed and time step.
+    pub convergence: Convergence,
+    /// The supplement's figure of f(t).
+    pub force_series: ForceSeries,
+    /// Whole series beside native twins.
+    pub trajectories: Vec<TrajectoryJudgement>,
+    /// The regime maps …
+    pub maps: [RegimeMap; 3],
+    /// … and what the native DEM says of them.
+    pub survey: Survey,
+    /// The theories over the ranges of the figures.
+    pub curves: Curves,
+    /// Where the runs come from, in the order of their use.
+    pub provenances: Vec<Provenance>,
+}
+
+/// How the paper is reproduced.
+pub struct Scope<'a> {
+    /// The codes that take part. The native one must be among them.
+    pub participants: &'a [Participant],
+    /// Where runs come from and go to.
+    pub settings: &'a Settings<'a>,
+    /// The recorded runs that stand in for trajectories.
+    pub trajectories: Recorded,
+    /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes a quarter of an hour.
+    pub literal: bool,
+}
+
+/// Carries out everything; `None` after an interrupt. `examined` is told how many more points of the regime
+/// maps, of `Scope::points`, are done.
+///
+/// # Errors
+/// If the native run behind f(t) fails. Failures of other runs are in the rows.
+pub fn reproduce(
+    scope: &Scope,
+    progress: &dyn Progress,
+    examined: &(dyn Fn(usize) + Sync),
+) -> Result<Option<Reproduction>, RunError> {
+    let Scope {
+        participants,
+        settings,
+        ..
+    } = scope;
+    let interrupted = || settings.interrupt.requested();
+    let probes = probe_all(participants, settings, progress);
+    let names = participants.iter().map(|who| who.name);
+    let probes = names.zip(probes).collect();
+    let plan = Plan::new(scope);
+    let mut judgements = measure(&plan.all(), participants, settings, progress);
+    if interrupted() {
+        return Ok(None);
+    }
+    let literal = judgements.split_off(plan.yield_curves.len() + plan.scaling.len());
+    let scaling = judgements.split_off(plan.yield_curves.len());
+    let (convergence, mut readings) = converge(participants, settings, progress);
+    let native = Participant::find(EngineName::Native);
+    if interrupted() {
+        return Ok(None);
+    }
+    let (force_series, reading) = force_series(&native, settings, progress)?;
+    readings.push(reading);
+    let trajectories = run_trajectories(scope, progress);
+    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
+    let points = boundary_points(&maps);
+    let survey = survey(&points, settings.threads, settings.interrupt, examined);
+    if interrupted() {
+        return Ok(None);
+    }
+    let rows = judgements.iter().chain(&scaling).chain(&literal);
+    let runs = rows.flat_map(|judgement| &judgement.runs).chain(&readings);
+    Ok(Some(Reproduction {
+        provenances: runs.map(|reading| reading.provenance.clone()).collect(),
+        probes,
+        exponents: exponents(&scaling),
+        yield_curves: judgements,
+        scaling,
+        literal,
+        convergence,
+        force_series,
+        trajectories,
+        maps,
+        survey,
+        curves: curves(),
+    }))
+}
+
+/// How many points of the regime maps are examined.
+pub fn examined_points() -> usize {
+    boundary_points(&RegimeMap::standard(PAPER_STIFFNESS_RATIO)).len() + examined_stacks().len()
+}
+
+fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
+    let of_map = |map: &RegimeMap| map.boundary_points(BOUNDARY_POINTS, THREE_DIGITS);
+    maps.iter().flat_map(of_map).collect()
+}
+
+fn run_trajectories(scope: &Scope, progress: &dyn Progress) -> Vec<TrajectoryJudgement> {
+    let external = scope.participants.iter().map(|who| who.name);
+    let external = external.filter(|name| !name.accepts_any_convention());
+    let plans: Vec<Trajectory> = external
+        .map(|engine| plan_trajectory(engine, &trajectory_stack(), engine.convention()))
+        .collect();
+    let settings = Settings {
+        store: scope.settings.store.clone(),
+        recorded: scope.trajectories.clone(),
+        ..*scope.settings
+    };
+    measure_trajectories(&plans, scope.participants, &settings, progress)
+}
+
+/// The measurements behind the figures.
+struct Plan {
+    yield_curves: Vec<Measurement>,
+    scaling: Vec<Measurement>,
+    literal: Vec<Measurement>,
+}
+
+impl Plan {
+    fn new(scope: &Scope) -> Self {
+        let engines: Vec<EngineName> = scope.participants.iter().map(|who| who.name).collect();
+        let mut literal = Profile::Paper.measurements(&engines);
+        if !scope.literal {
+            literal.retain(|row| row.stack == convergence_stack());
+        }
+        Self {
+            yield_curves: Profile::Standard.measurements(&engines),
+            scaling: scaling_measurements(&engines),
+            literal,
+        }
+    }
+
+    fn all(&self) -> Vec<Measurement> {
+        let parts = [&self.yield_curves, &self.scaling, &self.literal];
+        parts.into_iter().flatten().cloned().collect()
+    }
+}
+
+/// Every run of an external engine that the report needs and whose series is too large to keep: the readings
+/// that `tristack record` takes.
+///
+/// # Errors
+/// The first run that fails.
+pub fn readings_to_record(
+    participant: &Participant,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Reading>, RunError> {
+    let engines = [participant.name];
+    let mut loads = convergence_loads(&engines);
+    let measurements = [
+        Profile::Standard.measurements(&engines),
+        scaling_measurements(&engines),
+        Profile::Paper.measurements(&engines),
+    ];
+    for measurement in measurements.into_iter().flatten() {
+        loads[0].cases.extend(measurement.cases);
+    }
+    let participants = std::slice::from_ref(participant);
+    let results = crate::crosscheck::read_all(&loads, participants, settings, progress);
+    results.into_iter().flatten().collect()
+}

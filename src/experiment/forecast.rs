@@ -8,9 +8,9 @@ use crate::theory::{
 use serde::Serialize;
 use std::fmt;
 
-/// Stiffnesses k_n r/(m g) for which the limit is known to its last digits; steel cylinders of 1 mm have 3e9.
+/// Stiffnesses k_n r/(m g) up to which the closed form was held against its asymptotes; steel cylinders of 1 mm have 3e9.
 const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e12);
-/// The secant of Hertz's law and the overlap at yield determine each other; each round gains a digit or so.
+/// Rounds at most: the secant of Hertz's law and the overlap at yield determine each other.
 const ROUNDS: usize = 60;
 
 /// On which side of the rigid critical friction μ_c the floor is.

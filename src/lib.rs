@@ -6,6 +6,7 @@ pub mod cli;
 pub mod crosscheck;
 pub mod dem;
 pub mod engine;
+pub mod experiment;
 pub mod probe;
 pub mod report;
 pub mod reproduction;

@@ -63,6 +63,7 @@ fn no_folder_points_back() {
     let order = [
         "stack",
         "theory",
+        "experiment",
         "trace",
         "archive",
         "dem",

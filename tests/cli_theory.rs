@@ -93,6 +93,7 @@ fn every_command_has_help_with_an_example() {
         "probe",
         "record",
         "regimes",
+        "predict",
     ] {
         let help = standard_output(&mut bench.tristack(&format!("{command} --help")));
         assert!(

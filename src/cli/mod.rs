@@ -5,6 +5,7 @@ mod engines;
 mod error;
 mod explain;
 mod options;
+mod predict;
 mod probe;
 mod progress;
 mod record;
@@ -52,6 +53,7 @@ enum Command {
     Record(record::Arguments),
     Regimes(regimes::Arguments),
     Report(report::Arguments),
+    Predict(predict::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -75,6 +77,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Predict(arguments) => predict::run(&arguments),
     }
 }
 

@@ -4,12 +4,15 @@ use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_l
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, Run, write_atomically};
 use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
-use crate::engine::{Engine, EngineName, Failure, Workplace};
-use crate::report::{Simulation, simulation_csv, simulation_json, simulation_table};
+use crate::dem::compress_stack_into_frames;
+use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace};
+use crate::report::{
+    Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
+};
 use crate::reproduction::between_side_walls;
 use crate::stack::{Case, InvalidValue, Protocol, SideWalls, Stack};
 use crate::theory::quasistatic_limit;
-use crate::trace::YieldEstimates;
+use crate::trace::{Frames, YieldEstimates};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -69,6 +72,12 @@ pub struct Arguments {
     /// Directory for case, series, summary, deck and captured output
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Picture of the stack with its contact forces, at rest, at yield and in collapse
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Directory for a time series that ParaView opens (stack.pvd): cylinders and contact forces, at most some 500 rows
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
     /// Longest time in seconds [default: 30 s and 100 us a step for external engines, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
@@ -81,6 +90,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
+    if let Some(directory) = &arguments.vtk {
+        writable(directory)?;
+    }
     let name = arguments.engine;
     let engine = name.find().ok_or(CliError::MissingEngine(name))?;
     let scratch = match &arguments.out {
@@ -118,11 +130,67 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if let Some(directory) = &arguments.out {
         write(directory, &run, &simulation)?;
     }
+    draw(arguments, &run)?;
     super::print(&match arguments.format {
         Format::Table => simulation_table(&simulation).into_bytes(),
         Format::Json => simulation_json(&simulation).into_bytes(),
         Format::Csv => simulation_csv(&simulation),
     })
+}
+
+/// Draws what was asked for.
+fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
+    if arguments.svg.is_none() && arguments.vtk.is_none() {
+        return Ok(());
+    }
+    let frames = frames(arguments.engine, run)?;
+    if let Some(file) = &arguments.svg {
+        let name = &run.provenance.identity.engine;
+        write_atomically(file, run_svg(name, &run.case, &frames).as_bytes())?;
+    }
+    if let Some(directory) = &arguments.vtk {
+        let files = vtk_series(&frames, run.case.stack.epsilon());
+        remove_vtk_series(directory)?;
+        for file in files {
+            write_atomically(&directory.join(&file.name), file.content.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes the files of an earlier series, which may have had more rows.
+fn remove_vtk_series(directory: &Path) -> Result<(), ArchiveError> {
+    let entries = std::fs::read_dir(directory).map_err(ArchiveError::writing(directory))?;
+    for entry in entries.flatten() {
+        if is_vtk_row(&entry.file_name().to_string_lossy()) {
+            let path = entry.path();
+            std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every sampled moment of the run. The native DEM, whose series leaves out the forces between the cylinders,
+/// runs once more, to the same bits.
+fn frames(engine: EngineName, run: &Run) -> Result<Frames, CliError> {
+    if engine != EngineName::Native {
+        return Ok(Frames::of_trace(&run.trace, run.case.protocol.wall_speed));
+    }
+    let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
+    let (_, frames) = repeated.map_err(|error| {
+        Box::new(Failure {
+            engine,
+            subject: run.case.to_string(),
+            kind: if INTERRUPT.requested() {
+                FailureKind::Interrupted
+            } else {
+                error.into()
+            },
+            run_directory: None,
+            last_lines: Vec::new(),
+        })
+    })?;
+    Ok(frames)
 }
 
 fn case(arguments: &Arguments) -> Result<Case, CliError> {

@@ -6,6 +6,7 @@
 mod contact;
 mod contact_run;
 mod first_event;
+mod frames;
 mod real;
 mod scene;
 mod side_walls;
@@ -14,6 +15,7 @@ mod stack_run;
 pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use first_event::{Loading, Observation, Until, watch_stack};
+pub use frames::compress_stack_into_frames;
 pub use real::{Real, real};
 pub use scene::{Cylinder, Load, PlaneWall, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};

@@ -52,7 +52,7 @@ pub fn compress_stack_precisely(
 }
 
 /// The contact law of `case`.
-fn law<R: Real>(case: &Case) -> SpringDashpot<R> {
+pub(super) fn law<R: Real>(case: &Case) -> SpringDashpot<R> {
     SpringDashpot::new(&case.convention, case.stack.tangential_stiffness())
 }
 
@@ -64,6 +64,16 @@ pub fn compress_stack_with<R: Real, Model: ContactModel<R>>(
     case: &Case,
     model: Model,
     wanted: impl Fn() -> bool,
+) -> Result<Trace, SeriesError> {
+    compress_stack_watched(case, model, wanted, |_, _| ())
+}
+
+/// The same, every sampled state being shown to `watch`, with the index of the top wall.
+pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
+    case: &Case,
+    model: Model,
+    wanted: impl Fn() -> bool,
+    mut watch: impl FnMut(&Scene<R, Model>, usize),
 ) -> Result<Trace, SeriesError> {
     let schedule = case.protocol.schedule();
     let given_up = |step: u64| step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) && !wanted();
@@ -93,6 +103,7 @@ pub fn compress_stack_with<R: Real, Model: ContactModel<R>>(
         if planned.next_if_eq(&step).is_some() {
             let time = step as f64 * case.protocol.time_step;
             samples.push(sample(&scene, floor, top_wall, step, time));
+            watch(&scene, top_wall);
         }
         scene.advance();
     }

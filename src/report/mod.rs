@@ -3,6 +3,7 @@
 mod crosscheck;
 mod explain;
 mod figures;
+mod forecast;
 mod inventory;
 mod number;
 mod page;
@@ -10,9 +11,12 @@ mod probe;
 mod regime_figure;
 mod regimes;
 mod simulation;
+mod stack_figure;
+mod svg;
 mod table;
 mod theory;
 mod trajectory;
+mod vtk;
 
 pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_rows,
@@ -20,6 +24,7 @@ pub use crosscheck::{
 };
 pub use explain::explanation;
 pub use figures::PdfError;
+pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use page::{Origin, ReportFile, report_files};
@@ -29,8 +34,10 @@ pub use regimes::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
 };
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
+pub use stack_figure::{StackPanel, run_svg, stack_svg, telling_panels};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};
 pub use trajectory::{
     trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
 };
+pub use vtk::{VtkFile, is_vtk_row, vtk_series};

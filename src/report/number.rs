@@ -16,6 +16,17 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// `value` rounded to four significant digits, in the shorter notation.
+pub fn rounded(value: f64) -> String {
+    let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() {
+        scientific
+    } else {
+        plain
+    }
+}
+
 /// A relative deviation: sign, two digits, exponent.
 pub fn relative(value: f64) -> String {
     if value == 0.0 {
@@ -48,5 +59,8 @@ mod tests {
         assert_eq!(significant(0.59912362, 6), "0.599124");
         assert_eq!(significant(3.2e-9, 2), "3.2e-9");
         assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(rounded(1e6), "1e6");
+        assert_eq!(rounded(0.020_000_1), "0.02");
+        assert_eq!(rounded(435.6891), "435.7");
     }
 }

@@ -1,11 +1,13 @@
 //! A time series with named columns, and the yield force read off it.
 
 mod estimate;
+mod frame;
 mod motion;
 mod polynomial;
 mod series;
 
 pub use estimate::{Estimate, YieldEstimates};
+pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub use polynomial::{value_at_zero, weights_at_zero};
 pub use series::{Sample, SeriesError, Trace};

@@ -1,0 +1,100 @@
+//! `tristack predict`.
+
+use super::options::{Format, StackOptions, as_flag, friction};
+use super::{CliError, ExitStatus};
+use crate::experiment::{
+    ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
+};
+use crate::report::{forecast_csv, forecast_json, forecast_table};
+use clap::{ArgGroup, Args};
+
+/// ε, regime and yield force of cylinders that one can hold, in SI units
+#[derive(Debug, Args)]
+#[command(
+    group(ArgGroup::new("heaviness").required(true).args(["density", "mass"])),
+    after_help = "Example: tristack predict --youngs \"1 MPa\" --density \"1000 kg/m3\" --radius \"1 cm\" \
+    --length \"1 cm\" --mu 0.3\n\n\
+    k_n of a contact is what an experimenter does not know, so that three estimates stand side by side:\n\n  \
+    paper-scaling  the paper's epsilon = L rho g/E, here with L = r, that is k_n = pi E l: its order of\n                 \
+    magnitude, on the stiff side\n  \
+    line-contact   k_n = (pi/4) E* l with E* = E/(2 (1 - nu^2)), the straight line through Hertz's law\n  \
+    hertz          Hertz's law of two parallel cylinders, logarithm included, as secant at the yield\n\n\
+    The paper's examples use m = rho L^3 and f = m g/epsilon, together f = E L^2. Its elastomer (1 MPa, \
+    1000 kg/m3, L = 1 cm) weighs 1 g, has epsilon = 1e-4 and f = 100 N:\n\n  \
+    tristack predict --youngs \"1 MPa\" --mass \"1 g\" --radius \"1 cm\" --length \"3.183 mm\" --mu 0.3\n\n\
+    Its wood of the same mass, f = 1e5 N, follows with E of 1 GPa, which is wood across the grain; the \
+    paper does not give E, and 10 GPa (along the grain) would mean 1e6 N. Both lack the factor 2 G(mu) of the \
+    exact limit. The wooden cylinders of its movies:\n\n  \
+    tristack predict --youngs \"1 GPa\" --mass \"21.9 g\" --radius \"20 mm\" --length \"40 mm\" --poisson 0.3 --mu 0.3"
+)]
+pub struct Arguments {
+    /// Young's modulus with unit, such as "1 MPa"; across the grain, for wood
+    #[arg(long, value_name = "E", value_parser = modulus, allow_negative_numbers = true)]
+    youngs: f64,
+    /// Density with unit, such as "1000 kg/m3" or "1 g/cm3"
+    #[arg(long, value_name = "RHO", value_parser = density, allow_negative_numbers = true)]
+    density: Option<f64>,
+    /// Mass of a cylinder with unit, such as "21.9 g", instead of its density
+    #[arg(long, value_name = "M", value_parser = mass, allow_negative_numbers = true)]
+    mass: Option<f64>,
+    /// Radius with unit, such as "1 cm"
+    #[arg(long, value_name = "R", value_parser = length, allow_negative_numbers = true)]
+    radius: f64,
+    /// Length along the axis with unit, such as "40 mm"
+    #[arg(long, value_name = "L", value_parser = length, allow_negative_numbers = true)]
+    length: f64,
+    /// Floor friction; a number or the word `critical`
+    #[arg(long, value_parser = friction, allow_negative_numbers = true)]
+    mu: f64,
+    /// What the floor friction is known to, as ±
+    #[arg(
+        long,
+        value_name = "U",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    mu_uncertainty: f64,
+    /// Poisson's ratio: 0.5 for rubber, about 0.3 for wood and metals; paper-scaling does not use it
+    #[arg(
+        long,
+        value_name = "NU",
+        default_value_t = 0.5,
+        allow_negative_numbers = true
+    )]
+    poisson: f64,
+    /// The estimate of the contact that counts
+    #[arg(long, value_enum, default_value_t = ContactEstimate::PaperScaling)]
+    contact: ContactEstimate,
+    #[command(flatten)]
+    stack: StackOptions,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Prints the forecast.
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let cylinder = Cylinder {
+        youngs_modulus: arguments.youngs,
+        poisson_ratio: arguments.poisson,
+        density: arguments.density.unwrap_or(f64::NAN),
+        radius: arguments.radius,
+        length: arguments.length,
+    };
+    let experiment = Experiment {
+        cylinder: match arguments.mass {
+            Some(mass) => cylinder.weighing(mass),
+            None => cylinder,
+        },
+        mu: arguments.mu,
+        mu_uncertainty: arguments.mu_uncertainty,
+        mu_d: arguments.stack.mu_d,
+        kappa: arguments.stack.kappa,
+    };
+    let forecast = Forecast::new(&experiment, arguments.contact).map_err(as_flag)?;
+    super::print(&match arguments.format {
+        Format::Table => forecast_table(&forecast).into_bytes(),
+        Format::Json => forecast_json(&forecast).into_bytes(),
+        Format::Csv => forecast_csv(&forecast),
+    })
+}

@@ -1,0 +1,102 @@
+//! The sampled moments of a native run with all contact forces.
+
+use super::contact::SpringDashpot;
+use super::scene::Scene;
+use super::stack_run::{TOP, compress_stack_watched, law};
+use crate::stack::Case;
+use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, SeriesError, Trace};
+
+/// Does what [`compress_stack`](super::compress_stack) does, to the same bits, and keeps every contact force
+/// at every row of the series.
+///
+/// # Errors
+/// If the motion leaves the finite numbers, or is no longer wanted.
+pub fn compress_stack_into_frames(
+    case: &Case,
+    wanted: impl Fn() -> bool,
+) -> Result<(Trace, Frames), SeriesError> {
+    let mut scenes = Vec::new();
+    let trace = compress_stack_watched(case, law::<f64>(case), wanted, |scene, top_wall| {
+        scenes.push(frame(scene, top_wall));
+    })?;
+    let stamped = scenes.into_iter().zip(trace.samples());
+    let frames = stamped.map(|(frame, sample)| Frame {
+        step: sample.step,
+        time: sample.time,
+        ..frame
+    });
+    let frames = Frames {
+        frames: frames.collect(),
+        pair_forces_known: true,
+    };
+    Ok((trace, frames))
+}
+
+/// The scene as it is, without a date.
+fn frame(scene: &Scene<f64, SpringDashpot<f64>>, top_wall: usize) -> Frame {
+    let cylinders = scene.cylinders.iter().map(|cylinder| PlacedCylinder {
+        position: cylinder.position,
+        angle: cylinder.angle,
+        velocity: Some(cylinder.velocity),
+    });
+    let contacts = pair_contacts(scene).chain(wall_contacts(scene, top_wall));
+    let loaded = |contact: &ContactPoint| contact.force() != [0.0; 2];
+    Frame {
+        step: 0,
+        time: 0.0,
+        wall_force: scene.wall_force(top_wall, TOP).normal,
+        wall_height: -scene.walls[top_wall].offset,
+        cylinders: cylinders.collect(),
+        contacts: contacts.filter(loaded).collect(),
+    }
+}
+
+fn pair_contacts(
+    scene: &Scene<f64, SpringDashpot<f64>>,
+) -> impl Iterator<Item = ContactPoint> + '_ {
+    let count = scene.cylinders.len();
+    let pairs = (1..count).flat_map(|first| (0..first).map(move |second| (first, second)));
+    pairs.map(|(first, second)| {
+        let [one, other] = [first, second].map(|index| scene.cylinders[index].position);
+        let apart = [one[0] - other[0], one[1] - other[1]];
+        let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
+        let force = scene.pair_force(first, second);
+        ContactPoint {
+            cylinder: first,
+            partner: Partner::Cylinder(second),
+            position: [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])],
+            normal: apart.map(|component| component / distance),
+            normal_force: force.normal,
+            tangential_force: force.tangential,
+        }
+    })
+}
+
+fn wall_contacts(
+    scene: &Scene<f64, SpringDashpot<f64>>,
+    top_wall: usize,
+) -> impl Iterator<Item = ContactPoint> + '_ {
+    let walls = (0..scene.walls.len()).map(move |wall| {
+        let partner = if wall == top_wall {
+            Partner::TopWall
+        } else {
+            Partner::Floor
+        };
+        (wall, partner)
+    });
+    walls.flat_map(move |(wall, partner)| {
+        (0..scene.cylinders.len()).map(move |cylinder| {
+            let plane = &scene.walls[wall];
+            let [x, _] = scene.cylinders[cylinder].position;
+            let force = scene.wall_force(wall, cylinder);
+            ContactPoint {
+                cylinder,
+                partner,
+                position: [x, plane.offset * plane.normal[1]],
+                normal: plane.normal,
+                normal_force: force.normal,
+                tangential_force: force.tangential,
+            }
+        })
+    })
+}

@@ -1,0 +1,117 @@
+//! Quantities as people write them: "1 MPa", "1000 kg/m3", "20mm".
+
+use uom::si::f64::{Length, Mass, MassDensity, Pressure};
+use uom::si::length::meter;
+use uom::si::mass::kilogram;
+use uom::si::mass_density::kilogram_per_cubic_meter;
+use uom::si::pressure::pascal;
+
+/// Reads a pressure or a modulus, in Pa.
+///
+/// # Errors
+/// Says what would be accepted. The same holds for the other quantities here.
+pub fn modulus(text: &str) -> Result<f64, String> {
+    let accepted = "Pa, kPa, MPa, GPa, N/mm2 or psi, as in \"1 MPa\"";
+    quantity(text, accepted, |text| {
+        Some(text.parse::<Pressure>().ok()?.get::<pascal>())
+    })
+}
+
+/// Reads a mass density, in kg/m³.
+pub fn density(text: &str) -> Result<f64, String> {
+    let accepted = "kg/m3, g/cm3 or t/m3, as in \"1000 kg/m3\"";
+    quantity(text, accepted, |text| {
+        let density = text.parse::<MassDensity>().ok()?;
+        Some(density.get::<kilogram_per_cubic_meter>())
+    })
+}
+
+/// Reads a length, in m.
+pub fn length(text: &str) -> Result<f64, String> {
+    let accepted = "m, cm, mm, um or in, as in \"1 cm\"";
+    quantity(text, accepted, |text| {
+        Some(text.parse::<Length>().ok()?.get::<meter>())
+    })
+}
+
+/// Reads a mass, in kg.
+pub fn mass(text: &str) -> Result<f64, String> {
+    let accepted = "kg, g, mg or t, as in \"21.9 g\"";
+    quantity(text, accepted, |text| {
+        Some(text.parse::<Mass>().ok()?.get::<kilogram>())
+    })
+}
+
+fn quantity(text: &str, accepted: &str, read: impl Fn(&str) -> Option<f64>) -> Result<f64, String> {
+    let value = read(&spelled_out(text)).filter(|value| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| format!("accepted is a number above 0 and its unit: {accepted}"))
+}
+
+/// `text` as the library of units wants it: one blank between number and unit, powers raised, µ for micro.
+fn spelled_out(text: &str) -> String {
+    let text = text.trim();
+    // The longest part that is a number: "1e" is none, so that the e of a unit stays with the unit.
+    let end = text
+        .char_indices()
+        .map(|(index, _)| index)
+        .chain([text.len()])
+        .filter(|&end| text[..end].parse::<f64>().is_ok())
+        .max();
+    let (number, unit) = text.split_at(end.unwrap_or(0));
+    let unit: String = unit.split_whitespace().collect();
+    let unit = unit.replace("**", "").replace('^', "");
+    let unit = unit.replace('2', "²").replace('3', "³").replace('μ', "µ");
+    let unit = match unit.strip_prefix('u') {
+        Some(rest) => format!("µ{rest}"),
+        None => unit,
+    };
+    format!("{number} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn quantities_are_read_as_people_write_them() {
+        for (text, pascals) in [
+            ("1 MPa", 1e6),
+            ("1MPa", 1e6),
+            ("  0.5   GPa ", 5e8),
+            ("1e6 Pa", 1e6),
+            ("2 N/mm2", 2e6),
+            ("2 N/mm^2", 2e6),
+            ("1 megapascal", 1e6),
+        ] {
+            assert_relative_eq!(modulus(text).unwrap(), pascals, max_relative = 1e-15);
+        }
+        for text in [
+            "1000 kg/m3",
+            "1000 kg/m^3",
+            "1000kg/m³",
+            "1 g/cm3",
+            "1 g / cm3",
+            "1 t/m3",
+        ] {
+            assert_relative_eq!(density(text).unwrap(), 1e3, max_relative = 1e-15);
+        }
+        for text in ["20 mm", "2 cm", "0.02 m", "2e-2m", "20000 um", "20000 μm"] {
+            assert_relative_eq!(length(text).unwrap(), 0.02, max_relative = 1e-15);
+        }
+        assert_relative_eq!(mass("21.9 g").unwrap(), 0.0219, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn what_is_no_positive_quantity_of_the_right_kind_is_refused() {
+        for text in [
+            "", "1", "MPa", "1 cm", "-1 MPa", "0 MPa", "NaN Pa", "inf Pa", "1 mpa", "1 M Pa s", "é",
+        ] {
+            let message = modulus(text).unwrap_err();
+            assert!(message.contains("MPa"), "{text}: {message}");
+        }
+        assert!(length("1 kg").is_err());
+        assert!(density("1000").is_err());
+        assert!(mass("1 mm").is_err());
+    }
+}

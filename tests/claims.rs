@@ -1,17 +1,278 @@
-//! The register of claims, and the verdicts by theory alone.
-use tristack::claims::{PaperTheory, Register, judge_theory};
+//! The register of claims and its verdicts.
+
+use insta::assert_snapshot;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::path::Path;
+use tristack::archive::Run;
+use tristack::claims::{
+    ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
+    judge_theory,
+};
+use tristack::crosscheck::{
+    Participant, Progress, Recorded, Settings, Store, Survey, measure, plan,
+};
+use tristack::engine::{EngineName, Failure, Interrupt};
+use tristack::reproduction::{
+    Reproduction, converge, curves, exponents, force_series, scaling_measurements,
+};
+use tristack::stack::{CRITICAL_FRICTION, Case, Convention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::theory::RegimeMap;
+
+/// How many displayed equations the paper numbers: in the text, in the End Matter, in the supplement.
+const DISPLAYED: [(&str, usize); 3] = [("", 17), ("E", 12), ("S", 23)];
+
+fn register() -> Register {
+    Register::paper().expect("the register is valid")
+}
+
+fn table(rows: &[ClaimJudgement]) -> String {
+    rows.iter().fold(String::new(), |mut table, row| {
+        let erratum = if row.erratum.is_some() {
+            ", erratum"
+        } else {
+            ""
+        };
+        writeln!(table, "{}: {}{erratum}", row.id, row.verdict).expect("a string");
+        table
+    })
+}
 
 #[test]
-fn print() {
-    let register = Register::paper().unwrap();
-    for row in judge_theory(&register, &PaperTheory::printed()) {
-        println!(
-            "{:<14} {:<28} {} {}",
-            row.verdict.as_str(),
+fn every_displayed_equation_is_in_the_register() {
+    let register = register();
+    let covered: BTreeSet<&str> = register
+        .claims
+        .iter()
+        .filter(|claim| claim.kind == ClaimKind::Equation && claim.check.is_some())
+        .flat_map(|claim| claim.equations.iter().map(String::as_str))
+        .collect();
+    let numbers = DISPLAYED
+        .iter()
+        .flat_map(|(prefix, count)| (1..=*count).map(move |number| format!("{prefix}{number}")));
+    let displayed: BTreeSet<String> = numbers.collect();
+    assert_eq!(covered, displayed.iter().map(String::as_str).collect());
+}
+
+#[test]
+fn every_check_is_used() {
+    let register = register();
+    let used: BTreeSet<&str> = register
+        .claims
+        .iter()
+        .filter_map(|claim| claim.check.as_deref())
+        .collect();
+    assert_eq!(used, check_names().into_iter().collect());
+    assert_eq!(check_names().len(), used.len(), "no two checks of one name");
+}
+
+#[test]
+fn verdicts_by_theory() {
+    let rows = judge_theory(&register(), &PaperTheory::printed());
+    assert_snapshot!(table(&rows));
+    for row in rows {
+        assert!(!row.evidence.is_empty(), "{}", row.id);
+        assert!(
+            !row.evidence.contains("NaN"),
+            "{}: {}",
             row.id,
-            row.evidence,
-            row.erratum
-                .map_or(String::new(), |e| format!("\n      => {e}"))
+            row.evidence
         );
     }
+}
+
+/// An erratum is dropped when its correction does not hold, and when nothing is wrong.
+#[test]
+fn every_erratum_holds_and_is_needed() {
+    let register = register();
+    let printed = PaperTheory::printed();
+    let rows = judge_theory(&register, &printed);
+    for (claim, row) in register.claims.iter().zip(&rows) {
+        let Some(erratum) = claim
+            .erratum
+            .as_ref()
+            .filter(|_| row.verdict != ClaimVerdict::Untestable)
+        else {
+            continue;
+        };
+        assert_eq!(row.erratum.as_ref(), Some(&erratum.text), "{}", row.id);
+        let corrected = judge_theory(
+            &Register {
+                claims: vec![claim.clone()],
+            },
+            &erratum.apply(&printed).expect("known constants"),
+        );
+        assert_eq!(corrected[0].verdict, ClaimVerdict::Holds, "{}", row.id);
+        assert_eq!(corrected[0].erratum, None, "{}", row.id);
+    }
+}
+
+/// What a constant is changed to: far enough for words like "of the order of" to notice.
+fn changed(name: &str, value: f64) -> f64 {
+    const FAR: [&str; 9] = [
+        "elastomer_modulus",
+        "elastomer_density",
+        "elastomer_length",
+        "elastomer_epsilon",
+        "elastomer_force",
+        "wood_force",
+        "time_step",
+        "movie_radius",
+        "movie_mass",
+    ];
+    match value {
+        0.0 => 1.0,
+        _ if FAR.contains(&name) => 1e3 * value,
+        _ if name.starts_with("movie") => 10.0 * value,
+        _ => 1.1 * value,
+    }
+}
+
+/// Constants that only claims on runs look at.
+const OF_RUNS: [&str; 1] = ["compression_speed"];
+
+#[test]
+fn changing_one_constant_flips_the_right_verdicts() {
+    let register = register();
+    let printed = PaperTheory::printed();
+    let rows = judge_theory(&register, &printed);
+    let flips = |name: &'static str| {
+        let mut paper = printed.clone();
+        let constant = paper.constant_mut(name).expect("a constant");
+        *constant = changed(name, *constant);
+        let changed = judge_theory(&register, &paper);
+        let pairs = rows.iter().zip(changed);
+        let flipped = pairs.filter(|(before, after)| before.verdict != after.verdict);
+        let words = flipped.map(|(before, after)| {
+            (
+                before.id.clone(),
+                format!("{} -> {}", before.verdict, after.verdict),
+            )
+        });
+        (name, words.collect::<BTreeMap<_, _>>())
+    };
+    let halves = PaperTheory::NAMES.split_at(PaperTheory::NAMES.len() / 2);
+    let table: Vec<_> = std::thread::scope(|scope| {
+        let second = scope.spawn(|| halves.1.iter().map(|name| flips(name)).collect::<Vec<_>>());
+        let mut all: Vec<_> = halves.0.iter().map(|name| flips(name)).collect();
+        all.extend(second.join().expect("the other half"));
+        all
+    });
+    let mut text = String::new();
+    for (name, flipped) in &table {
+        let listed: Vec<String> = flipped
+            .iter()
+            .map(|(id, words)| format!("{id} {words}"))
+            .collect();
+        writeln!(text, "{name}: {}", listed.join("; ")).expect("a string");
+    }
+    assert_snapshot!(text);
+    for (name, flipped) in &table {
+        let seen = !flipped.is_empty() || OF_RUNS.contains(name);
+        assert!(seen, "{name} flips nothing");
+    }
+    let flipped: BTreeSet<&String> = table
+        .iter()
+        .flat_map(|(_, flipped)| flipped.keys())
+        .collect();
+    // Equations that fail flip with the constants of their erratum, which is another test.
+    let holds = rows
+        .iter()
+        .filter(|row| row.kind == ClaimKind::Equation && row.verdict == ClaimVerdict::Holds);
+    for row in holds {
+        assert!(flipped.contains(&row.id), "no constant flips {}", row.id);
+    }
+}
+
+struct Quiet;
+
+impl Progress for Quiet {
+    fn planned(&self, _: usize, _: usize) {}
+    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn warn(&self, _: &str) {}
+}
+
+/// What claims on runs need of a reproduction, natively.
+fn native_reproduction() -> Reproduction {
+    let scratch = tempfile::tempdir().expect("a directory");
+    let interrupt = Interrupt::new();
+    let settings = Settings {
+        store: Store::open(scratch.path()).expect("a store"),
+        recorded: Recorded::new(Path::new("reference")),
+        fresh: false,
+        threads: 2,
+        time_limit: None,
+        interrupt: &interrupt,
+    };
+    let native = [Participant::find(EngineName::Native)];
+    let names = [EngineName::Native];
+    let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
+        .iter()
+        .flat_map(|&mu| [1e2, 1e4].map(|stiffness| Stack::paper(mu, stiffness)));
+    let plans: Vec<_> = stacks
+        .map(|stack| plan(EngineName::Native, &stack, Convention::PAPER))
+        .collect();
+    let scaling = measure(&scaling_measurements(&names), &native, &settings, &Quiet);
+    let (series, _) = force_series(&native[0], &settings, &Quiet).expect("a native run");
+    Reproduction {
+        probes: Vec::new(),
+        yield_curves: measure(&plans, &native, &settings, &Quiet),
+        exponents: exponents(&scaling),
+        scaling,
+        literal: Vec::new(),
+        convergence: converge(&native, &settings, &Quiet).0,
+        force_series: series,
+        trajectories: Vec::new(),
+        maps: RegimeMap::standard(PAPER_STIFFNESS_RATIO),
+        survey: Survey {
+            confirmations: Vec::new(),
+            examinations: Vec::new(),
+        },
+        curves: curves(),
+        provenances: Vec::new(),
+    }
+}
+
+#[test]
+fn verdicts_on_the_simulations() {
+    let register = register();
+    let printed = PaperTheory::printed();
+    let untested: BTreeSet<String> = judge_theory(&register, &printed)
+        .into_iter()
+        .filter(|row| row.verdict == ClaimVerdict::Untestable)
+        .map(|row| row.id)
+        .collect();
+    let runs = native_reproduction();
+    let rows = judge(&register, &printed, &runs);
+    let on_runs: Vec<ClaimJudgement> = rows
+        .into_iter()
+        .filter(|row| untested.contains(&row.id))
+        .collect();
+    assert_snapshot!(table(&on_runs));
+    // A slower wall is closer to the limit, a much larger time step is not.
+    let verdict = |name: &str, value: f64, id: &str| {
+        let paper = printed.with(name, value).expect("a constant");
+        let rows = judge(&register, &paper, &runs);
+        rows.into_iter()
+            .find(|row| row.id == id)
+            .expect("a claim")
+            .verdict
+    };
+    assert_eq!(
+        verdict("compression_speed", 1e-7, "compression-speed"),
+        ClaimVerdict::Holds
+    );
+    assert_eq!(verdict("time_step", 1e-1, "time-step"), ClaimVerdict::Fails);
+    assert_eq!(
+        verdict("scaling_at", 0.6, "dem-scales"),
+        ClaimVerdict::Fails
+    );
+    assert_eq!(
+        verdict("stiffness_ratio", 5.0, "dem-agrees"),
+        ClaimVerdict::Fails
+    );
+    assert_eq!(
+        verdict("rigid_friction_weight", 2.0, "dem-approaches-rigid"),
+        ClaimVerdict::Fails
+    );
 }

@@ -120,11 +120,27 @@ fn changed(name: &str, value: f64) -> f64 {
         "movie_radius",
         "movie_mass",
     ];
-    match value {
-        0.0 => 1.0,
+    match name {
+        // Not a little, but to what is right: the claim fails as printed.
+        "balancing_superscript" => 0.0,
+        "slope_power" => -1.0,
+        "remainder_order_at_transition" => 1.5,
+        "breakdown_friction" => 0.7746,
+        // Too little to hold the cylinders together.
+        "cylinder_friction" => 0.3,
         _ if FAR.contains(&name) => 1e3 * value,
         _ if name.starts_with("movie") => 10.0 * value,
+        _ if value == 0.0 => 1.0,
         _ => 1.1 * value,
+    }
+}
+
+/// What must be right before a constant of a claim that fails as printed can show.
+fn mended(name: &str) -> Option<(&'static str, f64)> {
+    match name {
+        "slope_factor" => Some(("slope_power", -1.0)),
+        "remainder_order" => Some(("remainder_order_at_transition", 1.5)),
+        _ => None,
     }
 }
 
@@ -138,6 +154,11 @@ fn changing_one_constant_flips_the_right_verdicts() {
     let rows = judge_theory(&register, &printed);
     let flips = |name: &'static str| {
         let mut paper = printed.clone();
+        let mut rows = rows.clone();
+        if let Some((constant, value)) = mended(name) {
+            paper = paper.with(constant, value).expect("a constant");
+            rows = judge_theory(&register, &paper);
+        }
         let constant = paper.constant_mut(name).expect("a constant");
         *constant = changed(name, *constant);
         let changed = judge_theory(&register, &paper);

@@ -334,8 +334,8 @@ fn never_slips(paper: &PaperTheory) -> Finding {
 }
 
 fn rigid_yield_force(paper: &PaperTheory) -> Finding {
-    let deviations = (1..=40).map(|index| {
-        let mu = 0.01 * f64::from(index) + 1e-3;
+    let deviations = (1..=80).map(|index| {
+        let mu = 0.005 * f64::from(index) + 1e-3;
         let (printed, truth) = (paper.rigid_yield_force(mu), slip_force(mu));
         if printed == truth {
             0.0
@@ -343,7 +343,7 @@ fn rigid_yield_force(paper: &PaperTheory) -> Finding {
             ((printed - truth) / (truth + 3.0)).abs()
         }
     });
-    let compared = "f at which e = mu d in the balances, by bisection, at mu = 0.011 to 0.401 in steps of 0.01";
+    let compared = "f at which e = mu d in the balances, by bisection, at mu = 0.006 to 0.401 in steps of 0.005";
     Finding::identity(deviations.map(|deviation| worse(deviation, 0.0)), compared)
 }
 

@@ -174,7 +174,10 @@ impl Claim {
                 return Err(Wrong::new("check", value, accepted));
             }
         }
-        if let Some(allowed) = self.allowed.filter(|allowed| !(*allowed > 0.0)) {
+        if let Some(allowed) = self
+            .allowed
+            .filter(|allowed| allowed.is_nan() || *allowed <= 0.0)
+        {
             return Err(Wrong::new("allowed", allowed, "a number above 0"));
         }
         self.validate_erratum()

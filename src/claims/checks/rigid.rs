@@ -33,7 +33,7 @@ pub const CHECKS: &[Check] = &[
 const WEIGHT: f64 = 0.37;
 const RADIUS: f64 = 1.7;
 const FORCES: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 1e3];
-const ANGLES: [f64; 4] = [0.35, 0.5236, 0.8, 1.1];
+const ANGLES: [f64; 4] = [0.35, std::f64::consts::FRAC_PI_6, 0.8, 1.1];
 
 fn direction(angle: f64) -> Vector2<f64> {
     Vector2::new(-angle.sin(), angle.cos())

@@ -69,6 +69,7 @@ fn no_folder_points_back() {
         "engine",
         "probe",
         "crosscheck",
+        "reproduction",
         "claims",
         "report",
         "cli",

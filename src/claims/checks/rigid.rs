@@ -170,49 +170,26 @@ fn bottom_contact_open(paper: &PaperTheory) -> Finding {
     Finding::new(if lowest > 0.0 { 0.0 } else { 1.0 }, 0.0, evidence)
 }
 
-fn six_conditions(paper: &PaperTheory) -> Finding {
+/// The conditions for a, b, c, d, e, f: stack, Coulomb, c = 0, Eqs. (1) to (3).
+fn conditions(paper: &PaperTheory, mu: f64) -> Matrix6<f64> {
     let (normal, tangent) = (upright(), paper.tangent(upright()));
-    let matrix = |mu: f64| {
-        // Unknowns a, b, c, d, e, f; rows: stack, Coulomb, c = 0, Eqs. (1) to (3).
-        Matrix6::from_row_slice(&[
-            0.0,
-            0.0,
-            0.0,
-            -paper.floor_contacts,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            -mu,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            -paper.torque_ratio,
-            0.0,
-            normal.x,
-            tangent.x + paper.floor_share,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            paper.pair_contacts * normal.y,
-            paper.pair_contacts * tangent.y,
-            0.0,
-            0.0,
-            0.0,
-            -1.0,
-        ])
-    };
+    let (normal_y, tangent_y) = (
+        paper.pair_contacts * normal.y,
+        paper.pair_contacts * tangent.y,
+    );
+    let outward = tangent.x + paper.floor_share;
+    let rows = [
+        [0.0, 0.0, 0.0, -paper.floor_contacts, 0.0, 1.0],
+        [0.0, 0.0, 0.0, -mu, 1.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0, -paper.torque_ratio, 0.0],
+        [normal.x, outward, 0.0, 0.0, 0.0, 0.0],
+        [normal_y, tangent_y, 0.0, 0.0, 0.0, -1.0],
+    ];
+    Matrix6::from_fn(|row, column| rows[row][column])
+}
+
+fn six_conditions(paper: &PaperTheory) -> Finding {
     let known = Vector6::new(
         -paper.stack_weights,
         0.0,
@@ -223,11 +200,11 @@ fn six_conditions(paper: &PaperTheory) -> Finding {
     );
     let mut deviations = Vec::new();
     for mu in [0.1, 0.15, 0.2, 0.25] {
-        let solution = matrix(mu).lu().solve(&known);
+        let solution = conditions(paper, mu).lu().solve(&known);
         let force = solution.map_or(f64::NAN, |solution| solution[5]);
         deviations.push(relative(force, slip_force(mu)));
     }
-    let singular = matrix(CRITICAL_FRICTION).determinant().abs();
+    let singular = conditions(paper, CRITICAL_FRICTION).determinant().abs();
     deviations.push(singular);
     Finding::identity(
         deviations,

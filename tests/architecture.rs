@@ -71,6 +71,7 @@ fn no_folder_points_back() {
         "probe",
         "crosscheck",
         "reproduction",
+        "claims",
         "report",
         "cli",
     ];

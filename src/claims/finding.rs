@@ -76,8 +76,10 @@ impl Finding {
             );
         }
         let found = size(largest, ROUND_OFF);
-        let evidence =
-            format!("{compared}; at {count} points the largest relative deviation is {found}");
+        let evidence = match count {
+            1 => format!("{compared}; the relative deviation is {found}"),
+            _ => format!("{compared}; at {count} points the largest relative deviation is {found}"),
+        };
         Self::new(largest, ROUND_OFF, evidence)
     }
 

@@ -1,10 +1,10 @@
 //! From a claim to its verdict.
 
-use super::checks::{self, Setting};
+use super::checks;
 use super::finding::{ClaimVerdict, Finding};
 use super::printed::PaperTheory;
 use super::register::{Claim, ClaimKind, Register};
-use crate::claims::Reproduction;
+use crate::reproduction::Reproduction;
 use serde::Serialize;
 
 /// One row of `claims.json`.
@@ -77,12 +77,7 @@ fn examine(
         return Err(claim.untestable.clone().unwrap_or_default());
     };
     let check = checks::find(name).ok_or_else(|| format!("there is no check `{name}`"))?;
-    let setting = Setting {
-        paper,
-        parameters: &claim.parameters,
-        runs,
-    };
-    check.run(&setting)
+    check.run(paper, runs)
 }
 
 /// The corrected form, if one is needed and holds.

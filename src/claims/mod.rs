@@ -22,6 +22,3 @@ pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};
 pub fn check_names() -> Vec<&'static str> {
     checks::all().map(|check| check.name).collect()
 }
-
-/// Runs are not judged yet.
-type Reproduction = std::convert::Infallible;

@@ -72,9 +72,6 @@ pub struct Claim {
     pub kind: ClaimKind,
     /// The check that tests it.
     pub check: Option<String>,
-    /// What the check is told.
-    #[serde(default)]
-    pub parameters: BTreeMap<String, f64>,
     /// The deviation that the words of the claim allow, in the check's own measure.
     pub allowed: Option<f64>,
     /// Why it cannot be tested.
@@ -177,41 +174,22 @@ impl Claim {
                 return Err(Wrong::new("check", value, accepted));
             }
         }
-        if let Some(allowed) = self.allowed.filter(|allowed| !(*allowed > 0.0)) {
+        if let Some(allowed) = self
+            .allowed
+            .filter(|allowed| allowed.is_nan() || *allowed <= 0.0)
+        {
             return Err(Wrong::new("allowed", allowed, "a number above 0"));
         }
         self.validate_erratum()
     }
 
     fn validate_check(&self, name: &str) -> Result<(), Wrong> {
-        let Some(check) = checks::find(name) else {
-            let names: Vec<&str> = checks::all().map(|check| check.name).collect();
-            return Err(Wrong::new(
-                "check",
-                name,
-                format!("one of {}", names.join(", ")),
-            ));
-        };
-        for (key, value) in &self.parameters {
-            if !check.parameters.contains(&key.as_str()) || !value.is_finite() {
-                let accepted = match check.parameters {
-                    [] => "absent: the check takes none".to_owned(),
-                    names => format!("a finite number, named {}", names.join(" or ")),
-                };
-                return Err(Wrong::new(&format!("parameters.{key}"), value, accepted));
-            }
+        if checks::find(name).is_some() {
+            return Ok(());
         }
-        let missing = check
-            .parameters
-            .iter()
-            .find(|name| !self.parameters.contains_key(**name));
-        missing.map_or(Ok(()), |name| {
-            Err(Wrong::new(
-                &format!("parameters.{name}"),
-                "absent",
-                "a number",
-            ))
-        })
+        let names: Vec<&str> = checks::all().map(|check| check.name).collect();
+        let accepted = format!("one of {}", names.join(", "));
+        Err(Wrong::new("check", name, accepted))
     }
 
     fn validate_erratum(&self) -> Result<(), Wrong> {
@@ -255,8 +233,6 @@ mod tests {
         assert!(error("").contains("`check` is absent"));
         assert!(error("verdict = 'holds'").contains("unknown field `verdict`"));
         assert!(error("untestable = 'x'\nallowed = -1").contains("`allowed` is -1"));
-        let message = error("check = 'quintic'\nparameters = { color = 1 }");
-        assert!(message.contains("`parameters.color` is 1"), "{message}");
         let message =
             error("check = 'quintic'\n[claim.erratum]\ntext = 't'\nset = { nothing = 1 }");
         assert!(message.contains("`erratum.set` is nothing"), "{message}");

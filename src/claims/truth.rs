@@ -3,8 +3,9 @@
 //! Lengths, stiffnesses and weights keep their dimensions here: a formula that lacks a factor r must show.
 
 use crate::stack::{CRITICAL_FRICTION, Stack};
-use crate::theory::elastic_root;
+use crate::theory::{closed_form_limit, elastic_root};
 use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
+use std::sync::LazyLock;
 
 /// A radius that is not 1.
 pub const RADIUS: f64 = 1.7;
@@ -252,22 +253,17 @@ impl YieldState {
     }
 }
 
-/// States over all that the paper speaks of, and beyond in κ.
-pub fn yield_states() -> Vec<YieldState> {
-    let frictions = [
-        0.1,
-        0.15,
-        0.2,
-        0.25,
-        CRITICAL_FRICTION,
-        0.28,
-        0.3,
-        0.4,
-        0.5,
-        0.7,
-    ];
+/// States over all that the paper speaks of, and beyond in κ. They do not depend on what is printed.
+pub fn yield_states() -> &'static [YieldState] {
+    static STATES: LazyLock<Vec<YieldState>> = LazyLock::new(solve_everywhere);
+    &STATES
+}
+
+fn solve_everywhere() -> Vec<YieldState> {
+    let below = [0.1, 0.15, 0.2, 0.25];
+    let above = [0.28, 0.3, 0.4, 0.5, 0.7];
     let mut states = Vec::new();
-    for friction in frictions {
+    for friction in below.into_iter().chain([CRITICAL_FRICTION]).chain(above) {
         for epsilon in [1e-2, 1e-3, 1e-4] {
             for ratio in [1.0, 2.5, 10.0] {
                 states.extend(YieldState::solve(friction, ratio, epsilon));
@@ -275,6 +271,18 @@ pub fn yield_states() -> Vec<YieldState> {
         }
     }
     states
+}
+
+/// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
+pub fn figure_loads() -> &'static [(Stack, f64)] {
+    static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
+        let stacks = [1e2, 1e3, 1e4].into_iter().flat_map(|stiffness| {
+            (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
+        });
+        let with_load = |stack: Stack| Some((stack, closed_form_limit(&stack).yield_force? + 3.0));
+        stacks.filter_map(with_load).collect()
+    });
+    &LOADS
 }
 
 /// Displacements that are no equilibrium: what is said of springs must hold for them too.

@@ -4,7 +4,7 @@ use super::options::{RunOptions, participants, recorded_trajectories, writable};
 use super::progress::{Counter, Reporter};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
-use crate::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge_theory};
+use crate::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::crosscheck::Participant;
 use crate::engine::EngineName;
 use crate::report::{Origin, ReportFile, report_files};
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Ok(None) => return Ok(interrupted()),
         Err(error) => return Err(error.into()),
     };
-    let claims = judge_theory(&register, &PaperTheory::printed());
+    let claims = judge(&register, &PaperTheory::printed(), &reproduced);
     let origin = origin(arguments, &participants);
     let files = report_files(&reproduced, &claims, &origin)?;
     write(&arguments.out, &files)?;

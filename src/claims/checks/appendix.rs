@@ -82,7 +82,7 @@ fn auxiliary_functions(paper: &PaperTheory) -> Finding {
 fn factors_not_zero(paper: &PaperTheory) -> Finding {
     let mut smallest = f64::INFINITY;
     for state in yield_states() {
-        let shear = paper.shear(&state) / (state.epsilon * RADIUS);
+        let shear = paper.shear(state) / (state.epsilon * RADIUS);
         let outward = 1.0 + state.y() / RADIUS;
         smallest = smallest.min(shear).min(outward);
     }

@@ -1,7 +1,7 @@
 //! Orders of magnitude of the concluding remarks, and the cylinders of the movies.
 
 use super::Check;
-use crate::claims::finding::{Finding, relative, worst};
+use crate::claims::finding::{Finding, worst};
 use crate::claims::printed::PaperTheory;
 use crate::stack::{CRITICAL_FRICTION, Stack};
 use crate::theory::quasistatic_limit;
@@ -16,7 +16,6 @@ pub const CHECKS: &[Check] = &[
     Check::theory("force-of-wood", force_of_wood),
     Check::theory("movie-density", movie_density),
     Check::theory("stiffness-range", stiffness_range),
-    Check::theory("speeds", speeds),
 ];
 
 /// Standard gravity, in m/s².
@@ -149,19 +148,4 @@ fn stiffness_range(paper: &PaperTheory) -> Finding {
         },
     ]);
     Finding::new(wrong, 1e-9, evidence)
-}
-
-/// Wall speeds against the speed at which the stack's own vibrations carry a disturbance, which is of order 1 in r √(k_n/m).
-fn speeds(paper: &PaperTheory) -> Finding {
-    // Gravity alone gives a cylinder that falls by its own settling ε r the speed √(2 ε) √ε.
-    let slowest_event = 2f64.sqrt() / paper.lowest_stiffness;
-    let quasistatic = paper.withdrawal_speed / slowest_event;
-    let impact = paper.fall_speed / slowest_event;
-    let evidence = format!(
-        "at k_n r/mg = 1e2, in units of the speed of a free fall through epsilon r: withdrawal of the walls {quasistatic:.3}, lowering of the top \
-         cylinder {impact:.1}, compression {:.1e}. The top cylinder is set down with an impact",
-        paper.compression_speed / slowest_event
-    );
-    let deviation = relative(paper.fall_speed / paper.withdrawal_speed, 100.0);
-    Finding::new(deviation, 1e-9, evidence)
 }

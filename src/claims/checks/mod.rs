@@ -8,81 +8,56 @@ mod high_friction;
 mod perturbation;
 mod quintic;
 mod rigid;
+mod runs;
 mod scaling;
 mod supplement;
 
 use super::finding::Finding;
 use super::printed::PaperTheory;
-use crate::claims::Reproduction;
-use std::collections::BTreeMap;
-
-/// What a check is given.
-pub struct Setting<'a> {
-    /// What the paper says.
-    pub paper: &'a PaperTheory,
-    /// What the claim tells the check.
-    pub parameters: &'a BTreeMap<String, f64>,
-    /// What was run.
-    pub runs: Option<&'a Reproduction>,
-}
+use crate::reproduction::Reproduction;
 
 /// How a check works.
 enum Test {
     /// On formulas and theory alone.
     Theory(fn(&PaperTheory) -> Finding),
-    /// With parameters.
-    Told(fn(&Setting) -> Result<Finding, String>),
+    /// On runs; the error says what is missing.
+    Runs(fn(&PaperTheory, &Reproduction) -> Result<Finding, String>),
 }
 
 /// A check that claims can name.
 pub struct Check {
     /// Its name in the register.
     pub name: &'static str,
-    /// The parameters it must be given.
-    pub parameters: &'static [&'static str],
     test: Test,
 }
 
 impl Check {
     const fn theory(name: &'static str, test: fn(&PaperTheory) -> Finding) -> Self {
-        Self {
-            name,
-            parameters: &[],
-            test: Test::Theory(test),
-        }
+        let test = Test::Theory(test);
+        Self { name, test }
     }
 
-    const fn told(
+    const fn runs(
         name: &'static str,
-        parameters: &'static [&'static str],
-        test: fn(&Setting) -> Result<Finding, String>,
+        test: fn(&PaperTheory, &Reproduction) -> Result<Finding, String>,
     ) -> Self {
-        Self {
-            name,
-            parameters,
-            test: Test::Told(test),
-        }
+        let test = Test::Runs(test);
+        Self { name, test }
     }
 
-    /// What the check finds, or why it cannot find anything.
-    pub fn run(&self, setting: &Setting) -> Result<Finding, String> {
-        match self.test {
-            Test::Theory(test) => Ok(test(setting.paper)),
-            Test::Told(test) => test(setting),
+    /// What the check finds in what `paper` says and what was run, or why it cannot find anything.
+    pub fn run(&self, paper: &PaperTheory, runs: Option<&Reproduction>) -> Result<Finding, String> {
+        match (&self.test, runs) {
+            (Test::Theory(test), _) => Ok(test(paper)),
+            (Test::Runs(test), Some(runs)) => test(paper, runs),
+            (Test::Runs(_), None) => Err("this takes DEM runs, and none were made".to_owned()),
         }
-    }
-}
-
-impl Setting<'_> {
-    /// A parameter, which the register has made sure of.
-    fn parameter(&self, name: &str) -> f64 {
-        self.parameters.get(name).copied().unwrap_or(f64::NAN)
     }
 }
 
 /// Every check.
 pub fn all() -> impl Iterator<Item = &'static Check> {
-    let groups: [&'static [Check]; 10] = [
+    let groups: [&'static [Check]; 11] = [
         rigid::CHECKS,
         contact_law::CHECKS,
         elastic::CHECKS,
@@ -93,6 +68,7 @@ pub fn all() -> impl Iterator<Item = &'static Check> {
         supplement::CHECKS,
         high_friction::CHECKS,
         estimates::CHECKS,
+        runs::CHECKS,
     ];
     groups.into_iter().flatten()
 }

@@ -52,10 +52,10 @@ fn quintic(paper: &PaperTheory) -> Finding {
 
 /// Which powers of ε come with which power of z: z⁵; z⁴ {1, ε}; z³ {ε, ε²}; z² {ε², ε³}; z {ε³, ε⁴}; 1 {ε⁴}.
 fn quintic_orders(paper: &PaperTheory) -> Finding {
-    let last = paper.quintic_constant_order as usize;
+    let last = |power: usize| (power as f64 - paper.quintic_constant_order).abs() < ROUND_OFF;
     let expected = |z_power: usize, epsilon_power: usize| match z_power {
         5 => epsilon_power == 0,
-        0 => epsilon_power == last,
+        0 => last(epsilon_power),
         power => epsilon_power == 4 - power || epsilon_power == 5 - power,
     };
     let mut stray = 0.0f64;

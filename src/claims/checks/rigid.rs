@@ -33,7 +33,7 @@ pub const CHECKS: &[Check] = &[
 const WEIGHT: f64 = 0.37;
 const RADIUS: f64 = 1.7;
 const FORCES: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 1e3];
-const ANGLES: [f64; 4] = [0.35, 0.5236, 0.8, 1.1];
+const ANGLES: [f64; 4] = [0.35, std::f64::consts::FRAC_PI_6, 0.8, 1.1];
 
 fn direction(angle: f64) -> Vector2<f64> {
     Vector2::new(-angle.sin(), angle.cos())
@@ -170,49 +170,26 @@ fn bottom_contact_open(paper: &PaperTheory) -> Finding {
     Finding::new(if lowest > 0.0 { 0.0 } else { 1.0 }, 0.0, evidence)
 }
 
-fn six_conditions(paper: &PaperTheory) -> Finding {
+/// The conditions for a, b, c, d, e, f: stack, Coulomb, c = 0, Eqs. (1) to (3).
+fn conditions(paper: &PaperTheory, mu: f64) -> Matrix6<f64> {
     let (normal, tangent) = (upright(), paper.tangent(upright()));
-    let matrix = |mu: f64| {
-        // Unknowns a, b, c, d, e, f; rows: stack, Coulomb, c = 0, Eqs. (1) to (3).
-        Matrix6::from_row_slice(&[
-            0.0,
-            0.0,
-            0.0,
-            -paper.floor_contacts,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            -mu,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            1.0,
-            0.0,
-            0.0,
-            -paper.torque_ratio,
-            0.0,
-            normal.x,
-            tangent.x + paper.floor_share,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            paper.pair_contacts * normal.y,
-            paper.pair_contacts * tangent.y,
-            0.0,
-            0.0,
-            0.0,
-            -1.0,
-        ])
-    };
+    let (normal_y, tangent_y) = (
+        paper.pair_contacts * normal.y,
+        paper.pair_contacts * tangent.y,
+    );
+    let outward = tangent.x + paper.floor_share;
+    let rows = [
+        [0.0, 0.0, 0.0, -paper.floor_contacts, 0.0, 1.0],
+        [0.0, 0.0, 0.0, -mu, 1.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0, -paper.torque_ratio, 0.0],
+        [normal.x, outward, 0.0, 0.0, 0.0, 0.0],
+        [normal_y, tangent_y, 0.0, 0.0, 0.0, -1.0],
+    ];
+    Matrix6::from_fn(|row, column| rows[row][column])
+}
+
+fn six_conditions(paper: &PaperTheory) -> Finding {
     let known = Vector6::new(
         -paper.stack_weights,
         0.0,
@@ -223,11 +200,11 @@ fn six_conditions(paper: &PaperTheory) -> Finding {
     );
     let mut deviations = Vec::new();
     for mu in [0.1, 0.15, 0.2, 0.25] {
-        let solution = matrix(mu).lu().solve(&known);
+        let solution = conditions(paper, mu).lu().solve(&known);
         let force = solution.map_or(f64::NAN, |solution| solution[5]);
         deviations.push(relative(force, slip_force(mu)));
     }
-    let singular = matrix(CRITICAL_FRICTION).determinant().abs();
+    let singular = conditions(paper, CRITICAL_FRICTION).determinant().abs();
     deviations.push(singular);
     Finding::identity(
         deviations,
@@ -334,8 +311,8 @@ fn never_slips(paper: &PaperTheory) -> Finding {
 }
 
 fn rigid_yield_force(paper: &PaperTheory) -> Finding {
-    let deviations = (1..=40).map(|index| {
-        let mu = 0.01 * f64::from(index) + 1e-3;
+    let deviations = (1..=80).map(|index| {
+        let mu = 0.005 * f64::from(index) + 1e-3;
         let (printed, truth) = (paper.rigid_yield_force(mu), slip_force(mu));
         if printed == truth {
             0.0
@@ -343,7 +320,7 @@ fn rigid_yield_force(paper: &PaperTheory) -> Finding {
             ((printed - truth) / (truth + 3.0)).abs()
         }
     });
-    let compared = "f at which e = mu d in the balances, by bisection, at mu = 0.011 to 0.401 in steps of 0.01";
+    let compared = "f at which e = mu d in the balances, by bisection, at mu = 0.006 to 0.401 in steps of 0.005";
     Finding::identity(deviations.map(|deviation| worse(deviation, 0.0)), compared)
 }
 

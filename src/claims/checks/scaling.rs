@@ -252,16 +252,16 @@ fn smooth_transition(paper: &PaperTheory) -> Finding {
 }
 
 fn steepest_near_critical(paper: &PaperTheory) -> Finding {
+    const SPACING: f64 = 0.004;
     let steepest = |stiffness: f64| {
-        let slope = |mu: f64| {
-            (exact_load(&stack(paper, mu + 1e-3, stiffness))
-                / exact_load(&stack(paper, mu - 1e-3, stiffness)))
-            .ln()
-        };
-        let frictions = (0..=150).map(|step| 0.15 + 0.002 * f64::from(step));
-        frictions
-            .max_by(|left, right| slope(*left).total_cmp(&slope(*right)))
-            .unwrap_or(f64::NAN)
+        let mu = |index: i32| CRITICAL_FRICTION + SPACING * f64::from(index);
+        let load = |index: i32| exact_load(&stack(paper, mu(index), stiffness)).ln();
+        let loads: Vec<f64> = (-18..=18).map(load).collect();
+        let slopes = loads.windows(3).map(|triple| triple[2] - triple[0]);
+        let largest = slopes
+            .enumerate()
+            .max_by(|left, right| left.1.total_cmp(&right.1));
+        largest.map_or(f64::NAN, |(index, _)| mu(index as i32 - 17))
     };
     let found = [1e2, 1e3, 1e4].map(steepest);
     let evidence = format!(

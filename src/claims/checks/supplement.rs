@@ -154,7 +154,7 @@ fn tangential_component(paper: &PaperTheory) -> Finding {
 
 /// (S21) to (S23) with the supplement's own forces, at solutions of the unreduced equations.
 fn supplement_balances(paper: &PaperTheory) -> Finding {
-    let deviations = yield_states().into_iter().map(|state| {
+    let deviations = yield_states().iter().map(|state| {
         let moved = &state.displacements;
         let forces = paper.forces(moved, RADIUS, NORMAL_STIFFNESS, state.ratio);
         let normal = moved.normal(RADIUS);

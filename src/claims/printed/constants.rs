@@ -187,10 +187,6 @@ constants! {
     compression_speed = 1e-6;
     /// Time step, in √(m/k_n).
     time_step = 1e-3;
-    /// Speed at which the top cylinder is lowered.
-    fall_speed = 0.1;
-    /// Speed at which the side walls are withdrawn.
-    withdrawal_speed = 1e-3;
 
     /// μ ≳ 0.8, from where on y < 0.
     inward_friction = 0.8;

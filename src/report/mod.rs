@@ -2,10 +2,10 @@
 
 mod crosscheck;
 mod explain;
+mod figures;
 mod inventory;
 mod number;
 mod probe;
-mod regime_figure;
 mod regimes;
 mod simulation;
 mod table;
@@ -16,10 +16,10 @@ pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table,
 };
 pub use explain::explanation;
+pub use figures::{Figure, PdfError, figures, regimes_svg};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
-pub use regime_figure::regimes_svg;
 pub use regimes::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
 };

@@ -8,7 +8,6 @@ mod inventory;
 mod number;
 mod page;
 mod probe;
-mod regime_figure;
 mod regimes;
 mod simulation;
 mod stack_figure;
@@ -23,13 +22,12 @@ pub use crosscheck::{
     crosscheck_table,
 };
 pub use explain::explanation;
-pub use figures::PdfError;
 pub use forecast::{forecast_csv, forecast_json, forecast_table};
+pub use figures::{Figure, PdfError, figures, regimes_svg};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use page::{Origin, ReportFile, report_files};
 pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
-pub use regime_figure::regimes_svg;
 pub use regimes::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
 };

@@ -1,5 +1,8 @@
 //! The three maps as a figure: how a stack ends, over floor friction and one more property.
 
+use super::axis::power_of_ten;
+use super::panel::{FONT, lowered};
+use super::style::INK;
 use crate::crosscheck::{Confirmation, Survey};
 use crate::stack::Stack;
 use crate::theory::{
@@ -19,11 +22,9 @@ use std::sync::Arc;
 const SAMPLES: usize = 61;
 /// Size of a panel in pixels, axes and labels included.
 const PANEL: (f64, f64) = (350.0, 330.0);
-const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 const TEXT_SIZE: u32 = 11;
 /// How far a region reaches into the next strip, as a factor on the axis.
 const OVERLAP: f64 = 1.004;
-const INK: &str = "#222222";
 /// Distance of two lines of text, in units of μ.
 const LINE_HEIGHT: f64 = 0.042;
 
@@ -39,6 +40,16 @@ enum Ending {
 /// An ending, and whether contact 2–3 closes before.
 type Region = (Ending, bool);
 
+/// The maps with the verdicts of the native DEM.
+pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
+    let caption = "Not in the paper: how a stack ends, over the floor friction μ and (a) the stiffness kₙ r/(m g), \
+                   (b) the friction μ_d between cylinders, (c) the stiffness ratio κ = kₙ/kₜ; the others are 100, \
+                   0.7 and 2.5. Regions and lines: the follower of equilibria; solid: another event comes first \
+                   beyond it, dashed: the same event, another end. Dots: native runs on both sides agree with \
+                   the boundary; crosses: they do not.";
+    super::Figure::new("regimes", caption, regimes_svg(maps, survey))
+}
+
 /// The figure as SVG.
 pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
     let panels: Vec<(Vec<Plot>, Layout)> = maps.iter().map(|map| panel(map, survey)).collect();
@@ -51,9 +62,7 @@ pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
         .with_padding(6.0)
         .with_labels_lowercase()
         .render();
-    let svg = SvgBackend.render_scene(&scene);
-    // There is no letter for a lowered d.
-    svg.replace("μ_d", "μ<tspan font-size=\"75%\" dy=\"3\">d</tspan>")
+    lowered(&SvgBackend::new().render_scene(&scene))
 }
 
 fn panel(map: &RegimeMap, survey: &Survey) -> (Vec<Plot>, Layout) {
@@ -111,21 +120,11 @@ fn layout(map: &RegimeMap, plots: &[Plot]) -> Layout {
         Axis::CylinderFriction => layout
             .with_x_tick_step(0.2)
             .with_x_tick_format(TickFormat::Fixed(1))
-            .with_x_label("cylinder friction μ_d"),
+            .with_x_label("cylinder friction μ_{d}"),
         Axis::StiffnessRatio => layout
             .with_log_x()
             .with_x_tick_format(TickFormat::Custom(Arc::new(|value| value.to_string())))
             .with_x_label("stiffness ratio κ = kₙ/kₜ"),
-    }
-}
-
-/// `value` as a power of ten with the exponent raised.
-fn power_of_ten(value: f64) -> String {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let exponent = libm::log10(value).round();
-    match RAISED.get(exponent as usize) {
-        Some(raised) if exponent >= 0.0 => format!("10{raised}"),
-        _ => value.to_string(),
     }
 }
 

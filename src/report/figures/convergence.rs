@@ -1,0 +1,98 @@
+//! The supplement's figure on wall speed and time step.
+
+use super::Figure;
+use super::axis::Axis;
+use super::panel::{Anchor, Panel, Point, Sample, draw};
+use super::style::{GUIDE, Mark, Stroke, THIN, THIN_DASHED, engine_label};
+use crate::crosscheck::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
+use crate::engine::EngineName;
+use crate::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
+
+const EXCESS: (f64, f64) = (1e-8, 1e2);
+const CHANGE: (f64, f64) = (1e-6, 1e1);
+
+type Force = fn(&ConvergencePoint) -> Option<f64>;
+
+/// How far peak and slip onset are from the limit, and what the time step changes of them.
+pub(super) fn convergence(study: &Convergence) -> Figure {
+    let peaks = steps(study, "F_{peak}", |point| point.peak_force);
+    let slips = steps(study, "F_{slip}", |point| point.slip_force);
+    let caption = format!(
+        "Supplement, figure on convergence: μ = 0.2, kₙ r/(m g) = 10⁴, κ = 2.5. (a) Distance of the largest wall \
+         force (F_peak, the paper's yield force; solid) and of the force at the onset of slip (F_slip; dashed) \
+         from the exact limit under each code's own convention, over the wall speed v at Δt = {:e} √(m/kₙ). \
+         (b) What the time step Δt changes of the peak and (c) of the slip onset at v = {FAST_WALL:e} r √(kₙ/m), \
+         relative to the same code at Δt = {:e} √(m/kₙ). Lines join the native runs; vertical: the paper's \
+         settings.",
+        PAPER_TIME_STEP, PAPER_TIME_STEP
+    );
+    let panels = [speeds(study), peaks, slips];
+    Figure::new("convergence", caption, draw(&panels, 3, super::THIRD_OF_PAGE))
+}
+
+fn speeds(study: &Convergence) -> Panel {
+    let mut panel = Panel::new(
+        Axis::log("wall speed v/(r √(kₙ/m))", (3e-8, 3e-3)),
+        Axis::log("|F − F_{limit}|/F_{limit}", EXCESS),
+    );
+    setting(&mut panel, PAPER_WALL_SPEED, 2e-8);
+    let runs = |engine: EngineName, force: Force| -> Vec<Point> {
+        let own = study.wall_speeds.iter();
+        let own = own.filter(|point| point.engine == engine);
+        own.filter_map(|point| Some((point.wall_speed, force(point)?.abs())))
+            .collect()
+    };
+    curve(&mut panel, THIN, |engine| runs(engine, ConvergencePoint::excess_of_peak));
+    curve(&mut panel, THIN_DASHED, |engine| runs(engine, ConvergencePoint::excess_of_slip));
+    panel.words("peak", (1.5e-5, 6e-1), Anchor::End);
+    panel.words("slip onset", (1.6e-5, 1e-3), Anchor::End);
+    panel
+}
+
+fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
+    let label = format!("|{symbol}(Δt)/{symbol}(10⁻³) − 1|");
+    let mut panel = Panel::new(
+        Axis::log("time step Δt/√(m/kₙ)", (3e-5, 3e-1)),
+        Axis::log(&label, CHANGE),
+    );
+    setting(&mut panel, PAPER_TIME_STEP, 2e-6);
+    curve(&mut panel, THIN, |engine| changes(&study.time_steps, engine, force));
+    panel.key_at(0.03, 0.02);
+    for engine in EngineName::ALL {
+        if study.time_steps.iter().any(|point| point.engine == engine) {
+            panel.key(Sample::Mark(Mark::of(engine)), engine_label(engine));
+        }
+    }
+    panel
+}
+
+/// What the time step changes of a force of `engine`, relative to its force at the paper's time step.
+fn changes(points: &[ConvergencePoint], engine: EngineName, force: Force) -> Vec<Point> {
+    let own = || points.iter().filter(|point| point.engine == engine);
+    let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
+    let Some(paper) = paper.next().and_then(force) else {
+        return Vec::new();
+    };
+    let others = own().filter(|point| point.time_step != PAPER_TIME_STEP);
+    let change = |point: &ConvergencePoint| Some((force(point)? / paper - 1.0).abs());
+    others
+        .filter_map(|point| Some((point.time_step, change(point)?)))
+        .collect()
+}
+
+/// Marks for every engine, and a line for the native one.
+fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(EngineName) -> Vec<Point>) {
+    for engine in EngineName::ALL {
+        let mut points = runs(engine);
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if engine == EngineName::Native {
+            panel.line(stroke, points.iter().map(|&(x, y)| (x, Some(y))));
+        }
+        panel.marks(Mark::of(engine), points);
+    }
+}
+
+fn setting(panel: &mut Panel, value: f64, height: f64) {
+    panel.upright(GUIDE, value);
+    panel.words("paper", (1.15 * value, height), Anchor::Start);
+}

@@ -15,7 +15,7 @@ type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// How far peak and slip onset are from the limit, and what the time step changes of them.
 pub(super) fn convergence(study: &Convergence) -> Figure {
-    let peaks = steps(study, "F_{peak}", |point| point.peak_force);
+    let mut peaks = steps(study, "F_{peak}", |point| point.peak_force);
     let slips = steps(study, "F_{slip}", |point| point.slip_force);
     let caption = format!(
         "Supplement, figure on convergence: μ = 0.2, kₙ r/(m g) = 10⁴, κ = 2.5. (a) Distance of the largest wall \
@@ -26,8 +26,18 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
          settings.",
         PAPER_TIME_STEP, PAPER_TIME_STEP
     );
+    peaks.key_at(0.03, 0.02);
+    for engine in EngineName::ALL {
+        if study.time_steps.iter().any(|point| point.engine == engine) {
+            peaks.key(Sample::Mark(Mark::of(engine)), engine_label(engine));
+        }
+    }
     let panels = [speeds(study), peaks, slips];
-    Figure::new("convergence", caption, draw(&panels, 3, super::THIRD_OF_PAGE))
+    Figure::new(
+        "convergence",
+        caption,
+        draw(&panels, 3, super::THIRD_OF_PAGE),
+    )
 }
 
 fn speeds(study: &Convergence) -> Panel {
@@ -42,10 +52,14 @@ fn speeds(study: &Convergence) -> Panel {
         own.filter_map(|point| Some((point.wall_speed, force(point)?.abs())))
             .collect()
     };
-    curve(&mut panel, THIN, |engine| runs(engine, ConvergencePoint::excess_of_peak));
-    curve(&mut panel, THIN_DASHED, |engine| runs(engine, ConvergencePoint::excess_of_slip));
+    curve(&mut panel, THIN, |engine| {
+        runs(engine, ConvergencePoint::excess_of_peak)
+    });
+    curve(&mut panel, THIN_DASHED, |engine| {
+        runs(engine, ConvergencePoint::excess_of_slip)
+    });
     panel.words("peak", (1.5e-5, 6e-1), Anchor::End);
-    panel.words("slip onset", (1.6e-5, 1e-3), Anchor::End);
+    panel.words("slip onset", (1.5e-5, 1e-6), Anchor::Start);
     panel
 }
 
@@ -56,13 +70,9 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
         Axis::log(&label, CHANGE),
     );
     setting(&mut panel, PAPER_TIME_STEP, 2e-6);
-    curve(&mut panel, THIN, |engine| changes(&study.time_steps, engine, force));
-    panel.key_at(0.03, 0.02);
-    for engine in EngineName::ALL {
-        if study.time_steps.iter().any(|point| point.engine == engine) {
-            panel.key(Sample::Mark(Mark::of(engine)), engine_label(engine));
-        }
-    }
+    curve(&mut panel, THIN, |engine| {
+        changes(&study.time_steps, engine, force)
+    });
     panel
 }
 

@@ -269,7 +269,10 @@ impl Frame {
     }
 
     fn at(&self, (right, down): Point) -> Point {
-        (self.left + right * self.width, self.top + down * self.height)
+        (
+            self.left + right * self.width,
+            self.top + down * self.height,
+        )
     }
 
     fn place(&self, panel: &Panel, (x, y): Point) -> Point {
@@ -327,7 +330,9 @@ fn draw_mark(mark: Mark, (x, y): Point, scene: &mut Scene) {
             format!("M{left:.2} {y:.2}L{x:.2} {top:.2}L{right:.2} {y:.2}L{x:.2} {bottom:.2}Z")
         }
         Shape::Cross => {
-            format!("M{left:.2} {top:.2}L{right:.2} {bottom:.2}M{left:.2} {bottom:.2}L{right:.2} {top:.2}")
+            format!(
+                "M{left:.2} {top:.2}L{right:.2} {bottom:.2}M{left:.2} {bottom:.2}L{right:.2} {top:.2}"
+            )
         }
         _ => format!("M{left:.2} {y:.2}H{right:.2}M{x:.2} {top:.2}V{bottom:.2}"),
     };

@@ -11,6 +11,11 @@ use crate::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 const EXCESS: (f64, f64) = (1e-8, 1e2);
 const CHANGE: (f64, f64) = (1e-6, 1e1);
 
+/// Down to here the key reaches.
+const BELOW_KEY: f64 = 2e-3;
+
+/// A setting, and what is shown of the run with it.
+type Run = (f64, Option<f64>);
 type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// How far peak and slip onset are from the limit, and what the time step changes of them.
@@ -45,11 +50,11 @@ fn speeds(study: &Convergence) -> Panel {
         Axis::log("wall speed v/(r √(kₙ/m))", (3e-8, 3e-3)),
         Axis::log("|F − F_{limit}|/F_{limit}", EXCESS),
     );
-    setting(&mut panel, PAPER_WALL_SPEED, 2e-8);
-    let runs = |engine: EngineName, force: Force| -> Vec<Point> {
+    setting(&mut panel, PAPER_WALL_SPEED, EXCESS);
+    let runs = |engine: EngineName, force: Force| -> Vec<Run> {
         let own = study.wall_speeds.iter();
         let own = own.filter(|point| point.engine == engine);
-        own.filter_map(|point| Some((point.wall_speed, force(point)?.abs())))
+        own.map(|point| (point.wall_speed, force(point).map(f64::abs)))
             .collect()
     };
     curve(&mut panel, THIN, |engine| {
@@ -69,40 +74,46 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
         Axis::log("time step Δt/√(m/kₙ)", (3e-5, 3e-1)),
         Axis::log(&label, CHANGE),
     );
-    setting(&mut panel, PAPER_TIME_STEP, 2e-6);
+    setting(&mut panel, PAPER_TIME_STEP, (CHANGE.0, BELOW_KEY));
     curve(&mut panel, THIN, |engine| {
         changes(&study.time_steps, engine, force)
     });
     panel
 }
 
-/// What the time step changes of a force of `engine`, relative to its force at the paper's time step.
-fn changes(points: &[ConvergencePoint], engine: EngineName, force: Force) -> Vec<Point> {
+/// What the time step changes of a force of `engine`, relative to its force at the paper's time step; nothing
+/// there itself.
+fn changes(points: &[ConvergencePoint], engine: EngineName, force: Force) -> Vec<Run> {
     let own = || points.iter().filter(|point| point.engine == engine);
     let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
     let Some(paper) = paper.next().and_then(force) else {
         return Vec::new();
     };
-    let others = own().filter(|point| point.time_step != PAPER_TIME_STEP);
-    let change = |point: &ConvergencePoint| Some((force(point)? / paper - 1.0).abs());
-    others
-        .filter_map(|point| Some((point.time_step, change(point)?)))
+    let change = |point: &ConvergencePoint| {
+        let other = point.time_step != PAPER_TIME_STEP;
+        let force = force(point).filter(|_| other)?;
+        Some((force / paper - 1.0).abs())
+    };
+    own()
+        .map(|point| (point.time_step, change(point)))
         .collect()
 }
 
 /// Marks for every engine, and a line for the native one.
-fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(EngineName) -> Vec<Point>) {
+fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(EngineName) -> Vec<Run>) {
     for engine in EngineName::ALL {
         let mut points = runs(engine);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
         if engine == EngineName::Native {
-            panel.line(stroke, points.iter().map(|&(x, y)| (x, Some(y))));
+            panel.line(stroke, points.iter().copied());
         }
-        panel.marks(Mark::of(engine), points);
+        let points = points.into_iter();
+        panel.marks(Mark::of(engine), points.filter_map(|(x, y)| Some((x, y?))));
     }
 }
 
-fn setting(panel: &mut Panel, value: f64, height: f64) {
-    panel.upright(GUIDE, value);
-    panel.words("paper", (1.15 * value, height), Anchor::Start);
+/// A setting of the paper, as a vertical line.
+fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
+    panel.line(GUIDE, [(value, Some(low)), (value, Some(high))]);
+    panel.words("paper", (1.15 * value, 2.0 * low), Anchor::Start);
 }

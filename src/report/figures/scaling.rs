@@ -1,6 +1,5 @@
 //! Fig. 2(b): the yield force over the stiffness, below, at and above the critical friction.
 
-use super::axis::Axis;
 use super::codes::{self, error_panel};
 use super::panel::{Anchor, Panel, Sample, draw};
 use super::style::{EXACT, PERTURBATION};

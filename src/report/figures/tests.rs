@@ -136,8 +136,9 @@ fn figure(name: &str) -> Figure {
     figures.find(|figure| figure.name == name).unwrap()
 }
 
-/// Circles of the size of LIGGGHTS' mark.
+/// Circles of a size, which is printed with two digits.
 fn circles(svg: &str, size: f64) -> usize {
+    let size = (100.0 * size).round() / 100.0;
     svg.matches(&format!(" r=\"{size}\"")).count()
 }
 

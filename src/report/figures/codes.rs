@@ -22,7 +22,7 @@ pub(super) fn present(judgements: &[Judgement]) -> Vec<EngineName> {
 
 /// F + 3 of every row that has a yield force. YADE's facets are left out: they do what its box does.
 pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Row) -> f64) {
-    mark(panel, judgements, |row| {
+    mark(panel, judgements, Mark::small, |row| {
         let shown = row.engine != EngineName::YadeFacet;
         Some((x(row), row.yield_force.filter(|_| shown)? + 3.0))
     });
@@ -34,9 +34,12 @@ pub(super) fn error_panel(axis: Axis, judgements: &[Judgement], x: impl Fn(&Row)
     let mut panel = Panel::new(axis, Axis::log(label, ERRORS));
     panel.level(GUIDE, BAR);
     panel.words_on("largest that agrees", BAR);
-    mark(&mut panel, judgements, |row| {
-        Some((x(row), row.error?.abs()))
-    });
+    mark(
+        &mut panel,
+        judgements,
+        |mark| mark,
+        |row| Some((x(row), row.error?.abs())),
+    );
     panel
 }
 
@@ -48,10 +51,15 @@ pub(super) fn key(panel: &mut Panel, judgements: &[Judgement], (right, down): Po
     }
 }
 
-fn mark(panel: &mut Panel, judgements: &[Judgement], point: impl Fn(&Row) -> Option<Point>) {
+fn mark(
+    panel: &mut Panel,
+    judgements: &[Judgement],
+    size: impl Fn(Mark) -> Mark,
+    point: impl Fn(&Row) -> Option<Point>,
+) {
     for engine in present(judgements) {
         let own = judgements.iter().map(|judgement| &judgement.row);
         let own = own.filter(|row| row.engine == engine);
-        panel.marks(Mark::of(engine), own.filter_map(&point));
+        panel.marks(size(Mark::of(engine)), own.filter_map(&point));
     }
 }

@@ -11,11 +11,16 @@ use crate::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 const EXCESS: (f64, f64) = (1e-8, 1e2);
 const CHANGE: (f64, f64) = (1e-6, 1e1);
 
+/// Down to here the key reaches.
+const BELOW_KEY: f64 = 2e-3;
+
+/// A setting, and what is shown of the run with it.
+type Run = (f64, Option<f64>);
 type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// How far peak and slip onset are from the limit, and what the time step changes of them.
 pub(super) fn convergence(study: &Convergence) -> Figure {
-    let peaks = steps(study, "F_{peak}", |point| point.peak_force);
+    let mut peaks = steps(study, "F_{peak}", |point| point.peak_force);
     let slips = steps(study, "F_{slip}", |point| point.slip_force);
     let caption = format!(
         "Supplement, figure on convergence: μ = 0.2, kₙ r/(m g) = 10⁴, κ = 2.5. (a) Distance of the largest wall \
@@ -26,8 +31,18 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
          settings.",
         PAPER_TIME_STEP, PAPER_TIME_STEP
     );
+    peaks.key_at(0.03, 0.02);
+    for engine in EngineName::ALL {
+        if study.time_steps.iter().any(|point| point.engine == engine) {
+            peaks.key(Sample::Mark(Mark::of(engine)), engine_label(engine));
+        }
+    }
     let panels = [speeds(study), peaks, slips];
-    Figure::new("convergence", caption, draw(&panels, 3, super::THIRD_OF_PAGE))
+    Figure::new(
+        "convergence",
+        caption,
+        draw(&panels, 3, super::THIRD_OF_PAGE),
+    )
 }
 
 fn speeds(study: &Convergence) -> Panel {
@@ -35,17 +50,21 @@ fn speeds(study: &Convergence) -> Panel {
         Axis::log("wall speed v/(r √(kₙ/m))", (3e-8, 3e-3)),
         Axis::log("|F − F_{limit}|/F_{limit}", EXCESS),
     );
-    setting(&mut panel, PAPER_WALL_SPEED, 2e-8);
-    let runs = |engine: EngineName, force: Force| -> Vec<Point> {
+    setting(&mut panel, PAPER_WALL_SPEED, EXCESS);
+    let runs = |engine: EngineName, force: Force| -> Vec<Run> {
         let own = study.wall_speeds.iter();
         let own = own.filter(|point| point.engine == engine);
-        own.filter_map(|point| Some((point.wall_speed, force(point)?.abs())))
+        own.map(|point| (point.wall_speed, force(point).map(f64::abs)))
             .collect()
     };
-    curve(&mut panel, THIN, |engine| runs(engine, ConvergencePoint::excess_of_peak));
-    curve(&mut panel, THIN_DASHED, |engine| runs(engine, ConvergencePoint::excess_of_slip));
+    curve(&mut panel, THIN, |engine| {
+        runs(engine, ConvergencePoint::excess_of_peak)
+    });
+    curve(&mut panel, THIN_DASHED, |engine| {
+        runs(engine, ConvergencePoint::excess_of_slip)
+    });
     panel.words("peak", (1.5e-5, 6e-1), Anchor::End);
-    panel.words("slip onset", (1.6e-5, 1e-3), Anchor::End);
+    panel.words("slip onset", (1.5e-5, 1e-6), Anchor::Start);
     panel
 }
 
@@ -55,44 +74,46 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
         Axis::log("time step Δt/√(m/kₙ)", (3e-5, 3e-1)),
         Axis::log(&label, CHANGE),
     );
-    setting(&mut panel, PAPER_TIME_STEP, 2e-6);
-    curve(&mut panel, THIN, |engine| changes(&study.time_steps, engine, force));
-    panel.key_at(0.03, 0.02);
-    for engine in EngineName::ALL {
-        if study.time_steps.iter().any(|point| point.engine == engine) {
-            panel.key(Sample::Mark(Mark::of(engine)), engine_label(engine));
-        }
-    }
+    setting(&mut panel, PAPER_TIME_STEP, (CHANGE.0, BELOW_KEY));
+    curve(&mut panel, THIN, |engine| {
+        changes(&study.time_steps, engine, force)
+    });
     panel
 }
 
-/// What the time step changes of a force of `engine`, relative to its force at the paper's time step.
-fn changes(points: &[ConvergencePoint], engine: EngineName, force: Force) -> Vec<Point> {
+/// What the time step changes of a force of `engine`, relative to its force at the paper's time step; nothing
+/// there itself.
+fn changes(points: &[ConvergencePoint], engine: EngineName, force: Force) -> Vec<Run> {
     let own = || points.iter().filter(|point| point.engine == engine);
     let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
     let Some(paper) = paper.next().and_then(force) else {
         return Vec::new();
     };
-    let others = own().filter(|point| point.time_step != PAPER_TIME_STEP);
-    let change = |point: &ConvergencePoint| Some((force(point)? / paper - 1.0).abs());
-    others
-        .filter_map(|point| Some((point.time_step, change(point)?)))
+    let change = |point: &ConvergencePoint| {
+        let other = point.time_step != PAPER_TIME_STEP;
+        let force = force(point).filter(|_| other)?;
+        Some((force / paper - 1.0).abs())
+    };
+    own()
+        .map(|point| (point.time_step, change(point)))
         .collect()
 }
 
 /// Marks for every engine, and a line for the native one.
-fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(EngineName) -> Vec<Point>) {
+fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(EngineName) -> Vec<Run>) {
     for engine in EngineName::ALL {
         let mut points = runs(engine);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
         if engine == EngineName::Native {
-            panel.line(stroke, points.iter().map(|&(x, y)| (x, Some(y))));
+            panel.line(stroke, points.iter().copied());
         }
-        panel.marks(Mark::of(engine), points);
+        let points = points.into_iter();
+        panel.marks(Mark::of(engine), points.filter_map(|(x, y)| Some((x, y?))));
     }
 }
 
-fn setting(panel: &mut Panel, value: f64, height: f64) {
-    panel.upright(GUIDE, value);
-    panel.words("paper", (1.15 * value, height), Anchor::Start);
+/// A setting of the paper, as a vertical line.
+fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
+    panel.line(GUIDE, [(value, Some(low)), (value, Some(high))]);
+    panel.words("paper", (1.15 * value, 2.0 * low), Anchor::Start);
 }

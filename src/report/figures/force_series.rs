@@ -17,12 +17,12 @@ const ABOVE: f64 = 3.0;
 pub(super) fn force_series(series: &ForceSeries) -> Figure {
     let panels = [whole(series), around_the_peak(series)];
     let caption = format!(
-            "Supplement, figure of f(t). (a) Force F = f/(m g) of the wall over the time t at μ = 0.2, \
+        "Supplement, figure of f(t). (a) Force F = f/(m g) of the wall over the time t at μ = 0.2, \
              kₙ r/(m g) = 10², κ = 2.5 and the paper's wall speed v = {:e} r √(kₙ/m) and time step {:e} \
              √(m/kₙ): one native run. (b) The same around the peak, which the paper takes for the yield force; \
              circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
-            series.wall_speed, series.time_step
-        );
+        series.wall_speed, series.time_step
+    );
     Figure::new("force-series", caption, draw(&panels, 2, super::HALF_PAGE))
 }
 
@@ -44,25 +44,39 @@ fn whole(series: &ForceSeries) -> Panel {
 fn around_the_peak(series: &ForceSeries) -> Panel {
     let peak = highest(&series.rows);
     let limit = series.limit.unwrap_or(peak.1);
-    let excess = (peak.1 - limit).abs().max(1e-9 * peak.1.abs()).max(f64::MIN_POSITIVE);
+    let excess = (peak.1 - limit)
+        .abs()
+        .max(1e-9 * peak.1.abs())
+        .max(f64::MIN_POSITIVE);
     let (low, high) = (limit - BELOW * excess, limit + ABOVE * excess);
     let near: Vec<f64> = visible(&series.rows, peak, low);
-    let reach = near.iter().fold(1.0, |reach: f64, time| reach.max(time.abs()));
+    let reach = near
+        .iter()
+        .fold(1.0, |reach: f64, time| reach.max(time.abs()));
     let mut panel = Panel::new(
-        Axis::around("time after the peak (t − t_{peak})/√(m/kₙ)", (-reach, reach)),
+        Axis::around(
+            "time after the peak (t − t_{peak})/√(m/kₙ)",
+            (-reach, reach),
+        ),
         Axis::around("wall force F = f/(m g)", (low, high)),
     );
     panel.level(GUIDE, limit);
     let rows = series.rows.iter();
-    panel.line(EXACT, rows.map(|&(time, force)| (time - peak.0, Some(force))));
-    if let Some(slip) = series.slip_force.and_then(|force| first_reaching(&series.rows, force)) {
+    panel.line(
+        EXACT,
+        rows.map(|&(time, force)| (time - peak.0, Some(force))),
+    );
+    if let Some(slip) = series
+        .slip_force
+        .and_then(|force| first_reaching(&series.rows, force))
+    {
         panel.marks(ONSET, [(slip.0 - peak.0, slip.1)]);
     }
     panel.marks(PEAK, [(0.0, peak.1)]);
     panel.key(Sample::Mark(PEAK), "peak");
     panel.key(Sample::Mark(ONSET), "slip onset");
     panel.key(Sample::Line(GUIDE), "exact limit");
-    panel.key_at(0.67, 0.4);
+    panel.key_at(0.63, 0.4);
     panel
 }
 

@@ -11,7 +11,11 @@ use crate::stack::CRITICAL_FRICTION;
 
 /// Difference to the paper's convention, as theory has it and as the codes measured it.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let half_arms = [EngineName::Liggghts, EngineName::Yade, EngineName::YadeFacet];
+    let half_arms = [
+        EngineName::Liggghts,
+        EngineName::Yade,
+        EngineName::YadeFacet,
+    ];
     let small = Axis::linear(LABEL, (-2.5, 0.5), 0.5, 1);
     let large = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
     let mut left = panel(small, &half_arms, judgements, curves);
@@ -25,7 +29,11 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
                   and κ = 2.5. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
                   wall speed. (a) r₁ = −½ between cylinders and at the floor, (b) r₁ = −½ and −1; the paper has \
                   r₁ = 0.";
-    Figure::new("model-form", caption, draw(&[left, right], 2, super::HALF_PAGE))
+    Figure::new(
+        "model-form",
+        caption,
+        draw(&[left, right], 2, super::HALF_PAGE),
+    )
 }
 
 const LABEL: &str = "(F − F_{paper})/(F_{paper} + 3) in %";

@@ -187,7 +187,31 @@ pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)
         };
         frame.fill(panel, index, &mut scene);
     }
-    lowered(&SvgBackend::new().render_scene(&scene))
+    written(&scene)
+}
+
+/// `scene` as SVG, the same whatever was drawn before.
+pub(super) fn written(scene: &Scene) -> String {
+    lowered(&renumbered(&SvgBackend::new().render_scene(scene)))
+}
+
+/// `svg` with kuva's clip paths numbered by their order in it; kuva goes on counting from figure to figure.
+fn renumbered(svg: &str) -> String {
+    const CLIP: &str = "kuva-clip-";
+    let mut parts = svg.split(CLIP);
+    let mut renumbered = parts.next().unwrap_or_default().to_owned();
+    let mut known = Vec::new();
+    for part in parts {
+        let end = part.find(|letter: char| !letter.is_ascii_digit());
+        let (number, rest) = part.split_at(end.unwrap_or(part.len()));
+        let index = known.iter().position(|&other| other == number);
+        let index = index.unwrap_or_else(|| {
+            known.push(number);
+            known.len() - 1
+        });
+        renumbered += &format!("{CLIP}{index}{rest}");
+    }
+    renumbered
 }
 
 /// `svg` with every `_{…}` in its texts as a subscript, for which there are no letters.
@@ -269,7 +293,10 @@ impl Frame {
     }
 
     fn at(&self, (right, down): Point) -> Point {
-        (self.left + right * self.width, self.top + down * self.height)
+        (
+            self.left + right * self.width,
+            self.top + down * self.height,
+        )
     }
 
     fn place(&self, panel: &Panel, (x, y): Point) -> Point {
@@ -327,7 +354,9 @@ fn draw_mark(mark: Mark, (x, y): Point, scene: &mut Scene) {
             format!("M{left:.2} {y:.2}L{x:.2} {top:.2}L{right:.2} {y:.2}L{x:.2} {bottom:.2}Z")
         }
         Shape::Cross => {
-            format!("M{left:.2} {top:.2}L{right:.2} {bottom:.2}M{left:.2} {bottom:.2}L{right:.2} {top:.2}")
+            format!(
+                "M{left:.2} {top:.2}L{right:.2} {bottom:.2}M{left:.2} {bottom:.2}L{right:.2} {top:.2}"
+            )
         }
         _ => format!("M{left:.2} {y:.2}H{right:.2}M{x:.2} {top:.2}V{bottom:.2}"),
     };

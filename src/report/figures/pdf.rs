@@ -40,7 +40,9 @@ pub fn pdf(svg: &str) -> Result<Vec<u8>, PdfError> {
     surface.draw_svg(&tree, size, SvgSettings::default());
     surface.finish();
     page.finish();
-    document.finish().map_err(|error| PdfError(format!("{error:?}")))
+    document
+        .finish()
+        .map_err(|error| PdfError(format!("{error:?}")))
 }
 fn fonts() -> Arc<Database> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
@@ -57,8 +59,12 @@ fn fonts() -> Arc<Database> {
 /// The faces of DejaVu Sans that kuva carries. It gives them away only inside an SVG, as data URLs.
 fn embedded_fonts() -> Vec<Vec<u8>> {
     let empty = Scene::new(1.0, 1.0);
-    let svg = SvgBackend::new().with_embedded_font(true).render_scene(&empty);
+    let svg = SvgBackend::new()
+        .with_embedded_font(true)
+        .render_scene(&empty);
     let urls = svg.split(";base64,").skip(1);
     let encoded = urls.filter_map(|url| url.split('\'').next());
-    encoded.filter_map(|font| BASE64_STANDARD.decode(font).ok()).collect()
+    encoded
+        .filter_map(|font| BASE64_STANDARD.decode(font).ok())
+        .collect()
 }

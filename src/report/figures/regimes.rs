@@ -1,7 +1,7 @@
 //! The three maps as a figure: how a stack ends, over floor friction and one more property.
 
 use super::axis::power_of_ten;
-use super::panel::{FONT, lowered};
+use super::panel::{FONT, written};
 use super::style::INK;
 use crate::crosscheck::{Confirmation, Survey};
 use crate::stack::Stack;
@@ -9,7 +9,6 @@ use crate::theory::{
     Axis, Boundary, Consequence, Course, Event, Outcome, RegimeMap, released_frictions,
 };
 use crate::verdict::Verdict;
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{BandPlot, LinePlot, ScatterPlot};
 use kuva::render::annotations::TextAnnotation;
@@ -62,7 +61,7 @@ pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
         .with_padding(6.0)
         .with_labels_lowercase()
         .render();
-    lowered(&SvgBackend::new().render_scene(&scene))
+    written(&scene)
 }
 
 fn panel(map: &RegimeMap, survey: &Survey) -> (Vec<Plot>, Layout) {

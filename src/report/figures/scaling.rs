@@ -1,6 +1,5 @@
 //! Fig. 2(b): the yield force over the stiffness, below, at and above the critical friction.
 
-use super::axis::Axis;
 use super::codes::{self, error_panel};
 use super::panel::{Anchor, Panel, Sample, draw};
 use super::style::{EXACT, PERTURBATION};
@@ -27,7 +26,12 @@ pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: 
 fn forces(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Panel {
     let mut panel = Panel::new(stiffness_axis(), codes::load_axis((0.1, 3e6)));
     for (mu, place) in SCALING_FRICTIONS.into_iter().zip(CURVE_ENDS) {
-        let points = || curves.over_stiffness.iter().filter(move |point| point.mu == mu);
+        let points = || {
+            curves
+                .over_stiffness
+                .iter()
+                .filter(move |point| point.mu == mu)
+        };
         let load = |force: Option<f64>| force.map(|force| force + 3.0);
         let exact = |point: &TheoryPoint| (point.stiffness, load(point.exact));
         let perturbation = |point: &TheoryPoint| (point.stiffness, load(point.perturbation));
@@ -47,13 +51,15 @@ const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 50.0), (3e5, 2.2e3), (8e4, 5e4)];
 
 /// A table of the fitted exponents, below the curves.
 fn fits(panel: &mut Panel, exponents: &[Exponent]) {
-    const COLUMNS: [f64; 4] = [2.1e1, 4.9e2, 2.2e4, 5e5];
+    const COLUMNS: [f64; 4] = [2.6e1, 6e2, 2.5e4, 6e5];
     const LINES: [f64; 4] = [3.2, 1.15, 0.41, 0.147];
     let heads = ["", "β, native", "β, exact limit", "kₙ → ∞"];
     for (x, head) in COLUMNS.into_iter().zip(heads) {
         panel.words(head, (x, LINES[0]), Anchor::Middle);
     }
-    let own = exponents.iter().filter(|own| own.engine == EngineName::Native);
+    let own = exponents
+        .iter()
+        .filter(|own| own.engine == EngineName::Native);
     for (fitted, y) in own.zip(&LINES[1..]) {
         let decimals = decimals(fitted.uncertainty);
         let cells = [

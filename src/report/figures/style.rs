@@ -83,6 +83,14 @@ impl Mark {
         }
     }
 
+    /// The same smaller, where many stand close together.
+    pub const fn small(self) -> Self {
+        Self {
+            size: 0.7 * self.size,
+            ..self
+        }
+    }
+
     /// The mark of an engine: from inside to outside dot, cross, circle, plus, square, diamond.
     pub const fn of(engine: EngineName) -> Self {
         match engine {

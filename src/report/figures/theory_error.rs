@@ -39,7 +39,11 @@ pub(super) fn theory_error(curves: &Curves) -> Figure {
                   quasi-static limit F = f/(m g) of its model, at κ = 2.5. (a–c) Over the floor friction μ for \
                   three stiffnesses kₙ r/(m g); (d–f) over the stiffness below, at and above μ_c. Gaps: the \
                   theory gives no number there, or the floor does not slip first. Theory alone, no runs.";
-    Figure::new("theory-error", caption, draw(&panels, 3, super::THIRD_OF_PAGE))
+    Figure::new(
+        "theory-error",
+        caption,
+        draw(&panels, 3, super::THIRD_OF_PAGE),
+    )
 }
 
 type Force = fn(&TheoryPoint) -> Option<f64>;

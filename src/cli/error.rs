@@ -2,9 +2,10 @@
 
 use crate::archive::ArchiveError;
 use crate::claims::RegisterError;
-use crate::crosscheck::{Judgement, NoYield, RunError};
+use crate::crosscheck::{Judgement, NoYield};
 use crate::engine::{EngineName, Failure, FailureKind};
 use crate::report::PdfError;
+use crate::reproduction::ReproductionError;
 use crate::stack::{CaseError, InvalidValue};
 use crate::verdict::Verdict;
 use thiserror::Error;
@@ -83,7 +84,7 @@ pub enum CliError {
     MissingEngine(EngineName),
     /// A run that everything else needs is not there.
     #[error(transparent)]
-    Run(#[from] RunError),
+    Reproduction(#[from] ReproductionError),
     /// The register of claims is wrong.
     #[error(transparent)]
     Register(#[from] RegisterError),
@@ -104,7 +105,7 @@ impl CliError {
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
                 _ => ExitStatus::EngineFailed,
             },
-            Self::Run(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
+            Self::Reproduction(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
             _ => ExitStatus::WrongInput,
         }
     }

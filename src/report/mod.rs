@@ -22,8 +22,8 @@ pub use crosscheck::{
     crosscheck_table,
 };
 pub use explain::explanation;
-pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use figures::{Figure, PdfError, figures, regimes_svg};
+pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
 pub use page::{Origin, ReportFile, report_files};

@@ -5,6 +5,7 @@ mod curves;
 mod force_series;
 mod preparation;
 mod scaling;
+mod snapshots;
 
 pub use convergence::{
     Convergence, ConvergencePoint, FAST_WALL, converge, convergence_loads, convergence_stack,
@@ -19,6 +20,7 @@ pub use scaling::{
     Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
     scaling_measurements,
 };
+pub use snapshots::{Snapshots, snapshots};
 
 use crate::archive::{Provenance, Reading};
 use crate::crosscheck::{
@@ -29,6 +31,8 @@ use crate::crosscheck::{
 use crate::engine::EngineName;
 use crate::stack::PAPER_STIFFNESS_RATIO;
 use crate::theory::{BoundaryPoint, RegimeMap};
+use crate::trace::SeriesError;
+use thiserror::Error;
 
 /// Points looked at on every boundary of the regime maps.
 const BOUNDARY_POINTS: usize = 13;
@@ -51,6 +55,8 @@ pub struct Reproduction {
     pub force_series: ForceSeries,
     /// What the paper's preparation does to c and F, which all else leaves to the gravity ramp.
     pub preparation: Vec<PreparationStudy>,
+    /// The stack from rest into collapse.
+    pub snapshots: Snapshots,
     /// Whole series beside native twins.
     pub trajectories: Vec<TrajectoryJudgement>,
     /// The regime maps …
@@ -61,6 +67,17 @@ pub struct Reproduction {
     pub curves: Curves,
     /// Where the runs come from, in the order of their use.
     pub provenances: Vec<Provenance>,
+}
+
+/// Why the paper could not be reproduced.
+#[derive(Debug, Error)]
+pub enum ReproductionError {
+    /// A native run that everything else needs is not there.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The native run that is drawn left the finite numbers.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
 }
 
 /// How the paper is reproduced.
@@ -84,7 +101,7 @@ pub fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
     examined: &(dyn Fn(usize) + Sync),
-) -> Result<Option<Reproduction>, RunError> {
+) -> Result<Option<Reproduction>, ReproductionError> {
     let Scope {
         participants,
         settings,
@@ -121,6 +138,9 @@ pub fn reproduce(
     if interrupted() {
         return Ok(None);
     }
+    let Some(snapshots) = snapshots(settings.interrupt)? else {
+        return Ok(None);
+    };
     let rows = judgements.iter().chain(&scaling).chain(&literal);
     let runs = rows.flat_map(|judgement| &judgement.runs).chain(&readings);
     let provenances = runs.map(|reading| &reading.provenance);
@@ -136,6 +156,7 @@ pub fn reproduce(
         convergence,
         force_series,
         preparation,
+        snapshots,
         trajectories,
         maps,
         survey,

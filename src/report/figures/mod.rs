@@ -7,8 +7,10 @@ mod force_series;
 mod model_form;
 mod panel;
 mod pdf;
+mod preparation;
 mod regimes;
 mod scaling;
+mod stack;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -21,6 +23,7 @@ pub use regimes::regimes_svg;
 use crate::reproduction::Reproduction;
 use crate::stack::CRITICAL_FRICTION;
 use axis::Axis;
+use serde::Serialize;
 
 /// A panel that shares the width of a page with another one, in pixels.
 const HALF_PAGE: (f64, f64) = (350.0, 320.0);
@@ -28,7 +31,7 @@ const HALF_PAGE: (f64, f64) = (350.0, 320.0);
 const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
 
 /// A figure.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Figure {
     /// The name of its files, without extension.
     pub name: &'static str,
@@ -69,7 +72,7 @@ pub fn figures(reproduction: &Reproduction) -> Vec<Figure> {
         curves,
         ..
     } = reproduction;
-    vec![
+    let mut figures = vec![
         yield_curves::yield_curves(curves_measured, curves),
         scaling::scaling(scaling_measured, exponents, curves),
         force_series::force_series(&reproduction.force_series),
@@ -77,7 +80,15 @@ pub fn figures(reproduction: &Reproduction) -> Vec<Figure> {
         theory_error::theory_error(curves),
         model_form::model_form(curves_measured, curves),
         regimes::regimes(&reproduction.maps, &reproduction.survey),
-    ]
+        stack::stack(&reproduction.snapshots),
+    ];
+    figures.extend(
+        reproduction
+            .preparation
+            .first()
+            .map(preparation::preparation),
+    );
+    figures
 }
 
 fn stiffness_axis() -> Axis {

@@ -1,6 +1,6 @@
 //! The report as a document, from which every format is made.
 
-use crate::report::Table;
+use crate::report::{Figure, Table};
 use serde::Serialize;
 
 /// The whole report.
@@ -42,7 +42,7 @@ pub enum Block {
     /// A table, which is also a file of its own.
     Table(DataTable),
     /// A figure, which is also a file of its own.
-    Figure(Picture),
+    Figure(Figure),
 }
 
 impl Block {
@@ -68,19 +68,6 @@ pub struct DataTable {
     pub long: bool,
 }
 
-/// A figure with a name.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Picture {
-    /// Name of its files, without ending.
-    pub name: String,
-    /// What it shows.
-    pub caption: String,
-    /// The command that draws it again.
-    pub command: String,
-    /// The figure.
-    pub svg: String,
-}
-
 impl Document {
     /// All its blocks, in order.
     fn blocks(&self) -> impl Iterator<Item = &Block> {
@@ -96,7 +83,7 @@ impl Document {
     }
 
     /// All its figures, in order.
-    pub fn figures(&self) -> impl Iterator<Item = &Picture> {
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.blocks().filter_map(|block| match block {
             Block::Figure(figure) => Some(figure),
             _ => None,

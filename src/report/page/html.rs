@@ -1,6 +1,7 @@
 //! The report as one page that needs nothing else: style and figures are inside.
 
-use super::document::{Document, Picture};
+use super::document::Document;
+use crate::report::Figure;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 
@@ -43,7 +44,7 @@ fn escape(text: &str) -> String {
 }
 
 /// A figure inside the page. Names inside one drawing must not meet those of another.
-fn embedded(figure: &Picture) -> String {
+fn embedded(figure: &Figure) -> String {
     let start = figure.svg.find("<svg").unwrap_or(0);
     let own = |text: &str, mark: &str| text.replace(mark, &format!("{mark}{}-", figure.name));
     let svg = own(&scalable(&figure.svg[start..]), "id=\"");
@@ -77,10 +78,9 @@ mod tests {
 
     #[test]
     fn names_inside_a_figure_are_its_own() {
-        let figure = Picture {
-            name: "two".to_owned(),
+        let figure = Figure {
+            name: "two",
             caption: String::new(),
-            command: String::new(),
             svg: "<?xml?><svg width=\"9\" height=\"7\"><clipPath id=\"c\"/><g clip-path=\"url(#c)\"/></svg>"
                 .to_owned(),
         };

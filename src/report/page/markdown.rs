@@ -33,11 +33,8 @@ fn markdown_block(block: &Block) -> String {
             )
         }
         Block::Figure(figure) => {
-            let name = &figure.name;
-            format!(
-                "\n![{name}](figures/{name}.svg)\n\n{} Drawn again by `{}`; also as [PDF](figures/{name}.pdf).\n",
-                figure.caption, figure.command
-            )
+            let name = figure.name;
+            format!("\n![{name}](figures/{name}.svg)\n\n{}\n", figure.caption)
         }
     }
 }

@@ -11,7 +11,7 @@ mod sections;
 pub use sections::Origin;
 
 use crate::claims::ClaimJudgement;
-use crate::report::figures::{PdfError, pdf};
+use crate::report::PdfError;
 use crate::reproduction::Reproduction;
 use document::Document;
 
@@ -81,7 +81,7 @@ fn figures(document: &Document) -> Result<Vec<ReportFile>, PdfError> {
         ));
         files.push(ReportFile::new(
             format!("figures/{name}.pdf"),
-            pdf(&figure.svg)?,
+            figure.pdf()?,
         ));
     }
     Ok(files)

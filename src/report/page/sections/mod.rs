@@ -53,7 +53,7 @@ pub fn document(
         sections: vec![
             summary::section(reproduction, judged),
             claims::errata(judged),
-            figures::section(reproduction, origin),
+            figures::section(reproduction),
             claims::register(judged),
             tolerances::section(reproduction),
             preparation::section(reproduction),

@@ -12,6 +12,7 @@ mod recorded;
 mod regimes;
 mod schedule;
 mod store;
+mod touch;
 mod trajectory;
 mod twin;
 mod verdict;

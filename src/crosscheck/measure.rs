@@ -2,7 +2,7 @@
 
 use super::extrapolate::{Extrapolation, Order, extrapolate};
 use super::plan::{Measurement, Method};
-use super::probing::{Probed, contradictions, probe_all};
+use super::probing::{Probed, contradictions, is_contradicted, other_program, probe_all};
 use super::reading::read_all;
 use super::schedule::{Participant, Progress, RunError, Settings};
 use super::verdict::{BAR, Row, Source, judge, tolerance};
@@ -239,8 +239,15 @@ impl Judgement {
     /// Takes the judgement back where the limit belongs to a convention that the engine does not have, or is
     /// not known to have.
     fn unless_contradicted(mut self, probed: &Probed) -> Self {
-        let contradictions = contradictions(probed);
-        let judged = matches!(self.row.verdict, Verdict::Agrees | Verdict::Differs);
+        let mut contradictions = contradictions(probed);
+        let runs = self.runs.iter().map(|run| &run.provenance.identity);
+        contradictions.extend(other_program(probed, runs));
+        // A stack that does not yield in theory has not been run, and a failed run is no judgement.
+        let judged = match self.row.verdict {
+            Verdict::Agrees | Verdict::Differs | Verdict::Inconclusive => true,
+            Verdict::NoYield => !self.runs.is_empty(),
+            Verdict::Failed | Verdict::Missing => false,
+        };
         let Some(first) = contradictions.first().filter(|_| judged) else {
             return self;
         };
@@ -249,7 +256,7 @@ impl Judgement {
             count => format!(" (and {} more: tristack probe)", count - 1),
         };
         self.notes.push(format!("not judged: {first}{further}"));
-        self.contradicted = probed.is_ok();
+        self.contradicted = is_contradicted(probed);
         self.row.error = None;
         self.row.tolerance = None;
         self.row.verdict = Verdict::Inconclusive;

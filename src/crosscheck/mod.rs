@@ -24,7 +24,9 @@ pub use plan::{
     Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,
     planned_protocol, protocol_at_speed, yielding_frictions,
 };
-pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
+pub use probing::{
+    Findings, ProbeError, Probed, contradictions, is_contradicted, probe_all, record_probe,
+};
 pub use profile::{PAPER_STIFFNESSES, Profile};
 pub use reading::{Load, read_all};
 pub use recorded::{Recorded, RecordedError};

@@ -2,7 +2,7 @@
 
 use super::recorded::RecordedError;
 use super::schedule::{Participant, Progress, Settings};
-use crate::archive::{Answer, ArchiveError, ProbeRecord, Provenance};
+use crate::archive::{Answer, ArchiveError, Identity, ProbeRecord, Provenance};
 use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::probe::{Finding, probe};
 use crate::stack::{ContactTest, sha256_hex};
@@ -29,8 +29,17 @@ pub enum ProbeError {
     Outdated(EngineName),
 }
 
+/// What was found out about a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// The program that was probed.
+    pub identity: Identity,
+    /// Its properties.
+    pub findings: Vec<Finding>,
+}
+
 /// The findings on one participant.
-pub type Probed = Result<Vec<Finding>, ProbeError>;
+pub type Probed = Result<Findings, ProbeError>;
 
 /// Probes `participants`, as many at a time as `settings` allow, and returns the findings in their order.
 pub fn probe_all(
@@ -62,7 +71,10 @@ fn findings(who: &Participant, settings: &Settings, progress: &dyn Progress) -> 
     let judged = properties
         .into_iter()
         .map(|property| property.judge(who.name, version));
-    Ok(judged.collect())
+    Ok(Findings {
+        findings: judged.collect(),
+        identity: record.provenance.identity.clone(),
+    })
 }
 
 /// The answers of a participant to all micro-tests: from the store, live, or recorded.
@@ -158,27 +170,123 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
     })
 }
 
+/// Whether the declaration is known to be wrong: a property that could not be measured well enough says
+/// nothing.
+pub fn is_contradicted(probed: &Probed) -> bool {
+    let differs = |finding: &Finding| finding.verdict == Verdict::Differs;
+    probed
+        .as_ref()
+        .is_ok_and(|probe| probe.findings.iter().any(differs))
+}
+
+/// The first of the programs whose runs a probe of another program must not vouch for, if there is one.
+pub fn other_program<'a>(
+    probed: &Probed,
+    mut runs: impl Iterator<Item = &'a Identity>,
+) -> Option<String> {
+    let probe = &probed.as_ref().ok()?.identity;
+    let other = runs.find(|identity| *identity != probe)?;
+    let engine = &probe.engine;
+    Some(format!(
+        "its probe was made with another program ({}) than its runs ({}); refresh both with: tristack record \
+         --engines {engine}",
+        described(probe),
+        described(other)
+    ))
+}
+
+/// A program in one line.
+fn described(identity: &Identity) -> String {
+    let package = identity.package.as_deref().unwrap_or("no package");
+    let hash = identity.program_hash.as_deref().unwrap_or("no program");
+    let hash = hash.get(..12).unwrap_or(hash);
+    format!(
+        "{} {}, {package}, {hash}",
+        identity.engine, identity.version
+    )
+}
+
 /// The findings that are no agreement, one line each; what is unknown as well if the probe failed.
 pub fn contradictions(probed: &Probed) -> Vec<String> {
     match probed {
         Err(error) => vec![format!(
             "its contact convention could not be measured: {error}"
         )],
-        Ok(findings) => {
-            let contradicting = findings
-                .iter()
-                .filter(|finding| finding.verdict != Verdict::Agrees);
+        Ok(probe) => {
+            let contradicting = probe.findings.iter();
+            let contradicting = contradicting.filter(|one| one.verdict != Verdict::Agrees);
+            let mut contradicting: Vec<&Finding> = contradicting.collect();
+            contradicting.sort_by_key(|finding| finding.verdict != Verdict::Differs);
             contradicting
+                .into_iter()
                 .map(|finding| {
                     let measured = finding
                         .measured
                         .map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
+                    let says = match finding.verdict {
+                        Verdict::Differs => "contradicts its declaration",
+                        _ => "decides nothing about its declaration",
+                    };
                     format!(
-                        "its probe contradicts its declaration: {} is {measured}, declared {}",
+                        "its probe {says}: {} is {measured}, declared {}",
                         finding.property, finding.declared
                     )
                 })
                 .collect()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn probed(verdicts: &[Verdict]) -> Probed {
+        let finding = |&verdict: &Verdict| Finding {
+            engine: EngineName::Yade,
+            version: String::new(),
+            property: verdict.to_string(),
+            measured: Some(1.0),
+            uncertainty: Some(1.0),
+            declared: 1.0,
+            verdict,
+        };
+        Ok(Findings {
+            identity: Identity {
+                engine: "yade".to_owned(),
+                version: "1".to_owned(),
+                package: None,
+                program_hash: None,
+            },
+            findings: verdicts.iter().map(finding).collect(),
+        })
+    }
+
+    #[test]
+    fn only_a_property_that_differs_contradicts() {
+        let unknown = probed(&[Verdict::Agrees, Verdict::Inconclusive]);
+        assert!(!is_contradicted(&unknown));
+        assert_eq!(contradictions(&unknown).len(), 1);
+        let wrong = probed(&[Verdict::Inconclusive, Verdict::Differs]);
+        assert!(is_contradicted(&wrong));
+        let first = &contradictions(&wrong)[0];
+        assert!(
+            first.contains("contradicts its declaration: differs"),
+            "{first}"
+        );
+        assert!(!is_contradicted(&Err(ProbeError::Outdated(EngineName::Yade))));
+    }
+
+    #[test]
+    fn a_probe_vouches_for_runs_of_its_own_program_alone() {
+        let probed = probed(&[Verdict::Agrees]);
+        let own = probed.as_ref().unwrap().identity.clone();
+        assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
+        let newer = Identity {
+            program_hash: Some("00".to_owned()),
+            ..own.clone()
+        };
+        let note = other_program(&probed, [&own, &newer].into_iter()).unwrap();
+        assert!(note.contains("tristack record --engines yade"), "{note}");
     }
 }

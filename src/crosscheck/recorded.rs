@@ -112,7 +112,9 @@ impl Recorded {
     /// arguments.
     pub fn probe(&self, engine: EngineName) -> Result<ProbeRecord, RecordedError> {
         let path = self.probe_path(engine);
-        let Some(record) = ProbeRecord::load(&path)? else {
+        let record = ProbeRecord::load(&path)?;
+        let own = |record: &ProbeRecord| record.provenance.identity.engine == engine.as_str();
+        let Some(record) = record.filter(own) else {
             return Err(RecordedError::Absent { engine, path });
         };
         if let Some(answer) = record.outdated(|test| engine.probe_hash(test)) {

@@ -18,6 +18,7 @@ pub use regimes::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
     Line, Outcome, Regime, RegimeMap, Stage, released_frictions,
 };
+pub use root::bracketed_root;
 pub use small_displacement::{
     ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,
     perturbation_load, quintic_displacement, rigid_yield,

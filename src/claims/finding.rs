@@ -1,0 +1,162 @@
+//! What a check finds, and the one rule that makes a verdict of it.
+
+use serde::Serialize;
+
+/// Deviation below which formulas that should be the same are the same: they are evaluated at states
+/// known to some 1e-11.
+pub const ROUND_OFF: f64 = 1e-8;
+
+/// The verdict on a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClaimVerdict {
+    /// It holds as stated.
+    Holds,
+    /// It holds within what its own words allow.
+    Approximately,
+    /// It does not hold as stated.
+    Fails,
+    /// It cannot be tested here.
+    Untestable,
+}
+
+impl ClaimVerdict {
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Approximately => "approximately",
+            Self::Fails => "fails",
+            Self::Untestable => "untestable",
+        }
+    }
+}
+
+impl std::fmt::Display for ClaimVerdict {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+/// What a check has measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// How far the claim is from the truth.
+    pub deviation: f64,
+    /// What it may be off for the claim to hold as stated.
+    pub bound: f64,
+    /// What was compared, and the numbers.
+    pub evidence: String,
+}
+
+impl Finding {
+    /// A deviation held to `bound`.
+    pub fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
+        Self {
+            deviation,
+            bound,
+            evidence: evidence.into(),
+        }
+    }
+
+    /// Two sides of an identity, compared at several points by their relative deviations: the evidence says
+    /// how many, and what they are.
+    pub fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
+        let mut count = 0;
+        let mut largest = 0.0;
+        for deviation in deviations {
+            count += 1;
+            largest = worse(largest, deviation);
+        }
+        if count == 0 {
+            return Self::new(
+                f64::NAN,
+                ROUND_OFF,
+                format!("{compared}: nothing to compare"),
+            );
+        }
+        let found = size(largest, ROUND_OFF);
+        let evidence =
+            format!("{compared}; at {count} points the largest relative deviation is {found}");
+        Self::new(largest, ROUND_OFF, evidence)
+    }
+
+    /// A number of the text, held to half a unit of its last digit.
+    pub fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
+        let evidence = format!("{of} is {truth:.5}, printed is {printed}");
+        Self::new((printed - truth).abs(), 0.5 * unit * (1.0 + 1e-9), evidence)
+    }
+
+    /// The verdict, where the words of the claim allow a deviation up to `allowed`.
+    pub fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
+        if self.deviation <= self.bound {
+            ClaimVerdict::Holds
+        } else if allowed.is_some_and(|allowed| self.deviation <= allowed) {
+            ClaimVerdict::Approximately
+        } else {
+            ClaimVerdict::Fails
+        }
+    }
+}
+
+/// The larger of two deviations; one that is not a number is the largest of all.
+pub fn worse(left: f64, right: f64) -> f64 {
+    if left.is_nan() || right.is_nan() {
+        f64::NAN
+    } else {
+        left.max(right)
+    }
+}
+
+/// The largest of all deviations; not a number if there are none.
+pub fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
+    let largest = deviations.into_iter().reduce(worse);
+    largest.unwrap_or(f64::NAN)
+}
+
+/// A deviation in words; round-off is not spelled out, because its digits are another machine's.
+pub fn size(deviation: f64, bound: f64) -> String {
+    if deviation <= bound {
+        format!("below {bound:.0e}")
+    } else {
+        format!("{deviation:.2e}")
+    }
+}
+
+/// How far a sum is from zero, relative to its largest term.
+pub fn imbalance(terms: &[f64]) -> f64 {
+    let largest = terms
+        .iter()
+        .fold(0.0, |largest: f64, term| largest.max(term.abs()));
+    (terms.iter().sum::<f64>() / largest).abs()
+}
+
+/// |left/right − 1|.
+pub fn relative(left: f64, right: f64) -> f64 {
+    (left / right - 1.0).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_rule_for_every_verdict() {
+        let finding = |deviation| Finding::new(deviation, 1e-8, "");
+        assert_eq!(finding(1e-9).verdict(None), ClaimVerdict::Holds);
+        assert_eq!(finding(1e-3).verdict(None), ClaimVerdict::Fails);
+        assert_eq!(
+            finding(1e-3).verdict(Some(0.01)),
+            ClaimVerdict::Approximately
+        );
+        assert_eq!(finding(0.1).verdict(Some(0.01)), ClaimVerdict::Fails);
+        assert_eq!(finding(f64::NAN).verdict(Some(1.0)), ClaimVerdict::Fails);
+    }
+
+    #[test]
+    fn nothing_compared_is_nothing_found() {
+        assert!(Finding::identity([], "nothing").deviation.is_nan());
+        assert!(worst([]).is_nan());
+        assert!(worst([1.0, f64::NAN, 2.0]).is_nan());
+    }
+}

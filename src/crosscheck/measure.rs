@@ -2,7 +2,9 @@
 
 use super::extrapolate::{Extrapolation, Order, extrapolate};
 use super::plan::{Measurement, Method};
-use super::probing::{Probed, contradictions, is_contradicted, other_program, probe_all};
+use super::probing::{
+    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
+};
 use super::reading::read_all;
 use super::schedule::{Participant, Progress, RunError, Settings};
 use super::verdict::{BAR, Row, Source, judge, tolerance};
@@ -26,6 +28,8 @@ pub struct Judgement {
     pub notes: Vec<String>,
     /// Whether the engine is not judged because its probe contradicts its declaration.
     pub contradicted: bool,
+    /// Whether the probe has measured the torque arms, and they are as declared.
+    pub arms_are_measured: bool,
 }
 
 fn is_interrupted<T>(result: &Result<T, RunError>) -> bool {
@@ -78,6 +82,7 @@ fn judge_measurement(
         peak: None,
         notes: Vec::new(),
         contradicted: false,
+        arms_are_measured: false,
     };
     if measurement.cases.is_empty() {
         judgement.row.verdict = Verdict::NoYield;
@@ -239,6 +244,7 @@ impl Judgement {
     /// Takes the judgement back where the limit belongs to a convention that the engine does not have, or is
     /// not known to have.
     fn unless_contradicted(mut self, probed: &Probed) -> Self {
+        self.arms_are_measured = arms_are_measured(probed);
         let mut contradictions = contradictions(probed);
         let runs = self.runs.iter().map(|run| &run.provenance.identity);
         contradictions.extend(other_program(probed, runs));

@@ -179,6 +179,16 @@ pub fn is_contradicted(probed: &Probed) -> bool {
         .is_ok_and(|probe| probe.findings.iter().any(differs))
 }
 
+/// Whether every torque arm was measured and is as declared.
+pub fn arms_are_measured(probed: &Probed) -> bool {
+    let Ok(probe) = probed else {
+        return false;
+    };
+    let arms = probe.findings.iter();
+    let mut arms = arms.filter(|finding| finding.property.ends_with("_arm"));
+    arms.all(|finding| finding.verdict == Verdict::Agrees)
+}
+
 /// The first of the programs whose runs a probe of another program must not vouch for, if there is one.
 pub fn other_program<'a>(
     probed: &Probed,
@@ -274,7 +284,15 @@ mod tests {
             first.contains("contradicts its declaration: differs"),
             "{first}"
         );
-        assert!(!is_contradicted(&Err(ProbeError::Outdated(EngineName::Yade))));
+        let of_arm = |verdict| {
+            let mut probed = probed(&[verdict]).unwrap();
+            probed.findings[0].property = "floor_torque_arm".to_owned();
+            arms_are_measured(&Ok(probed))
+        };
+        assert!(of_arm(Verdict::Agrees) && !of_arm(Verdict::Inconclusive));
+        assert!(!is_contradicted(&Err(ProbeError::Outdated(
+            EngineName::Yade
+        ))));
     }
 
     #[test]

@@ -169,9 +169,8 @@ impl Judgement {
         let peak_uncertainty = peak.budget.total() + allowance;
         let Some(slip) = self.slip else {
             self.decide(peak.force, peak_uncertainty, reference);
-            return self.doubt(
-                "no onset of slip was found before the peak; judged by the peak".to_owned(),
-            );
+            self.doubt("no onset of slip was found before the peak; judged by the peak".to_owned());
+            return self.doubt_deep_wall(measurement, reference);
         };
         let uncertainty = slip.budget.total();
         self.decide(slip.force, uncertainty, reference);
@@ -267,6 +266,19 @@ impl Judgement {
         self.row.tolerance = None;
         self.row.verdict = Verdict::Inconclusive;
         self
+    }
+
+    /// A code that lets a wall go once it has passed the centre of a cylinder cannot follow a wall force above
+    /// k_n r; its series has no onset then, and says nothing about the yield.
+    fn doubt_deep_wall(&mut self, measurement: &Measurement, reference: f64) {
+        if reference < measurement.stack.stiffness {
+            return;
+        }
+        let depth = reference * measurement.stack.epsilon();
+        self.notes.push(format!(
+            "at the yield the wall is {depth:.2} r deep in cylinder 1, beyond its centre, where codes let go"
+        ));
+        self.row.verdict = Verdict::Inconclusive;
     }
 
     /// A floor that slides at the first touch moves the yield force by some 1e-6 at the speeds of such plans,

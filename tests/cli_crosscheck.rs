@@ -150,3 +150,56 @@ fn copy_recordings(engine: &str, target: &std::path::Path, change: impl Fn(&str)
         }
     }
 }
+
+fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
+    let mut command = bench.tristack("crosscheck --format json");
+    command.env("TRISTACK_REFERENCE", bench.path("reference"));
+    let output = command.output().expect("it runs");
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let own = rows.as_array().expect("a list").iter();
+    let own = own.filter(|row| row["engine"] == "yade");
+    let verdicts = own.map(|row| row["verdict"].as_str().expect("a word").to_owned());
+    let verdicts = verdicts.collect();
+    (
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+        verdicts,
+    )
+}
+
+#[test]
+fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
+    let bench = Bench::without_engines();
+    copy_recordings("yade", &bench.path("reference/yade"), |provenance| {
+        provenance.replace("\"version\": \"20", "\"version\": \"21")
+    });
+    let probes = bench.path("reference/probes");
+    fs::create_dir_all(&probes).expect("a directory");
+    let recorded = format!("{}/reference/probes", env!("CARGO_MANIFEST_DIR"));
+    fs::copy(format!("{recorded}/yade.json"), probes.join("yade.json")).expect("a copy");
+    let (message, verdicts) = yade_notes_and_verdicts(&bench);
+    assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
+    assert!(
+        message.contains("its probe was made with another program (yade 2023.02a"),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_recorded_probe_of_another_engine_does_not_stand_in() {
+    let bench = Bench::without_engines();
+    copy_recordings("yade", &bench.path("reference/yade"), str::to_owned);
+    let probes = bench.path("reference/probes");
+    fs::create_dir_all(&probes).expect("a directory");
+    let recorded = format!("{}/reference/probes", env!("CARGO_MANIFEST_DIR"));
+    fs::copy(
+        format!("{recorded}/yade-facet.json"),
+        probes.join("yade.json"),
+    )
+    .expect("a copy");
+    let (message, verdicts) = yade_notes_and_verdicts(&bench);
+    assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
+    assert!(
+        message.contains("its contact convention could not be measured"),
+        "{message}"
+    );
+}

@@ -6,6 +6,10 @@ use common::replay::{self, Disturbance};
 use common::{Bench, json, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
+use std::path::{Path, PathBuf};
+use tristack::archive::ProbeRecord;
+use tristack::engine::EngineName;
+use tristack::stack::ContactTest;
 use tristack::trace::MotionRow;
 
 const PROPERTIES_OF_ONE_ENGINE: usize = 41;
@@ -119,19 +123,106 @@ fn an_engine_that_does_not_answer_the_probe_is_not_judged() {
 
 #[test]
 fn a_damaged_probe_in_the_store_is_made_anew() {
-    let bench = Bench::without_engines();
-    let line = "probe --engines native --format csv";
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let line = "probe --engines yade --format csv";
     let first = standard_output(&mut bench.tristack(line));
-    let entry = fs::read_dir(bench.path("store/probes"))
-        .expect("probes")
-        .flatten()
-        .next()
-        .expect("an entry");
-    fs::write(entry.path(), "{").expect("damage");
+    fs::write(stored_probe(&bench), "{").expect("damage");
     let message = standard_error(&mut bench.tristack(line));
     assert!(
         message.contains("damaged probe in the store, made anew"),
         "{message}"
     );
     assert_eq!(standard_output(&mut bench.tristack(line)), first);
+}
+
+fn stored_probe(bench: &Bench) -> PathBuf {
+    let mut entries = fs::read_dir(bench.path("store/probes")).expect("probes");
+    let entry = entries.next().expect("an entry").expect("it is readable");
+    entry.path()
+}
+
+/// As if the code had been told something else, say another damping, when it was probed.
+fn told_otherwise(probe: &Path) {
+    let text = fs::read_to_string(probe).expect("a probe");
+    let hash = "\"told_hash\":\"";
+    assert!(text.contains(hash));
+    fs::write(probe, text.replacen(hash, &format!("{hash}0"), 1)).expect("a file");
+}
+
+#[test]
+fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let line = "probe --engines yade --format csv";
+    let first = standard_output(&mut bench.tristack(line));
+    let stored = stored_probe(&bench);
+    let kept = fs::read_to_string(&stored).expect("a probe");
+    told_otherwise(&stored);
+    assert_eq!(standard_output(&mut bench.tristack(line)), first);
+    let anew = fs::read_to_string(&stored).expect("a probe");
+    let answers = |text: &str| json(text)["answers"].clone();
+    assert_eq!(answers(&anew), answers(&kept));
+}
+
+#[test]
+fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
+    let bench = Bench::without_engines();
+    let probes = bench.path("reference/probes");
+    fs::create_dir_all(&probes).expect("a directory");
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
+    fs::copy(recorded, probes.join("lammps.json")).expect("a copy");
+    told_otherwise(&probes.join("lammps.json"));
+    let mut command = bench.tristack("probe");
+    let output = command
+        .env("TRISTACK_REFERENCE", bench.path("reference"))
+        .output()
+        .expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    assert!(
+        message.contains("lammps.json was made with another deck"),
+        "{message}"
+    );
+    assert!(
+        message.contains("tristack record --engines lammps"),
+        "{message}"
+    );
+}
+
+/// The three floors of YADE share their deck: nothing but an argument is between them.
+#[test]
+fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
+    let record = ProbeRecord::load(&recorded).expect("a record");
+    let test = record.expect("it is there").answers[0].test;
+    let floors = [
+        EngineName::Yade,
+        EngineName::YadeFacet,
+        EngineName::YadeWall,
+    ];
+    let hashes = floors.map(|floor| floor.probe_hash(&test));
+    assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[0]);
+    let mut other = test;
+    other.convention.restitution *= 1.0 + 1e-12;
+    for name in EngineName::ALL {
+        assert_ne!(name.probe_hash(&test), name.probe_hash(&other), "{name}");
+    }
+}
+
+/// On another machine the spin to the brink of sliding may be another one in its last digit.
+#[test]
+fn a_record_from_another_machine_stays_valid() {
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
+    let record = ProbeRecord::load(&recorded).expect("a record");
+    let record = record.expect("it is there");
+    let todays = |test: &ContactTest| EngineName::Lammps.probe_hash(test);
+    assert_eq!(record.outdated(todays), None);
+    let mut asked: Vec<ContactTest> = record.answers.iter().map(|one| one.test).collect();
+    for test in &mut asked {
+        test.launches[0].spin *= 1.0 + 1e-11;
+    }
+    let motions = record.answer(&asked).expect("all are answered");
+    let recorded = record.answers.iter().map(|one| one.motion.clone());
+    assert_eq!(motions, recorded.collect::<Vec<_>>());
 }

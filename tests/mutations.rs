@@ -242,8 +242,9 @@ fn with_settings<T>(action: impl FnOnce(&Settings) -> T) -> T {
 fn differing_properties(mutation: Mutation) -> Vec<String> {
     let participants = [TwinEngine::participant(mutation)];
     let probed = with_settings(|settings| probe_all(&participants, settings, &Silent));
-    let findings = probed[0].as_ref().expect("the probe works");
-    let off = findings
+    let probe = probed[0].as_ref().expect("the probe works");
+    let off = probe
+        .findings
         .iter()
         .filter(|finding| finding.verdict != Verdict::Agrees);
     off.map(|finding| finding.property.clone()).collect()

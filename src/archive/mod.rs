@@ -10,6 +10,6 @@ mod provenance;
 mod reading;
 
 pub use entry::{Archive, ArchiveError, Run, write_atomically};
-pub use probe_record::ProbeRecord;
+pub use probe_record::{Answer, ProbeRecord};
 pub use provenance::{Identity, Provenance};
 pub use reading::Reading;

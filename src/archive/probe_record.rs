@@ -13,7 +13,19 @@ pub struct ProbeRecord {
     /// Who answered, how and when.
     pub provenance: Provenance,
     /// Each micro-test and its outcome.
-    pub outcomes: Vec<(ContactTest, Motion)>,
+    pub answers: Vec<Answer>,
+}
+
+/// What a code answered to one micro-test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// The question.
+    pub test: ContactTest,
+    /// SHA-256 of all that the program was given with it.
+    pub told_hash: String,
+    /// What came out.
+    pub motion: Motion,
 }
 
 /// Spins to the brink of sliding are measured, and may differ between machines in the last of their eleven
@@ -49,7 +61,7 @@ impl ProbeRecord {
                 path: path.to_owned(),
                 message: error.to_string(),
             })?;
-        for (test, motion) in &record.outcomes {
+        for Answer { test, motion, .. } in &record.answers {
             Motion::new(motion.rows().to_vec(), test.steps).map_err(|source| {
                 ArchiveError::Series {
                     path: path.to_owned(),
@@ -75,11 +87,18 @@ impl ProbeRecord {
     /// The outcomes of `tests`, in their order, if every one of them is there.
     pub fn answer(&self, tests: &[ContactTest]) -> Option<Vec<Motion>> {
         let answers = tests.iter().map(|test| {
-            let mut known = self.outcomes.iter();
-            let found = known.find(|(known, _)| is_same(known, test));
-            found.map(|(_, motion)| motion.clone())
+            let mut known = self.answers.iter();
+            let found = known.find(|known| is_same(&known.test, test));
+            found.map(|known| known.motion.clone())
         });
         answers.collect()
+    }
+
+    /// An answer to something else than `told_hash`, which is today's, says of its micro-test. The hash is that
+    /// of the recorded micro-test, whose spins may differ in their last digits from those asked here.
+    pub fn outdated(&self, told_hash: impl Fn(&ContactTest) -> String) -> Option<&Answer> {
+        let mut answers = self.answers.iter();
+        answers.find(|answer| answer.told_hash != told_hash(&answer.test))
     }
 }
 

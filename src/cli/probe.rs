@@ -36,7 +36,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let reporter = Reporter::new();
     let probed = probe_all(&participants, &settings, &reporter);
     drop(reporter);
-    let findings: Vec<Finding> = probed.iter().flatten().flatten().cloned().collect();
+    let findings: Vec<Finding> = probed
+        .iter()
+        .flatten()
+        .flat_map(|probe| probe.findings.clone())
+        .collect();
     super::print(&match arguments.format {
         Format::Table => probe_table(&findings).into_bytes(),
         Format::Json => probe_json(&findings).into_bytes(),

@@ -210,7 +210,7 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
     let protocol = match arguments.speed {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
-        None => planned_protocol(&limit, DEFAULT_SPEED, arguments.dt),
+        None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),
     };
     let protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
     let case = Case {

@@ -12,6 +12,7 @@ mod recorded;
 mod regimes;
 mod schedule;
 mod store;
+mod touch;
 mod trajectory;
 mod twin;
 mod verdict;
@@ -24,7 +25,9 @@ pub use plan::{
     PAPER_WALL_SPEED, SHORT_RAMP_RUN, no_yield, plan, plan_literal, planned_protocol,
     protocol_at_speed, yielding_frictions,
 };
-pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
+pub use probing::{
+    Findings, ProbeError, Probed, contradictions, is_contradicted, probe_all, record_probe,
+};
 pub use profile::{PAPER_STIFFNESSES, Profile};
 pub use reading::{Load, read_all};
 pub use recorded::{Recorded, RecordedError};

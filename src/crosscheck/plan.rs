@@ -1,11 +1,12 @@
 //! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
 
+use super::touch::gentle_speed;
 use crate::engine::EngineName;
 use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
-/// Wall speeds in units of the predicted displacement (see [`planned_protocol`]), fastest first, each half the one before.
+/// Wall speeds in units of the predicted displacement (see `speed_scale`), fastest first, each half the one before.
 pub const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
 
 /// Position of the run at the middle speed, with which the two further runs are compared.
@@ -29,6 +30,10 @@ const FINE_FROM: f64 = 0.98;
 const TRAVEL_MARGIN: f64 = 1.05;
 /// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
+/// Longest duration of a compression that is slowed down for a gentle touch: 2.9 × 10⁶ steps.
+const LONGEST_COMPRESSION: f64 = 2.9e5;
+/// Planned speeds have six digits.
+const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// There is nothing to run because the stack does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -79,6 +84,9 @@ pub struct Measurement {
     pub model_form: Option<f64>,
     /// How its yield force is read.
     pub method: Method,
+    /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
+    /// that may take too long.
+    pub is_gentle: bool,
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
     /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
@@ -107,7 +115,7 @@ fn planned(
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / (paper + 3.0));
     let protocols = match method {
-        Method::Extrapolated => planned_protocols(&limit),
+        Method::Extrapolated => planned_protocols(&limit, stack, &convention),
         Method::Literal => literal_protocols(&limit),
     };
     let protocols = protocols.into_iter().flatten();
@@ -116,22 +124,29 @@ fn planned(
         convention,
         protocol,
     });
+    let cases: Vec<Case> = cases.collect();
+    let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
     Measurement {
         engine,
         stack: *stack,
         convention,
         method,
-        cases: cases.collect(),
+        is_gentle: is_surely_gentle(fastest, stack)
+            || fastest <= LEAST_DIGITS * gentle_speed(stack, &convention),
+        cases,
         limit,
         model_form,
     }
 }
 
-fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
-    let mut protocols = Vec::new();
-    for speed in SPEEDS {
-        protocols.push(planned_protocol(limit, speed, TIME_STEP)?);
-    }
+fn planned_protocols(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &Convention,
+) -> Option<Vec<Protocol>> {
+    let scale = speed_scale(limit, stack, convention)?;
+    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, TIME_STEP));
+    let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
     let middle = protocols[MIDDLE_RUN];
     protocols.push(Protocol {
         time_step: 2.0 * TIME_STEP,
@@ -152,11 +167,37 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     protocols.into_iter().collect()
 }
 
-/// The protocol of a run whose wall moves by `speed` times the predicted displacement z per unit time, or
-/// times its own predicted travel where that is smaller, so that no yield comes too soon after the start.
-/// `None` where nothing yields.
-pub fn planned_protocol(limit: &Limit, speed: f64, time_step: f64) -> Option<Protocol> {
-    let scale = limit.z?.min(limit.wall_travel?);
+/// The displacement by which wall speeds are measured: z at the predicted yield, or the predicted travel of
+/// the wall where that is smaller, so that no yield comes too soon after the start; less where the fastest
+/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. `None`
+/// where nothing yields.
+fn speed_scale(limit: &Limit, stack: &Stack, convention: &Convention) -> Option<f64> {
+    let [fastest, _, slowest] = SPEEDS;
+    let travel = limit.wall_travel?;
+    let scale = limit.z?.min(travel);
+    if is_surely_gentle(fastest * scale, stack) {
+        return Some(scale);
+    }
+    let gentle = gentle_speed(stack, convention) / fastest;
+    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
+    Some(scale.min(gentle.max(affordable)))
+}
+
+/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
+fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
+    wall_speed <= 0.5 * stack.epsilon()
+}
+
+/// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the
+/// speeds of a measurement are measured. `None` where nothing yields.
+pub fn planned_protocol(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &Convention,
+    speed: f64,
+    time_step: f64,
+) -> Option<Protocol> {
+    let scale = speed_scale(limit, stack, convention)?;
     protocol_at_speed(limit, speed * scale, time_step)
 }
 

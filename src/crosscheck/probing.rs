@@ -2,11 +2,10 @@
 
 use super::recorded::RecordedError;
 use super::schedule::{Participant, Progress, Settings};
-use crate::archive::{ArchiveError, ProbeRecord, Provenance};
+use crate::archive::{Answer, ArchiveError, Identity, ProbeRecord, Provenance};
 use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::probe::{Finding, probe};
 use crate::stack::{ContactTest, sha256_hex};
-use crate::trace::Motion;
 use crate::verdict::Verdict;
 use std::time::Instant;
 use thiserror::Error;
@@ -30,8 +29,17 @@ pub enum ProbeError {
     Outdated(EngineName),
 }
 
+/// What was found out about a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// The program that was probed.
+    pub identity: Identity,
+    /// Its properties.
+    pub findings: Vec<Finding>,
+}
+
 /// The findings on one participant.
-pub type Probed = Result<Vec<Finding>, ProbeError>;
+pub type Probed = Result<Findings, ProbeError>;
 
 /// Probes `participants`, as many at a time as `settings` allow, and returns the findings in their order.
 pub fn probe_all(
@@ -63,7 +71,10 @@ fn findings(who: &Participant, settings: &Settings, progress: &dyn Progress) -> 
     let judged = properties
         .into_iter()
         .map(|property| property.judge(who.name, version));
-    Ok(judged.collect())
+    Ok(Findings {
+        findings: judged.collect(),
+        identity: record.provenance.identity.clone(),
+    })
 }
 
 /// The answers of a participant to all micro-tests: from the store, live, or recorded.
@@ -78,10 +89,14 @@ pub fn record_probe(
     let Some(engine) = who.engine.as_deref() else {
         return Ok(settings.recorded.probe(who.name)?);
     };
+    // The native engine answers faster than its answers are read, and all of tristack decides what they are.
+    if who.name == EngineName::Native {
+        return ask(engine, settings);
+    }
     let address = address(engine);
     if !settings.fresh {
         match settings.store.probe(&address) {
-            Ok(Some(record)) if is_complete(&record, who.name) => return Ok(record),
+            Ok(Some(record)) if is_current(&record, who.name) => return Ok(record),
             Ok(_) => {}
             Err(error) => {
                 progress.warn(&format!("damaged probe in the store, made anew: {error}"));
@@ -95,15 +110,18 @@ pub fn record_probe(
     Ok(record)
 }
 
-/// Whether `record` answers everything that is asked today.
-fn is_complete(record: &ProbeRecord, name: EngineName) -> bool {
+/// Whether `record` answers everything that is asked today, as it is asked today.
+fn is_current(record: &ProbeRecord, name: EngineName) -> bool {
+    if record.outdated(|test| name.probe_hash(test)).is_some() {
+        return false;
+    }
     let answered = |tests: &[ContactTest]| record.answer(tests).ok_or(());
     probe(&name.declaration(), answered).is_ok()
 }
 
 /// Content address of the probe of an engine: who it is, and which deck it is given.
 fn address(engine: &dyn Engine) -> String {
-    let parts = serde_json::json!([engine.identity(), engine.name().probe_hash()]);
+    let parts = serde_json::json!([engine.identity(), engine.name().static_probe_hash()]);
     sha256_hex(parts.to_string().as_bytes())
 }
 
@@ -115,9 +133,10 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         .prefix(&prefix)
         .tempdir_in(&work)
         .map_err(ArchiveError::writing(&work))?;
-    let mut outcomes: Vec<(ContactTest, Motion)> = Vec::new();
+    let name = engine.name();
+    let mut answers: Vec<Answer> = Vec::new();
     let mut round = 0;
-    let answered = probe(&engine.name().declaration(), |tests| {
+    let answered = probe(&name.declaration(), |tests| {
         round += 1;
         let place = directory.path().join(format!("round-{round}"));
         let workplace = Workplace {
@@ -126,7 +145,11 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
             interrupt: settings.interrupt,
         };
         let motions = engine.probe(tests, &workplace)?;
-        outcomes.extend(tests.iter().copied().zip(motions.iter().cloned()));
+        answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
+            test: *test,
+            told_hash: name.probe_hash(test),
+            motion: motion.clone(),
+        }));
         Ok(motions)
     });
     if let Err(failure) = answered {
@@ -137,13 +160,60 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         return Err(failure.into());
     }
     let command = vec!["tristack".to_owned(), "probe".to_owned()];
-    let steps = outcomes.iter().map(|(test, _)| test.steps).sum();
+    let steps = answers.iter().map(|answer| answer.test.steps).sum();
     let seconds = start.elapsed().as_secs_f64();
-    let hash = engine.name().probe_hash();
+    let told: Vec<&str> = answers.iter().map(|one| one.told_hash.as_str()).collect();
+    let hash = sha256_hex(told.concat().as_bytes());
     Ok(ProbeRecord {
         provenance: Provenance::now(engine.identity().clone(), hash, command, steps, seconds),
-        outcomes,
+        answers,
     })
+}
+
+/// Whether the declaration is known to be wrong: a property that could not be measured well enough says
+/// nothing.
+pub fn is_contradicted(probed: &Probed) -> bool {
+    let differs = |finding: &Finding| finding.verdict == Verdict::Differs;
+    probed
+        .as_ref()
+        .is_ok_and(|probe| probe.findings.iter().any(differs))
+}
+
+/// Whether every torque arm was measured and is as declared.
+pub fn arms_are_measured(probed: &Probed) -> bool {
+    let Ok(probe) = probed else {
+        return false;
+    };
+    let arms = probe.findings.iter();
+    let mut arms = arms.filter(|finding| finding.property.ends_with("_arm"));
+    arms.all(|finding| finding.verdict == Verdict::Agrees)
+}
+
+/// The first of the programs whose runs a probe of another program must not vouch for, if there is one.
+pub fn other_program<'a>(
+    probed: &Probed,
+    mut runs: impl Iterator<Item = &'a Identity>,
+) -> Option<String> {
+    let probe = &probed.as_ref().ok()?.identity;
+    let other = runs.find(|identity| *identity != probe)?;
+    let engine = &probe.engine;
+    Some(format!(
+        "its probe was made with another program ({}) than its runs ({}); refresh both with: tristack record \
+         --engines {engine}",
+        described(probe),
+        described(other)
+    ))
+}
+
+/// A program in one line.
+fn described(identity: &Identity) -> String {
+    let package = identity.package.as_deref().unwrap_or("no package");
+    let hash = identity.program_hash.as_deref().unwrap_or("no program");
+    let hash = hash.get(..12).unwrap_or(hash);
+    format!(
+        "{} {}, {package}, {hash}",
+        identity.engine, identity.version
+    )
 }
 
 /// The findings that are no agreement, one line each; what is unknown as well if the probe failed.
@@ -152,21 +222,89 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
         Err(error) => vec![format!(
             "its contact convention could not be measured: {error}"
         )],
-        Ok(findings) => {
-            let contradicting = findings
-                .iter()
-                .filter(|finding| finding.verdict != Verdict::Agrees);
+        Ok(probe) => {
+            let contradicting = probe.findings.iter();
+            let contradicting = contradicting.filter(|one| one.verdict != Verdict::Agrees);
+            let mut contradicting: Vec<&Finding> = contradicting.collect();
+            contradicting.sort_by_key(|finding| finding.verdict != Verdict::Differs);
             contradicting
+                .into_iter()
                 .map(|finding| {
                     let measured = finding
                         .measured
                         .map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
+                    let says = match finding.verdict {
+                        Verdict::Differs => "contradicts its declaration",
+                        _ => "decides nothing about its declaration",
+                    };
                     format!(
-                        "its probe contradicts its declaration: {} is {measured}, declared {}",
+                        "its probe {says}: {} is {measured}, declared {}",
                         finding.property, finding.declared
                     )
                 })
                 .collect()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn probed(verdicts: &[Verdict]) -> Probed {
+        let finding = |&verdict: &Verdict| Finding {
+            engine: EngineName::Yade,
+            version: String::new(),
+            property: verdict.to_string(),
+            measured: Some(1.0),
+            uncertainty: Some(1.0),
+            declared: 1.0,
+            verdict,
+        };
+        Ok(Findings {
+            identity: Identity {
+                engine: "yade".to_owned(),
+                version: "1".to_owned(),
+                package: None,
+                program_hash: None,
+            },
+            findings: verdicts.iter().map(finding).collect(),
+        })
+    }
+
+    #[test]
+    fn only_a_property_that_differs_contradicts() {
+        let unknown = probed(&[Verdict::Agrees, Verdict::Inconclusive]);
+        assert!(!is_contradicted(&unknown));
+        assert_eq!(contradictions(&unknown).len(), 1);
+        let wrong = probed(&[Verdict::Inconclusive, Verdict::Differs]);
+        assert!(is_contradicted(&wrong));
+        let first = &contradictions(&wrong)[0];
+        assert!(
+            first.contains("contradicts its declaration: differs"),
+            "{first}"
+        );
+        let of_arm = |verdict| {
+            let mut probed = probed(&[verdict]).unwrap();
+            probed.findings[0].property = "floor_torque_arm".to_owned();
+            arms_are_measured(&Ok(probed))
+        };
+        assert!(of_arm(Verdict::Agrees) && !of_arm(Verdict::Inconclusive));
+        assert!(!is_contradicted(&Err(ProbeError::Outdated(
+            EngineName::Yade
+        ))));
+    }
+
+    #[test]
+    fn a_probe_vouches_for_runs_of_its_own_program_alone() {
+        let probed = probed(&[Verdict::Agrees]);
+        let own = probed.as_ref().unwrap().identity.clone();
+        assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
+        let newer = Identity {
+            program_hash: Some("00".to_owned()),
+            ..own.clone()
+        };
+        let note = other_program(&probed, [&own, &newer].into_iter()).unwrap();
+        assert!(note.contains("tristack record --engines yade"), "{note}");
     }
 }

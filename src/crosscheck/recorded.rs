@@ -108,19 +108,21 @@ impl Recorded {
     /// The recorded probe of `engine`.
     ///
     /// # Errors
-    /// If there is none, or it is damaged, or it was made with another deck.
+    /// If there is none, or it is damaged, or a micro-test was put with another deck, other parameters or
+    /// arguments.
     pub fn probe(&self, engine: EngineName) -> Result<ProbeRecord, RecordedError> {
         let path = self.probe_path(engine);
-        let Some(record) = ProbeRecord::load(&path)? else {
+        let record = ProbeRecord::load(&path)?;
+        let own = |record: &ProbeRecord| record.provenance.identity.engine == engine.as_str();
+        let Some(record) = record.filter(own) else {
             return Err(RecordedError::Absent { engine, path });
         };
-        let current = engine.probe_hash();
-        if record.provenance.deck_hash != current {
+        if let Some(answer) = record.outdated(|test| engine.probe_hash(test)) {
             return Err(RecordedError::OtherDeck {
                 engine,
                 path,
-                recorded: record.provenance.deck_hash,
-                current,
+                recorded: answer.told_hash.clone(),
+                current: engine.probe_hash(&answer.test),
             });
         }
         Ok(record)

@@ -201,12 +201,22 @@ impl EngineName {
         }
     }
 
-    /// Hash of the deck of the micro-tests, or of the sources of the native engine.
-    pub fn probe_hash(self) -> String {
+    /// Hash of the deck of the micro-tests alone, or of the sources of the native engine.
+    pub fn static_probe_hash(self) -> String {
         match self.adapter() {
             None => crate::dem::SOURCE_DIGEST.clone(),
             Some(adapter) => adapter.static_hash(&adapter.probe),
         }
+    }
+
+    /// Hash of everything that this version of tristack would give the engine for `test`, as
+    /// [`Self::deck_hash`] for a case.
+    pub fn probe_hash(self, test: &ContactTest) -> String {
+        let told = match self.adapter() {
+            None => ParameterFile::Json.content(&test.parameters()),
+            Some(adapter) => adapter.told(&adapter.probe, test),
+        };
+        sha256_hex(format!("{}\n{told}", self.static_probe_hash()).as_bytes())
     }
 
     /// The engine as it is installed here; `None` if it is not.

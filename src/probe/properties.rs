@@ -13,7 +13,7 @@ use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 
 /// Largest deviation of an external code that agrees, relative to the declared value (to 1 where that is
-/// less than 0.1): a tenth of the bar for yield forces, and a thousand times what was ever seen.
+/// 0): a tenth of the bar for yield forces, and a thousand times what was ever seen.
 pub const TOLERANCE: f64 = 1e-6;
 
 /// The same for the native engine, whose rounding alone is between it and its declaration.
@@ -66,7 +66,7 @@ impl Property {
 
     /// The verdict, as a row for `engine`.
     pub fn judge(self, engine: EngineName, version: &str) -> Finding {
-        let scale = if self.declared.abs() < 0.1 {
+        let scale = if self.declared == 0.0 {
             1.0
         } else {
             self.declared.abs()
@@ -181,5 +181,22 @@ fn damping_share(convention: &Convention) -> f64 {
     match convention.coulomb_operand {
         CoulombOperand::SpringAndDamping => 1.0,
         CoulombOperand::Spring => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_declared_value_has_a_tolerance_of_its_own() {
+        let verdict = |measured: f64, declared: f64| {
+            let property = Property::new("damping", Measured::new(measured, 0.0), declared);
+            property.judge(EngineName::Yade, "").verdict
+        };
+        assert_eq!(verdict(0.067 * (1.0 + 0.9e-6), 0.067), Verdict::Agrees);
+        assert_eq!(verdict(0.067 * (1.0 + 1.1e-6), 0.067), Verdict::Differs);
+        assert_eq!(verdict(0.9e-6, 0.0), Verdict::Agrees);
+        assert_eq!(verdict(1.1e-6, 0.0), Verdict::Differs);
     }
 }

@@ -29,7 +29,7 @@ fn question(judgement: &Judgement, measurement: &Measurement) -> String {
     let convention = &measurement.convention;
     format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
-         1. Reference value D: exact quasi-static limit with arms {}, {} (measured: tristack probe): F = {}\n   \
+         1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
          (guaranteed to {FLOOR:e} of F + 3; docs/theory.md). Model form, its distance from the paper's \
          convention: {}\n   of F + 3; a property of the model, no error of the code.\n\n",
         row.engine,
@@ -41,6 +41,11 @@ fn question(judgement: &Judgement, measurement: &Measurement) -> String {
         measurement.stack.cylinder_friction,
         convention.pair_arm,
         convention.floor_arm,
+        if judgement.arms_are_measured {
+            "measured: tristack probe"
+        } else {
+            "declared"
+        },
         optional(row.reference_force, |force| significant(force, 12)),
         optional(row.model_form, relative),
     )

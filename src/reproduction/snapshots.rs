@@ -29,12 +29,14 @@ pub struct Snapshots {
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
     let limit = quasistatic_limit(&stack, 0.0, 0.0);
-    let Some(protocol) = planned_protocol(&limit, SPEED, TIME_STEP) else {
+    let convention = EngineName::Native.convention();
+    let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
+    let Some(protocol) = protocol else {
         return Ok(None);
     };
     let case = Case {
         stack,
-        convention: EngineName::Native.convention(),
+        convention,
         protocol,
     };
     let run = compress_stack_into_frames(&case, || !interrupt.requested());

@@ -64,12 +64,12 @@ pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let record = ProbeRecord::load(&recorded)
         .expect("a record")
         .expect("it is there");
-    for (test, motion) in record.outcomes {
-        let parameters = ParameterFile::Json.content(&test.parameters());
+    for answer in record.answers {
+        let parameters = ParameterFile::Json.content(&answer.test.parameters());
         let address = sha256_hex(parameters.as_bytes());
         let mut writer =
             csv::Writer::from_path(replay.join(format!("{address}.csv"))).expect("a file");
-        for row in motion.rows() {
+        for row in answer.motion.rows() {
             writer.serialize(change(*row)).expect("a row");
         }
     }

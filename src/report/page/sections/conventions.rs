@@ -49,5 +49,5 @@ pub fn section(reproduction: &Reproduction) -> Section {
 fn findings(reproduction: &Reproduction) -> Vec<Finding> {
     let probes = reproduction.probes.iter();
     let known = probes.filter_map(|(_, probed)| probed.as_ref().ok());
-    known.flatten().cloned().collect()
+    known.flat_map(|probed| probed.findings.clone()).collect()
 }

@@ -131,7 +131,7 @@ fn decks() -> DataTable {
         table.push(vec![
             engine.to_string(),
             short(&engine.static_deck_hash()),
-            short(&engine.probe_hash()),
+            short(&engine.static_probe_hash()),
         ]);
     }
     DataTable {

@@ -22,7 +22,7 @@ pub struct CriticalPush {
     pub width: f64,
 }
 
-/// A* of each of `stacks` by bisection, every step a native run under the paper's convention; `None` where
+/// A*, the smallest push beyond which c appears, of each of `stacks` by bisection, every step a native run under the paper's convention; `None` where
 /// c > 0 already at A = 0, or c = 0 up to A = 2 ε.
 ///
 /// # Errors

@@ -1,8 +1,9 @@
 //! What the decks of the external codes are told, and which deck it is.
 
 use insta::assert_snapshot;
-use tristack::crosscheck::plan;
+use tristack::crosscheck::{Workload, plan};
 use tristack::engine::{EngineName, ParameterFile, Task};
+use tristack::reproduction::plan_preparation;
 use tristack::stack::Stack;
 
 fn parameters() -> serde_json::Value {
@@ -32,28 +33,44 @@ fn decks_are_the_ones_that_were_recorded() {
 /// The examples beside the decks name every parameter that the program would give.
 #[test]
 fn examples_for_running_by_hand_are_complete() {
-    let names = |text: &str| {
-        let value: serde_json::Value = serde_json::from_str(text).expect("JSON");
-        let object = value.as_object().expect("an object").clone();
-        let mut names: Vec<String> = object.keys().cloned().collect();
-        names.sort();
-        names
-    };
-    let given = names(&ParameterFile::Json.content(&parameters()));
-    assert_eq!(
-        names(include_str!("../yade_scripts/parameters.json")),
-        given
-    );
+    let given = names_in_json(&ParameterFile::Json.content(&parameters()));
+    let json = include_str!("../yade_scripts/parameters.json");
+    assert_eq!(names_in_json(json), given);
     for example in [
         include_str!("../liggghts_inputs/parameters.in"),
         include_str!("../lammps_inputs/parameters.in"),
     ] {
-        let mut in_example: Vec<&str> = example
-            .lines()
-            .filter(|line| line.starts_with("variable"))
-            .filter_map(|line| line.split_whitespace().nth(1))
-            .collect();
-        in_example.sort_unstable();
-        assert_eq!(in_example, given);
+        assert_eq!(names_of_variables(example), given);
     }
+}
+
+/// The same for the preparation between side walls.
+#[test]
+fn examples_of_side_walls_are_complete() {
+    let stack = Stack::paper(0.2, 1e2);
+    let plan = plan_preparation(EngineName::Yade, EngineName::Yade, &stack, Some(0.005));
+    let parameters = plan.cases()[1].parameters();
+    let given = names_in_json(&ParameterFile::Json.content(&parameters));
+    let json = include_str!("../yade_scripts/side_walls_parameters.json");
+    let variables = include_str!("../liggghts_inputs/side_walls_parameters.in");
+    assert_eq!(names_in_json(json), given);
+    assert_eq!(names_of_variables(variables), given);
+}
+
+fn names_in_json(text: &str) -> Vec<String> {
+    let value: serde_json::Value = serde_json::from_str(text).expect("JSON");
+    let object = value.as_object().expect("an object");
+    let mut names: Vec<String> = object.keys().cloned().collect();
+    names.sort();
+    names
+}
+
+fn names_of_variables(text: &str) -> Vec<String> {
+    let variables = text.lines().filter(|line| line.starts_with("variable"));
+    let mut names: Vec<String> = variables
+        .filter_map(|line| line.split_whitespace().nth(1))
+        .map(str::to_owned)
+        .collect();
+    names.sort();
+    names
 }

@@ -6,7 +6,11 @@ mod common;
 use clap::ValueEnum;
 use common::{Bench, assert_only, json};
 use std::fs;
-use tristack::engine::EngineName;
+use tristack::crosscheck::plan;
+use tristack::dem::compress_stack;
+use tristack::engine::{EngineName, FailureKind, Interrupt, Workplace};
+use tristack::stack::{Case, Preparation, SideWalls, Stack};
+use tristack::trace::{Trace, YieldEstimates};
 
 const EXTERNAL: [EngineName; 5] = [
     EngineName::Liggghts,
@@ -175,6 +179,99 @@ fn a_live_run_repeats_its_recording() {
         println!("{engine}: largest deviation from its recording {largest:e}");
         // Another build of the same version may round differently; positions are of order 1.
         assert!(largest < 1e-9, "{engine}: {largest:e}");
+    }
+}
+
+/// What is left between a code and a native twin with its convention, after a preparation between side walls,
+/// must be less than what halving the time step changes in the twin.
+#[test]
+fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_them() {
+    for engine in installed() {
+        let pushes: &[f64] = match engine {
+            EngineName::Lammps => continue,
+            EngineName::Liggghts | EngineName::Yade => &[0.005, 0.05],
+            _ => &[0.05],
+        };
+        for push in pushes {
+            let bench = Bench::with_system_programs();
+            let line = format!(
+                "simulate --engine {engine} --mu 0.2 --stiffness 100 --preparation side-walls \
+                 --push {push} --out run"
+            );
+            bench.tristack(&line).assert().code(0);
+            let case = Case::read(&bench.path("run/case.json")).expect("a case");
+            let mut halved = case;
+            halved.protocol.time_step *= 0.5;
+            let series = fs::File::open(bench.path("run/series.csv")).expect("a series");
+            let schedule = case.protocol.schedule();
+            let own = Trace::read(series, &schedule, case.protocol.time_step).expect("a series");
+            let native = |case: &Case| compress_stack(case, || true).expect("a finite series");
+            let own = contact_and_slip(&own, &case);
+            let twin = contact_and_slip(&native(&case), &case);
+            let finer = contact_and_slip(&native(&halved), &halved);
+            for (what, index) in [("c", 0), ("F", 1)] {
+                let distance = (own[index] - twin[index]).abs();
+                let allowed = (twin[index] - finer[index]).abs();
+                println!(
+                    "{engine}, A = {push}: {what} = {}, {distance:.1e} of {allowed:.1e}",
+                    own[index]
+                );
+                assert!(
+                    distance <= allowed,
+                    "{engine} {push}: {what} {distance:e} {allowed:e}"
+                );
+            }
+        }
+    }
+}
+
+/// c at the beginning of the compression and F at the onset of slip, in m g.
+fn contact_and_slip(trace: &Trace, case: &Case) -> [f64; 2] {
+    let stack = &case.stack;
+    let contact = trace.samples()[0].bottom_contact_force() * stack.stiffness;
+    let slip = YieldEstimates::read(trace, stack).slip;
+    [contact, slip.expect("an onset of slip").force]
+}
+
+/// One call may mix preparations, each of which has a deck of its own.
+#[test]
+fn cases_of_both_preparations_come_back_in_order() {
+    let interrupt = Interrupt::new();
+    for name in installed() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let workplace = Workplace {
+            directory: directory.path(),
+            time_limit: None,
+            interrupt: &interrupt,
+        };
+        // The shortest that is a run.
+        let mut ramp = plan(name, &Stack::paper(0.2, 1e2), name.convention()).cases[0];
+        ramp.protocol.wall_travel *= 0.01;
+        ramp.protocol.sampling.fine_from_travel = 0.0;
+        let mut walls = ramp;
+        walls.protocol.preparation = Preparation::SideWalls(SideWalls {
+            settle_time: 10.0,
+            rest_time: 10.0,
+            ..SideWalls::paper(0.0, 0.01)
+        });
+        let engine = name.find().expect("it is installed");
+        let mut results = Vec::new();
+        engine.run(&[ramp, walls, ramp], &workplace, &mut |index, result| {
+            results.push((index, result));
+        });
+        for (expected, (index, result)) in results.iter().enumerate() {
+            assert_eq!(expected, *index);
+            match result {
+                Ok(run) => assert_eq!(run.case, [ramp, walls, ramp][*index]),
+                Err(failure) => {
+                    assert_eq!((name, *index), (EngineName::Lammps, 1), "{failure}");
+                    assert!(matches!(failure.kind, FailureKind::Unsupported(_)));
+                }
+            }
+        }
+        assert_eq!(results.len(), 3);
+        let refused = results.iter().filter(|(_, result)| result.is_err()).count();
+        assert_eq!(refused, usize::from(name == EngineName::Lammps));
     }
 }
 

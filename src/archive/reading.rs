@@ -18,16 +18,21 @@ pub struct Reading {
     pub estimates: YieldEstimates,
     /// Wall force at the end, in m g.
     pub last_force: f64,
+    /// c between the bottom cylinders when the compression begins, in m g; absent from older recordings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_force: Option<f64>,
 }
 
 impl Reading {
     /// What is to be read off `run`.
     pub fn new(run: Run) -> Self {
         let stack = &run.case.stack;
-        let last = run.trace.samples().last();
+        let samples = run.trace.samples();
+        let (first, last) = (samples.first(), samples.last());
         Self {
             estimates: YieldEstimates::read(&run.trace, stack),
             last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
+            contact_force: first.map(|sample| sample.bottom_contact_force() * stack.stiffness),
             case: run.case,
             provenance: run.provenance,
         }

@@ -212,6 +212,8 @@ pub fn as_flag(error: InvalidValue) -> InvalidValue {
         "convention.floor_arm" => "--floor-arm",
         "protocol.wall_speed" => "--speed",
         "protocol.time_step" => "--dt",
+        "protocol.preparation.kind" => "--preparation",
+        "protocol.preparation.push" => "--push",
         other => other,
     };
     InvalidValue {

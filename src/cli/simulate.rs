@@ -6,27 +6,38 @@ use crate::archive::{ArchiveError, Run, write_atomically};
 use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
 use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::report::{Simulation, simulation_csv, simulation_json, simulation_table};
-use crate::stack::{Case, Stack};
+use crate::reproduction::between_side_walls;
+use crate::stack::{Case, InvalidValue, Protocol, SideWalls, Stack};
 use crate::theory::quasistatic_limit;
 use crate::trace::YieldEstimates;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Wall speed of a run for which none is given, in units of the predicted displacement z.
 const DEFAULT_SPEED: f64 = 1e-3;
 const DEFAULT_TIME_STEP: f64 = 0.1;
 
+/// How a stack is brought to rest before it is compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PreparationKind {
+    /// Gravity rises over 100 time units: no sliding, no force between the bottom cylinders
+    GravityRamp,
+    /// The paper's: side walls pushed in by A, top cylinder lowered at 0.1, walls withdrawn at 1e-3
+    SideWalls,
+}
+
 /// One compression run
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: tristack simulate --engine native --mu 0.3 --stiffness 1e3 --out run"
+    after_help = "Examples: tristack simulate --engine native --mu 0.3 --stiffness 1e3 --out run\n          \
+    tristack simulate --engine native --mu 0.2 --stiffness 1e2 --preparation side-walls --push 0.005"
 )]
 pub struct Arguments {
     /// Who runs it
     #[arg(long, value_enum)]
     engine: EngineName,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "speed", "dt"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "preparation", "push", "speed", "dt"])]
     case: Option<PathBuf>,
     /// Floor friction; a number or the word `critical`
     #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
@@ -43,6 +54,12 @@ pub struct Arguments {
     stack: StackOptions,
     #[command(flatten)]
     arms: ArmOptions,
+    /// How the stack is brought to rest; native, liggghts and yade offer side walls
+    #[arg(long, value_enum, default_value_t = PreparationKind::GravityRamp)]
+    preparation: PreparationKind,
+    /// How far each side wall is pushed in, A in r [default: 0]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    push: Option<f64>,
     /// Wall speed [default: 1e-3 of the predicted displacement at yield]
     #[arg(long, value_name = "V", allow_negative_numbers = true)]
     speed: Option<f64>,
@@ -112,6 +129,8 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
         let case = Case::read(path)?;
         arguments.engine.check_convention(&case.convention)?;
+        let preparation = &case.protocol.preparation;
+        arguments.engine.check_preparation(preparation)?;
         return Ok(case);
     }
     let (mu, stiffness) = (
@@ -129,10 +148,33 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     let case = Case {
         stack,
         convention,
-        protocol,
+        protocol: prepared(&protocol, arguments, &stack)?,
     };
     case.validate().map_err(as_flag)?;
     Ok(case)
+}
+
+/// `protocol` with the preparation that was asked for.
+fn prepared(
+    protocol: &Protocol,
+    arguments: &Arguments,
+    stack: &Stack,
+) -> Result<Protocol, InvalidValue> {
+    match (arguments.preparation, arguments.push) {
+        (PreparationKind::GravityRamp, None) => Ok(*protocol),
+        (PreparationKind::GravityRamp, Some(push)) => {
+            let accepted = "left out, unless --preparation is side-walls";
+            Err(InvalidValue::new("--push", push, accepted))
+        }
+        (PreparationKind::SideWalls, push) => {
+            // Adding zero turns -0 into 0, which is the same push and must be the same case.
+            let walls = SideWalls::paper(push.unwrap_or(0.0) + 0.0, stack.epsilon());
+            let protocol = between_side_walls(protocol, walls);
+            let accepted = arguments.engine.check_preparation(&protocol.preparation);
+            accepted.map_err(as_flag)?;
+            Ok(protocol)
+        }
+    }
 }
 
 fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Run, Box<Failure>> {

@@ -286,8 +286,9 @@ fn friction_note(measurement: &Measurement, estimates: &[YieldEstimates]) -> Opt
 /// of 1, 1/2 and 1/4 of the fastest: four steps at the fastest speed.
 const GRAINY_STEPS: f64 = 4.0;
 
-/// Uncertainty of the extrapolated peak beyond its budget, in m g.
-fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
+/// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
+/// `reference`; `None` where nothing is planned.
+pub fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
     let travel = measurement.limit.wall_travel?;
     let fastest = &measurement.cases.first()?.protocol;
     let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;

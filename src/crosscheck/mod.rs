@@ -18,10 +18,11 @@ mod verdict;
 
 pub use evidence::Evidence;
 pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
-pub use measure::{Judgement, measure};
+pub use measure::{Judgement, measure, peak_allowance};
 pub use plan::{
-    Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,
-    planned_protocol, protocol_at_speed, yielding_frictions,
+    COARSE_TIME_STEP_RUN, MIDDLE_RUN, Measurement, Method, NoYield, PAPER_TIME_STEP,
+    PAPER_WALL_SPEED, SHORT_RAMP_RUN, no_yield, plan, plan_literal, planned_protocol,
+    protocol_at_speed, yielding_frictions,
 };
 pub use probing::{ProbeError, Probed, contradictions, probe_all, record_probe};
 pub use profile::{PAPER_STIFFNESSES, Profile};

@@ -133,7 +133,6 @@ fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
         protocols.push(planned_protocol(limit, speed, TIME_STEP)?);
     }
     let middle = protocols[MIDDLE_RUN];
-    let Preparation::GravityRamp { rest_time, .. } = middle.preparation;
     protocols.push(Protocol {
         time_step: 2.0 * TIME_STEP,
         ..middle
@@ -141,7 +140,7 @@ fn planned_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     protocols.push(Protocol {
         preparation: Preparation::GravityRamp {
             ramp_time: 0.5 * RAMP_TIME,
-            rest_time,
+            rest_time: REST_TIME,
         },
         ..middle
     });

@@ -8,6 +8,7 @@ mod contact_run;
 mod first_event;
 mod real;
 mod scene;
+mod side_walls;
 mod stack_run;
 
 pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};

@@ -122,6 +122,12 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
         self.walls.len() - 1
     }
 
+    /// Takes away the walls from index `first` on, with their contacts.
+    pub fn remove_walls_from(&mut self, first: usize) {
+        self.walls.truncate(first);
+        self.wall_contacts.truncate(first * self.cylinders.len());
+    }
+
     /// Force of a wall on a cylinder, as of the last evaluation of the forces.
     pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R> {
         &self.wall_contacts[wall * self.cylinders.len() + cylinder].force

@@ -3,7 +3,8 @@
 use super::contact::{ContactModel, SpringDashpot};
 use super::real::{Real, real};
 use super::scene::{Cylinder, PlaneWall, Scene};
-use crate::stack::{Case, sha256_hex};
+use super::side_walls::prepare_between_walls;
+use crate::stack::{Case, PreparationSteps, sha256_hex};
 use crate::trace::{Sample, SeriesError, Trace};
 use std::sync::LazyLock;
 use twofloat::TwoFloat;
@@ -16,6 +17,7 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
         include_str!("contact_run.rs"),
         include_str!("real.rs"),
         include_str!("scene.rs"),
+        include_str!("side_walls.rs"),
         include_str!("stack_run.rs"),
     ];
     sha256_hex(sources.concat().as_bytes())
@@ -66,13 +68,13 @@ pub fn compress_stack_with<R: Real, Model: ContactModel<R>>(
     let schedule = case.protocol.schedule();
     let given_up = |step: u64| step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) && !wanted();
     let (mut scene, floor) = stress_free_stack(case, model);
-    for step in 0..schedule.ramp_steps + schedule.rest_steps {
-        if given_up(step) {
-            break;
+    match schedule.preparation {
+        PreparationSteps::GravityRamp { ramp, rest } => {
+            raise_gravity(&mut scene, case.stack.epsilon(), ramp, rest, given_up);
         }
-        scene.gravity = real(case.stack.epsilon() * smooth_step(step, schedule.ramp_steps));
-        scene.evaluate_forces();
-        scene.advance();
+        PreparationSteps::SideWalls(steps) => {
+            prepare_between_walls(&mut scene, case.stack.epsilon(), &steps, given_up);
+        }
     }
     scene.gravity = real(case.stack.epsilon());
     let top_wall = scene.add_wall(PlaneWall {
@@ -95,6 +97,24 @@ pub fn compress_stack_with<R: Real, Model: ContactModel<R>>(
         scene.advance();
     }
     Trace::new(samples, &schedule, case.protocol.time_step)
+}
+
+/// Raises gravity from 0 to `gravity` in `ramp` steps, and rests.
+fn raise_gravity<R: Real, Model: ContactModel<R>>(
+    scene: &mut Scene<R, Model>,
+    gravity: f64,
+    ramp: u64,
+    rest: u64,
+    given_up: impl Fn(u64) -> bool,
+) {
+    for step in 0..ramp + rest {
+        if given_up(step) {
+            break;
+        }
+        scene.gravity = real(gravity * smooth_step(step, ramp));
+        scene.evaluate_forces();
+        scene.advance();
+    }
 }
 
 /// Three just-touching cylinders on the floor, and the index of the floor.

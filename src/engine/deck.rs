@@ -1,6 +1,6 @@
 //! What a deck has to be told, under the same names in every code.
 
-use crate::stack::{Case, ContactTest, Convention, Launch};
+use crate::stack::{Case, ContactTest, Convention, Launch, PreparationSteps};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -44,10 +44,9 @@ pub struct DeckParameters {
     pub time_step: f64,
     /// Speed of the wall, downwards.
     pub wall_speed: f64,
-    /// Steps during which gravity rises.
-    pub ramp_steps: u64,
-    /// Steps at rest.
-    pub rest_steps: u64,
+    /// How the stack is brought to rest.
+    #[serde(flatten)]
+    pub preparation: PreparationParameters,
     /// Steps of compression.
     pub compression_steps: u64,
     /// Steps between coarse rows.
@@ -69,12 +68,76 @@ impl DeckParameters {
             gravity: case.stack.epsilon(),
             time_step: case.protocol.time_step,
             wall_speed: case.protocol.wall_speed,
-            ramp_steps: schedule.ramp_steps,
-            rest_steps: schedule.rest_steps,
+            preparation: PreparationParameters::new(&schedule.preparation, case.stack.epsilon()),
             compression_steps: schedule.compression_steps,
             coarse_every: schedule.coarse_every,
             fine_from_step: schedule.fine_from_step,
             fine_every: schedule.fine_every,
+        }
+    }
+}
+
+/// The parameters of a preparation, each kind for a deck of its own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum PreparationParameters {
+    /// Gravity rises.
+    GravityRamp {
+        /// Steps during which gravity rises.
+        ramp_steps: u64,
+        /// Steps at rest.
+        rest_steps: u64,
+    },
+    /// Side walls hold the bottom cylinders while the top one is put on them.
+    SideWalls {
+        /// Speed of the walls inwards.
+        push_speed: f64,
+        /// Steps during which they move inwards.
+        push_steps: u64,
+        /// Steps at rest after that.
+        hold_steps: u64,
+        /// Height of the top cylinder where it is let go.
+        landing_height: f64,
+        /// How far it is lowered until there.
+        fall: f64,
+        /// Speed at which it is lowered.
+        fall_speed: f64,
+        /// Steps during which it is lowered.
+        fall_steps: u64,
+        /// Speed with which it is let go.
+        landing_speed: f64,
+        /// Steps at rest under it.
+        settle_steps: u64,
+        /// Speed of the walls outwards.
+        withdrawal_speed: f64,
+        /// Steps during which they move outwards.
+        withdrawal_steps: u64,
+        /// Steps at rest without walls.
+        rest_steps: u64,
+    },
+}
+
+impl PreparationParameters {
+    fn new(preparation: &PreparationSteps, epsilon: f64) -> Self {
+        match *preparation {
+            PreparationSteps::GravityRamp { ramp, rest } => Self::GravityRamp {
+                ramp_steps: ramp,
+                rest_steps: rest,
+            },
+            PreparationSteps::SideWalls(steps) => Self::SideWalls {
+                push_speed: steps.push_speed,
+                push_steps: steps.push_steps,
+                hold_steps: steps.hold_steps,
+                landing_height: steps.landing_height(epsilon),
+                fall: steps.fall,
+                fall_speed: steps.walls.fall_speed,
+                fall_steps: steps.fall_steps,
+                landing_speed: steps.walls.landing_speed,
+                settle_steps: steps.settle_steps,
+                withdrawal_speed: steps.walls.withdrawal_speed,
+                withdrawal_steps: steps.withdrawal_steps,
+                rest_steps: steps.rest_steps,
+            },
         }
     }
 }

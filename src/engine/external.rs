@@ -3,10 +3,11 @@
 use super::batch::Batch;
 use super::installation::{self, Installation, VersionQuestion};
 use super::task::{Deck, ParameterFile, Task};
-use super::{Engine, EngineName, Environment, Failure, Finished, Workplace};
+use super::{Engine, EngineName, Environment, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::stack::{Case, ContactTest, sha256_hex};
+use crate::stack::{Case, ContactTest, Preparation, sha256_hex};
 use crate::trace::Motion;
+use std::ops::Range;
 
 /// What has to be known about an external code.
 pub struct Adapter {
@@ -20,8 +21,10 @@ pub struct Adapter {
     /// Files of its own, in the working directory, that say what went wrong.
     pub(super) logs: &'static [&'static str],
     pub(super) parameter_file: ParameterFile,
-    /// How it compresses a stack.
+    /// How it compresses a stack after a gravity ramp.
     pub(super) stack: Deck<Case>,
+    /// How it compresses a stack that was prepared between side walls, if it can.
+    pub(super) side_walls: Option<Deck<Case>>,
     /// How it carries out a micro-test.
     pub(super) probe: Deck<ContactTest>,
     /// A build of the same code that computes with more digits.
@@ -29,6 +32,14 @@ pub struct Adapter {
 }
 
 impl Adapter {
+    /// The deck with which it runs a case with `preparation`; `None` if it has none.
+    pub(super) fn deck(&self, preparation: &Preparation) -> Option<&Deck<Case>> {
+        match preparation {
+            Preparation::GravityRamp { .. } => Some(&self.stack),
+            Preparation::SideWalls(_) => self.side_walls.as_ref(),
+        }
+    }
+
     /// Hash of the files of a deck.
     pub(super) fn static_hash<T: Task>(&self, deck: &Deck<T>) -> String {
         let files = deck
@@ -89,21 +100,22 @@ impl ExternalEngine {
         command
     }
 
-    /// Carries out `tasks` in order, as many at once as the code can; if `all_or_nothing`, only up to the
-    /// first failure.
+    /// Carries out those of `tasks` in `range`, in order, as many at once as the code can; if
+    /// `all_or_nothing`, only up to the first failure.
     fn carry_out<T: Task>(
         &self,
         deck: &Deck<T>,
         tasks: &[T],
+        range: Range<usize>,
         workplace: &Workplace,
         all_or_nothing: bool,
         finished: Finished<(T::Outcome, f64)>,
     ) {
         let many = deck.completion_file.is_some();
-        let at_once = if many { tasks.len() } else { 1 };
-        let mut next = 0;
-        while next < tasks.len() {
-            let end = (next + at_once).min(tasks.len());
+        let at_once = if many { range.len() } else { 1 };
+        let mut next = range.start;
+        while next < range.end {
+            let end = (next + at_once).min(range.end);
             let directory = if tasks.len() == 1 {
                 workplace.directory.to_owned()
             } else {
@@ -123,6 +135,59 @@ impl ExternalEngine {
     }
 }
 
+/// Whether two cases are run with the same deck.
+fn same_deck(left: &Case, right: &Case) -> bool {
+    let kind = |case: &Case| std::mem::discriminant(&case.protocol.preparation);
+    kind(left) == kind(right)
+}
+
+impl ExternalEngine {
+    /// Runs those of `cases` in `range`.
+    fn run_with(
+        &self,
+        deck: &Deck<Case>,
+        cases: &[Case],
+        range: Range<usize>,
+        workplace: &Workplace,
+        finished: Finished<Run>,
+    ) {
+        self.carry_out(
+            deck,
+            cases,
+            range,
+            workplace,
+            false,
+            &mut |index, result| {
+                let case = cases[index];
+                let run = result.map(|(trace, seconds)| Run {
+                    case,
+                    trace,
+                    provenance: Provenance::now(
+                        self.identity.clone(),
+                        self.adapter.name.deck_hash(&case),
+                        self.command(deck, &[".".to_owned()]),
+                        case.steps(),
+                        seconds,
+                    ),
+                });
+                finished(index, run);
+            },
+        );
+    }
+
+    /// What becomes of a case for which the code has no deck.
+    fn refusal(&self, case: &Case) -> Failure {
+        let preparation = &case.protocol.preparation;
+        Failure {
+            engine: self.adapter.name,
+            subject: case.to_string(),
+            kind: FailureKind::Unsupported(self.adapter.name.unknown_preparation(preparation)),
+            run_directory: None,
+            last_lines: Vec::new(),
+        }
+    }
+}
+
 impl Engine for ExternalEngine {
     fn name(&self) -> EngineName {
         self.adapter.name
@@ -137,22 +202,15 @@ impl Engine for ExternalEngine {
     }
 
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {
-        let deck = &self.adapter.stack;
-        self.carry_out(deck, cases, workplace, false, &mut |index, result| {
-            let case = cases[index];
-            let run = result.map(|(trace, seconds)| Run {
-                case,
-                trace,
-                provenance: Provenance::now(
-                    self.identity.clone(),
-                    self.adapter.name.deck_hash(&case),
-                    self.command(deck, &[".".to_owned()]),
-                    case.steps(),
-                    seconds,
-                ),
-            });
-            finished(index, run);
-        });
+        let mut start = 0;
+        for same in cases.chunk_by(same_deck) {
+            let range = start..start + same.len();
+            start = range.end;
+            match self.adapter.deck(&same[0].protocol.preparation) {
+                Some(deck) => self.run_with(deck, cases, range, workplace, finished),
+                None => range.for_each(|index| finished(index, Err(self.refusal(&cases[index])))),
+            }
+        }
     }
 
     fn probe(
@@ -165,6 +223,7 @@ impl Engine for ExternalEngine {
         self.carry_out(
             &self.adapter.probe,
             tests,
+            0..tests.len(),
             workplace,
             true,
             &mut |index, result| match result {

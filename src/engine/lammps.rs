@@ -39,6 +39,7 @@ pub static LAMMPS: Adapter = Adapter {
         completion_file: None,
         read: |directory, case| thermo_log::read_series(directory, LOG, ["v_step", "v_time"], case),
     },
+    side_walls: None,
     probe: Deck {
         files: &[
             ("probe.in", include_str!("../../lammps_inputs/probe.in")),

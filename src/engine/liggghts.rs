@@ -5,7 +5,7 @@ use super::external::Adapter;
 use super::installation::VersionQuestion;
 use super::task::{Deck, ParameterFile};
 use super::thermo_log;
-use crate::stack::{Convention, CoulombOperand, SlidingSpring, SpringTransport};
+use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
 
 /// Both arms end halfway into the overlap; the cylinders are spheres.
 pub const CONVENTION: Convention = Convention {
@@ -33,17 +33,31 @@ pub static LIGGGHTS: Adapter = Adapter {
     environment: super::QUICK_OPEN_MPI,
     logs: &[LOG],
     parameter_file: ParameterFile::Lammps,
-    stack: Deck {
-        files: &[
+    stack: compression(
+        &[
             ("stack.in", include_str!("../../liggghts_inputs/stack.in")),
             CONTACTS,
             TOP_WALL,
             WALL,
         ],
-        arguments: |_| arguments("stack.in"),
-        completion_file: None,
-        read: |directory, case| thermo_log::read_series(directory, LOG, ["step", "time"], case),
-    },
+        |_| arguments("stack.in"),
+    ),
+    side_walls: Some(compression(
+        &[
+            (
+                "side_walls.in",
+                include_str!("../../liggghts_inputs/side_walls.in"),
+            ),
+            CONTACTS,
+            TOP_WALL,
+            WALL,
+            (
+                "side_wall.stl",
+                include_str!("../../liggghts_inputs/side_wall.stl"),
+            ),
+        ],
+        |_| arguments("side_walls.in"),
+    )),
     probe: Deck {
         files: &[
             ("probe.in", include_str!("../../liggghts_inputs/probe.in")),
@@ -57,6 +71,18 @@ pub static LIGGGHTS: Adapter = Adapter {
     },
     precise_program: None,
 };
+
+const fn compression(
+    files: &'static [(&'static str, &'static str)],
+    arguments: fn(&[String]) -> Vec<String>,
+) -> Deck<Case> {
+    Deck {
+        files,
+        arguments,
+        completion_file: None,
+        read: |directory, case| thermo_log::read_series(directory, LOG, ["step", "time"], case),
+    }
+}
 
 const CONTACTS: (&str, &str) = (
     "contacts.in",

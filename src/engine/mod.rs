@@ -14,13 +14,13 @@ mod thermo_log;
 mod yade;
 
 pub use batch::time_limit;
-pub use deck::{DeckParameters, ProbeParameters};
+pub use deck::{DeckParameters, PreparationParameters, ProbeParameters};
 pub use failure::{Failure, FailureKind};
 pub use process::Interrupt;
 pub use task::{ParameterFile, Task};
 
 use crate::archive::{Identity, Run};
-use crate::stack::{Case, ContactTest, Convention, InvalidValue, sha256_hex};
+use crate::stack::{Case, ContactTest, Convention, InvalidValue, Preparation, sha256_hex};
 use crate::trace::Motion;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -155,17 +155,45 @@ impl EngineName {
         })
     }
 
+    /// Refuses a preparation for which the engine has no deck.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the engine can do.
+    pub fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
+        let adapter = self.adapter();
+        if adapter.is_none_or(|adapter| adapter.deck(asked).is_some()) {
+            return Ok(());
+        }
+        Err(self.unknown_preparation(asked))
+    }
+
+    fn unknown_preparation(self, asked: &Preparation) -> InvalidValue {
+        InvalidValue {
+            key: "protocol.preparation.kind".to_owned(),
+            value: asked.as_str().to_owned(),
+            accepted: format!("gravity-ramp for {self}"),
+        }
+    }
+
     /// Hash of everything that this version of tristack would give the engine for `case`: deck, parameters,
     /// arguments and environment. For the native engine its sources take the place of the deck.
     pub fn deck_hash(self, case: &Case) -> String {
-        let told = match self.adapter() {
-            None => ParameterFile::Json.content(&case.parameters()),
-            Some(adapter) => adapter.told(&adapter.stack, case),
+        let (static_hash, told) = match self.adapter() {
+            None => (
+                crate::dem::SOURCE_DIGEST.clone(),
+                ParameterFile::Json.content(&case.parameters()),
+            ),
+            Some(adapter) => {
+                // A case without a deck is refused when it is run.
+                let deck = adapter.deck(&case.protocol.preparation);
+                let deck = deck.unwrap_or(&adapter.stack);
+                (adapter.static_hash(deck), adapter.told(deck, case))
+            }
         };
-        sha256_hex(format!("{}\n{told}", self.static_deck_hash()).as_bytes())
+        sha256_hex(format!("{static_hash}\n{told}").as_bytes())
     }
 
-    /// Hash of the deck alone, or of the sources of the native engine.
+    /// Hash of the deck for the gravity ramp alone, or of the sources of the native engine.
     pub fn static_deck_hash(self) -> String {
         match self.adapter() {
             None => crate::dem::SOURCE_DIGEST.clone(),

@@ -37,6 +37,7 @@ const MOTION: &str = "probe.csv";
 pub static BOX: Adapter = adapter(
     EngineName::Yade,
     |directories| arguments("stack.py", "box", directories),
+    |directories| arguments("side_walls.py", "box", directories),
     |directories| arguments("probe.py", "box", directories),
 );
 
@@ -44,6 +45,7 @@ pub static BOX: Adapter = adapter(
 pub static FACET: Adapter = adapter(
     EngineName::YadeFacet,
     |directories| arguments("stack.py", "facet", directories),
+    |directories| arguments("side_walls.py", "facet", directories),
     |directories| arguments("probe.py", "facet", directories),
 );
 
@@ -51,12 +53,18 @@ pub static FACET: Adapter = adapter(
 pub static WALL: Adapter = adapter(
     EngineName::YadeWall,
     |directories| arguments("stack.py", "wall", directories),
+    |directories| arguments("side_walls.py", "wall", directories),
     |directories| arguments("probe.py", "wall", directories),
 );
 
 type Arguments = fn(&[String]) -> Vec<String>;
 
-const fn adapter(name: EngineName, stack: Arguments, probe: Arguments) -> Adapter {
+const fn adapter(
+    name: EngineName,
+    stack: Arguments,
+    side_walls: Arguments,
+    probe: Arguments,
+) -> Adapter {
     Adapter {
         name,
         program: "yade",
@@ -68,16 +76,19 @@ const fn adapter(name: EngineName, stack: Arguments, probe: Arguments) -> Adapte
         environment: &[],
         logs: &[],
         parameter_file: ParameterFile::Json,
-        stack: Deck {
-            files: &[
-                ("stack.py", include_str!("../../yade_scripts/stack.py")),
+        stack: compression(&[STACK, CONTACTS, CASES], stack),
+        side_walls: Some(compression(
+            &[
+                (
+                    "side_walls.py",
+                    include_str!("../../yade_scripts/side_walls.py"),
+                ),
+                STACK,
                 CONTACTS,
                 CASES,
             ],
-            arguments: stack,
-            completion_file: Some(SERIES),
-            read: read_series,
-        },
+            side_walls,
+        )),
         probe: Deck {
             files: &[
                 ("probe.py", include_str!("../../yade_scripts/probe.py")),
@@ -92,6 +103,19 @@ const fn adapter(name: EngineName, stack: Arguments, probe: Arguments) -> Adapte
     }
 }
 
+const fn compression(
+    files: &'static [(&'static str, &'static str)],
+    arguments: Arguments,
+) -> Deck<Case> {
+    Deck {
+        files,
+        arguments,
+        completion_file: Some(SERIES),
+        read: read_series,
+    }
+}
+
+const STACK: (&str, &str) = ("stack.py", include_str!("../../yade_scripts/stack.py"));
 const CONTACTS: (&str, &str) = (
     "contacts.py",
     include_str!("../../yade_scripts/contacts.py"),

@@ -59,7 +59,10 @@ fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
         "amplified>",
     ]);
     for (index, (case, run)) in measurement.cases.iter().zip(&judgement.runs).enumerate() {
-        let Preparation::GravityRamp { ramp_time, .. } = case.protocol.preparation;
+        let ramp = match case.protocol.preparation {
+            Preparation::GravityRamp { ramp_time, .. } => ramp_time.to_string(),
+            Preparation::SideWalls(_) => "-".to_owned(),
+        };
         let force = |estimate: Option<crate::trace::Estimate>| {
             optional(estimate, |estimate| significant(estimate.force, 11))
         };
@@ -67,7 +70,7 @@ fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
             (index + 1).to_string(),
             format!("{:.3e}", case.protocol.wall_speed),
             case.protocol.time_step.to_string(),
-            ramp_time.to_string(),
+            ramp,
             case.total_steps().to_string(),
             force(run.estimates.slip),
             force(run.estimates.peak),

@@ -3,6 +3,7 @@
 mod convergence;
 mod curves;
 mod force_series;
+mod preparation;
 mod scaling;
 
 pub use convergence::{
@@ -10,6 +11,10 @@ pub use convergence::{
 };
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub use force_series::{ForceSeries, force_series, force_series_stack};
+pub use preparation::{
+    CriticalPush, Estimator, PreparationPlan, PreparationRow, PreparationStudy, between_side_walls,
+    critical_pushes, plan_preparation, preparation_cases, preparation_studies, study_preparation,
+};
 pub use scaling::{
     Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
     scaling_measurements,
@@ -44,6 +49,8 @@ pub struct Reproduction {
     pub convergence: Convergence,
     /// The supplement's figure of f(t).
     pub force_series: ForceSeries,
+    /// What the paper's preparation does to c and F, which all else leaves to the gravity ramp.
+    pub preparation: Vec<PreparationStudy>,
     /// Whole series beside native twins.
     pub trajectories: Vec<TrajectoryJudgement>,
     /// The regime maps …
@@ -72,7 +79,7 @@ pub struct Scope<'a> {
 /// maps, of `Scope::points`, are done.
 ///
 /// # Errors
-/// If the native run behind f(t) fails. Failures of other runs are in the rows.
+/// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
 pub fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
@@ -101,6 +108,12 @@ pub fn reproduce(
     }
     let (force_series, reading) = force_series(&native, settings, progress)?;
     readings.push(reading);
+    let engines: Vec<EngineName> = participants.iter().map(|who| who.name).collect();
+    let preparation = preparation_studies(&engines, settings, progress);
+    if interrupted() {
+        return Ok(None);
+    }
+    let preparation = preparation?;
     let trajectories = run_trajectories(scope, progress);
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
     let points = boundary_points(&maps);
@@ -110,8 +123,11 @@ pub fn reproduce(
     }
     let rows = judgements.iter().chain(&scaling).chain(&literal);
     let runs = rows.flat_map(|judgement| &judgement.runs).chain(&readings);
+    let provenances = runs.map(|reading| &reading.provenance);
+    let prepared = preparation.iter().flat_map(|study| &study.rows);
+    let provenances = provenances.chain(prepared.flat_map(|row| &row.provenances));
     Ok(Some(Reproduction {
-        provenances: runs.map(|reading| reading.provenance.clone()).collect(),
+        provenances: provenances.cloned().collect(),
         probes,
         exponents: exponents(&scaling),
         yield_curves: judgements,
@@ -119,6 +135,7 @@ pub fn reproduce(
         literal,
         convergence,
         force_series,
+        preparation,
         trajectories,
         maps,
         survey,
@@ -197,6 +214,9 @@ pub fn readings_to_record(
     for measurement in measurements.into_iter().flatten() {
         loads[0].cases.extend(measurement.cases);
     }
+    loads[0]
+        .cases
+        .extend(preparation_cases(participant.name, settings, progress)?);
     let participants = std::slice::from_ref(participant);
     let results = crate::crosscheck::read_all(&loads, participants, settings, progress);
     results.into_iter().flatten().collect()

@@ -1,6 +1,6 @@
 //! A case: everything that a code has to be told to produce one time series.
 
-use super::{Convention, InvalidValue, Protocol, Stack, sha256_hex};
+use super::{Convention, InvalidValue, Preparation, Protocol, Stack, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -129,7 +129,11 @@ impl std::fmt::Display for Case {
             formatter,
             "mu = {}, stiffness = {}, wall speed = {:e}, time step = {}",
             stack.floor_friction, stack.stiffness, protocol.wall_speed, protocol.time_step
-        )
+        )?;
+        match protocol.preparation {
+            Preparation::GravityRamp { .. } => Ok(()),
+            Preparation::SideWalls(walls) => write!(formatter, ", side walls, A = {}", walls.push),
+        }
     }
 }
 

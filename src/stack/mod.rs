@@ -10,6 +10,7 @@ mod convention;
 mod digest;
 mod groups;
 mod protocol;
+mod side_walls;
 mod validity;
 
 pub use case::{Case, CaseError};
@@ -22,5 +23,6 @@ pub use digest::sha256_hex;
 pub use groups::{
     CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,
 };
-pub use protocol::{Preparation, Protocol, Sampling, Schedule};
+pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
+pub use side_walls::{SideWallSteps, SideWalls};
 pub use validity::InvalidValue;

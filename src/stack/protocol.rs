@@ -1,5 +1,6 @@
 //! How the stack is prepared, compressed and sampled.
 
+use super::side_walls::{SideWallSteps, SideWalls};
 use super::validity::{InvalidValue, positive, within};
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,71 @@ pub enum Preparation {
         /// Duration of the rest after it.
         rest_time: f64,
     },
+    /// The paper's protocol (supplement I.B): side walls pushed in by A, the top cylinder lowered, the walls
+    /// withdrawn. A decides with which c, and with which tangential forces, it ends.
+    SideWalls(SideWalls),
+}
+
+/// A preparation counted in time steps, as every code runs it. Every count is a multiple of
+/// [`Schedule::fine_every`]: codes that average over windows need windows that fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PreparationSteps {
+    /// Of the gravity ramp.
+    GravityRamp {
+        /// Steps during which gravity rises.
+        ramp: u64,
+        /// Steps at rest under full gravity.
+        rest: u64,
+    },
+    /// Of the preparation between side walls.
+    SideWalls(SideWallSteps),
+}
+
+impl PreparationSteps {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        match self {
+            Self::GravityRamp { ramp, rest } => ramp + rest,
+            Self::SideWalls(steps) => steps.total(),
+        }
+    }
+}
+
+impl Preparation {
+    /// The word for it on the command line and in case files.
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Self::GravityRamp { .. } => "gravity-ramp",
+            Self::SideWalls(_) => "side-walls",
+        }
+    }
+
+    fn steps(&self, time_step: f64, rounded: impl Fn(f64) -> u64) -> PreparationSteps {
+        match *self {
+            Self::GravityRamp {
+                ramp_time,
+                rest_time,
+            } => PreparationSteps::GravityRamp {
+                ramp: rounded(ramp_time),
+                rest: rounded(rest_time),
+            },
+            Self::SideWalls(walls) => PreparationSteps::SideWalls(walls.steps(time_step, rounded)),
+        }
+    }
+
+    /// Every value in its range, no phase longer than `longest`.
+    fn validate(&self, longest: f64) -> Result<(), InvalidValue> {
+        match *self {
+            Self::GravityRamp {
+                ramp_time,
+                rest_time,
+            } => {
+                positive("protocol.preparation.ramp_time", ramp_time, longest)?;
+                positive("protocol.preparation.rest_time", rest_time, longest)
+            }
+            Self::SideWalls(walls) => walls.validate(longest),
+        }
+    }
 }
 
 /// When rows of the time series are taken: coarsely at first, finely around the yield.
@@ -55,13 +121,10 @@ pub struct Protocol {
 }
 
 /// The protocol counted in time steps, as every code runs it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Schedule {
-    /// Steps during which gravity rises. Like every other count, a multiple of `fine_every`: codes that
-    /// average over windows need windows that fit.
-    pub ramp_steps: u64,
-    /// Steps at rest under full gravity.
-    pub rest_steps: u64,
+    /// Steps of the preparation.
+    pub preparation: PreparationSteps,
     /// Steps of compression.
     pub compression_steps: u64,
     /// Steps between coarse rows.
@@ -88,17 +151,13 @@ impl Schedule {
 
     /// All steps of the run, preparation included.
     pub fn total_steps(&self) -> u64 {
-        self.ramp_steps + self.rest_steps + self.compression_steps
+        self.preparation.total() + self.compression_steps
     }
 }
 
 impl Protocol {
     /// The protocol in whole steps, every duration rounded to whole fine intervals.
     pub fn schedule(&self) -> Schedule {
-        let Preparation::GravityRamp {
-            ramp_time,
-            rest_time,
-        } = self.preparation;
         let fine_every = ((self.sampling.fine_interval / self.time_step).round() as u64).max(1);
         let fine_time = fine_every as f64 * self.time_step;
         let rounded = |time: f64| ((time / fine_time).round() as u64).max(1) * fine_every;
@@ -107,8 +166,7 @@ impl Protocol {
         let fine_from_step = until_fine / coarse_every * coarse_every;
         let all = rounded(self.wall_travel / self.wall_speed);
         Schedule {
-            ramp_steps: rounded(ramp_time),
-            rest_steps: rounded(rest_time),
+            preparation: self.preparation.steps(self.time_step, rounded),
             compression_steps: all.max(fine_from_step + fine_every),
             coarse_every,
             fine_from_step,
@@ -147,14 +205,7 @@ impl Protocol {
     }
 
     fn validate_length(&self) -> Result<(), InvalidValue> {
-        let Preparation::GravityRamp {
-            ramp_time,
-            rest_time,
-        } = self.preparation;
-        for (key, time) in [("ramp_time", ramp_time), ("rest_time", rest_time)] {
-            let longest = MOST_STEPS * self.time_step;
-            positive(&format!("protocol.preparation.{key}"), time, longest)?;
-        }
+        self.preparation.validate(MOST_STEPS * self.time_step)?;
         let steps = self.wall_travel / (self.wall_speed * self.time_step);
         if steps > MOST_STEPS {
             let slowest = self.wall_travel / (MOST_STEPS * self.time_step);
@@ -224,15 +275,50 @@ mod tests {
 
     #[test]
     fn every_count_is_a_multiple_of_the_fine_interval() {
-        let schedule = protocol().schedule();
-        let counts = [
-            schedule.ramp_steps,
-            schedule.rest_steps,
-            schedule.compression_steps,
-            schedule.coarse_every,
-            schedule.fine_from_step,
-        ];
-        assert!(counts.iter().all(|count| count % schedule.fine_every == 0));
+        let between_walls = Preparation::SideWalls(SideWalls::paper(0.0123, 0.01));
+        for preparation in [protocol().preparation, between_walls] {
+            let protocol = Protocol {
+                preparation,
+                ..protocol()
+            };
+            let schedule = protocol.schedule();
+            let preparation = match schedule.preparation {
+                PreparationSteps::GravityRamp { ramp, rest } => vec![ramp, rest],
+                PreparationSteps::SideWalls(steps) => vec![
+                    steps.push_steps,
+                    steps.hold_steps,
+                    steps.fall_steps,
+                    steps.settle_steps,
+                    steps.withdrawal_steps,
+                    steps.rest_steps,
+                ],
+            };
+            let compression = [
+                schedule.compression_steps,
+                schedule.coarse_every,
+                schedule.fine_from_step,
+            ];
+            let mut counts = preparation.iter().chain(&compression);
+            assert!(counts.all(|count| count % schedule.fine_every == 0));
+            assert_eq!(
+                schedule.total_steps(),
+                preparation.iter().sum::<u64>() + schedule.compression_steps
+            );
+        }
+    }
+
+    #[test]
+    fn side_walls_have_a_word_and_their_values_in_case_files() {
+        let preparation = Preparation::SideWalls(SideWalls::paper(0.005, 0.01));
+        let json = serde_json::to_string(&preparation).unwrap();
+        assert!(json.starts_with(r#"{"kind":"side-walls","push":0.005,"#));
+        assert_eq!(
+            serde_json::from_str::<Preparation>(&json).unwrap(),
+            preparation
+        );
+        let misspelt = json.replace("fall_speed", "fallspeed");
+        let error = serde_json::from_str::<Preparation>(&misspelt).unwrap_err();
+        assert!(error.to_string().contains("fallspeed"), "{error}");
     }
 
     #[test]

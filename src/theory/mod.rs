@@ -7,6 +7,7 @@ mod predictions;
 mod quasistatic;
 mod regimes;
 mod root;
+mod side_walls;
 mod small_displacement;
 
 pub use events::Event;
@@ -19,6 +20,7 @@ pub use regimes::{
     Line, Outcome, Regime, RegimeMap, Stage, released_frictions,
 };
 pub use root::bracketed_root;
+pub use side_walls::{critical_push, pushed_slip_force};
 pub use small_displacement::{
     ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,
     perturbation_load, quintic_displacement, rigid_yield,

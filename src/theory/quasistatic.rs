@@ -33,10 +33,15 @@ const EARLY_STATIONS: i32 = 24;
 /// G M(T²) = ∫ 2 M(s)/[s(1+s)(1+κ+κs)] ds from μ_c² to T², with M(s) = s^p (1+s)⁻¹ (1+κ+κs)^q,
 /// p = (2+κ)/(2(1+κ)), q = (2κ+1)/(2(1+κ)); integrated over ln s (docs/theory.md, Eqs. 18 and 19).
 pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
+    let length = 2.0 * libm::log1p(beyond / CRITICAL_FRICTION);
+    overlap_grown(CRITICAL_FRICTION + beyond, length, stiffness_ratio)
+}
+
+/// The same at `tangent` on a path that was free of force where ln T² was smaller by `length`.
+pub(super) fn overlap_grown(tangent: f64, length: f64, stiffness_ratio: f64) -> f64 {
     let kappa = stiffness_ratio;
     let p = (2.0 + kappa) / (2.0 * (1.0 + kappa));
     let q = (2.0 * kappa + 1.0) / (2.0 * (1.0 + kappa));
-    let tangent = CRITICAL_FRICTION + beyond;
     let end = tangent * tangent;
     let compliance = |s: f64| 1.0 + kappa + kappa * s;
     let integrand = |back: f64| {
@@ -45,7 +50,6 @@ pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
             * libm::pow(compliance(s) / compliance(end), q);
         2.0 * factor_ratio / ((1.0 + s) * compliance(s))
     };
-    let length = 2.0 * libm::log1p(beyond / CRITICAL_FRICTION);
     QUADRATURE.integrate(0.0, length, integrand)
 }
 

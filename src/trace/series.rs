@@ -44,6 +44,13 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// c, elastic part of the normal force between cylinders 2 and 3, in k_n r: their overlap 2 − |r₂ − r₃|
+    /// times k_n = 1, and 0 where they do not touch. At rest it is the whole force.
+    pub fn bottom_contact_force(&self) -> f64 {
+        let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
+        (2.0 - (dx * dx + dy * dy).sqrt()).max(0.0)
+    }
+
     fn values(&self) -> [f64; 15] {
         [
             self.time,

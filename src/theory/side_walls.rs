@@ -1,0 +1,101 @@
+//! The quasi-static limit after the paper's preparation between side walls (its supplement, I.B), to leading
+//! order in what the walls do.
+//!
+//! The push A rolls the bottom cylinders to x₂ = 1 − A/3 before the top one lies on them. From there the springs
+//! of both tangential contacts accumulate as they do from just touching (docs/theory.md, Eqs. 68 and 69):
+//!
+//! 2 κ b = (x₂ − x₂⁰) + ∫ρ dψ,  x₂⁰ = 1 − A/3 = 2 sin ψ₀.
+//!
+//! Wherever neither walls nor contact 2–3 bear a force, b = G T, and differentiation gives the same equation
+//! for G(T) as after a gravity ramp, with another start: G(T₀) = 0, T₀ = tan(ψ₀/2) < μ_c. The detour of the path
+//! through states held by walls or by contact 2–3 changes ∫ρ dψ by the area between the paths in the plane of
+//! ρ and ψ, which is of order ε²: as much as a change of A by some 0.03 ε².
+
+use super::quasistatic::overlap_grown;
+use super::root::bracketed_root;
+use crate::stack::{CRITICAL_FRICTION, Stack};
+
+/// At T = 1 the centre of cylinder 1 has sunk to the level of the other two.
+const HIGHEST_TANGENT: f64 = 1.0;
+
+/// A*, the largest push after which the bottom cylinders end without contact, in r, to leading order in ε, if
+/// nothing slides during the preparation (docs/theory.md, Eq. 70).
+///
+/// With A* they end just touching, at x₂ = 1, with a = G = ε/2 and b = a T. To leading order T = μ_c and b = ε μ_c/2,
+/// and ψ has changed by ε/(4√3) since just touching at 30° (2 sin ψ = 1 + ε/4) and by A/(3√3) more since ψ₀:
+///
+/// ```text
+/// κ μ_c ε = A/3 + 2 (ε/(4√3) + A/(3√3))    =>    A* = 3 ε (κ μ_c − 1/(2√3))/(1 + 2/√3)
+/// ```
+///
+/// It is 0 at κ = 1.07735, below which contact 2–3 closes under any load (docs/theory.md, section 7.3).
+///
+/// ```
+/// use tristack::stack::Stack;
+/// let push = tristack::theory::critical_push(&Stack::paper(0.2, 1e4));
+/// assert!((push - 0.53074e-4).abs() < 1e-9);
+/// ```
+pub fn critical_push(stack: &Stack) -> f64 {
+    let root = 3f64.sqrt();
+    let spread = stack.stiffness_ratio * CRITICAL_FRICTION - 0.5 / root;
+    3.0 * stack.epsilon() * spread / (1.0 + 2.0 / root)
+}
+
+/// F at the slip of the floor after walls pushed in by `push`, in m g, with arms 0; `None` if the floor does
+/// not slip. It holds where nothing slides before, and where contact 2–3 has opened by then; other events are
+/// ignored.
+///
+/// ```
+/// use tristack::stack::Stack;
+/// use tristack::theory::{closed_form_limit, pushed_slip_force};
+/// let stack = Stack::paper(0.2, 100.0);
+/// let [unpushed, pushed] = [0.0, 0.005].map(|push| pushed_slip_force(&stack, push).unwrap());
+/// assert!((unpushed - closed_form_limit(&stack).yield_force.unwrap()).abs() < 1e-12);
+/// assert!((pushed - unpushed - 0.0345).abs() < 1e-4);
+/// ```
+pub fn pushed_slip_force(stack: &Stack, push: f64) -> Option<f64> {
+    let mu = stack.floor_friction;
+    let sine = 0.5 * (1.0 - push / 3.0);
+    let start = sine / (1.0 + (1.0 - sine * sine).sqrt());
+    let lowest = mu.max(start);
+    let overlap = |offset: f64| {
+        let tangent = lowest + offset;
+        let length = 2.0 * libm::log1p((tangent - start) / start);
+        overlap_grown(tangent, length, stack.stiffness_ratio)
+    };
+    let target = stack.epsilon() * mu;
+    let excess = |offset: f64| overlap(offset) * (lowest - mu + offset) / target - 1.0;
+    let widest = HIGHEST_TANGENT - lowest;
+    if widest <= 0.0 {
+        return None;
+    }
+    let offset = bracketed_root(excess, 0.0, widest)?;
+    Some(2.0 * overlap(offset) * stack.stiffness - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::theory::{CLOSING_STIFFNESS_RATIO, closed_form_limit};
+
+    #[test]
+    fn without_a_push_it_is_the_closed_form() {
+        for friction in [0.12, 0.2, 0.3, 0.5] {
+            for stiffness in [1e2, 1e4] {
+                let stack = Stack::paper(friction, stiffness);
+                let exact = closed_form_limit(&stack).yield_force.unwrap();
+                let force = pushed_slip_force(&stack, 0.0).unwrap();
+                assert!((force / exact - 1.0).abs() < 1e-11, "{force} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_push_is_needed_for_contact_where_it_closes_by_itself() {
+        let stack = Stack {
+            stiffness_ratio: CLOSING_STIFFNESS_RATIO,
+            ..Stack::paper(0.2, 1e2)
+        };
+        assert!(critical_push(&stack).abs() < 1e-15);
+    }
+}

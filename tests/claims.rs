@@ -15,6 +15,7 @@ use tristack::crosscheck::{
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::reproduction::{
     Reproduction, converge, curves, exponents, force_series, scaling_measurements,
+    study_preparation,
 };
 use tristack::stack::{CRITICAL_FRICTION, Case, Convention, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::theory::RegimeMap;
@@ -247,6 +248,14 @@ fn native_reproduction() -> Reproduction {
         literal: Vec::new(),
         convergence: converge(&native, &settings, &Quiet).0,
         force_series: series,
+        preparation: study_preparation(
+            &[Stack::paper(0.2, 1e2), Stack::paper(0.3, 1e2)],
+            &[1.0, 5.0],
+            &names,
+            &settings,
+            &Quiet,
+        )
+        .expect("native runs"),
         trajectories: Vec::new(),
         maps: RegimeMap::standard(PAPER_STIFFNESS_RATIO),
         survey: Survey {

@@ -53,6 +53,9 @@ fn accepted(range: Option<(f64, f64)>) -> String {
     })
 }
 
+/// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
+const STIFF: f64 = 2e4;
+
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
 pub const PAPER_WALL_SPEED: f64 = 1e-6;
 /// Time step of the paper, in √(m/k_n) (supplement I.C).
@@ -213,13 +216,21 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
         },
         time_step,
         wall_speed: rounded(wall_speed),
-        wall_travel: rounded(TRAVEL_MARGIN * travel + TIME_MARGIN * wall_speed),
+        wall_travel: rounded(TRAVEL_MARGIN * travel + time_margin(limit) * wall_speed),
         sampling: Sampling {
             coarse_interval: rounded(fine_from_travel / wall_speed / COARSE_ROWS),
             fine_from_travel: rounded(fine_from_travel),
             fine_interval: FINE_INTERVAL,
         },
     })
+}
+
+/// How long the wall goes on beyond the planned travel. What drives the collapse of a stack near μ_c falls with
+/// the square root of ε, so that stiff ones take longer.
+fn time_margin(limit: &Limit) -> f64 {
+    let stiffness = limit.yield_force.zip(limit.z);
+    let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
+    TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
 }
 
 /// `value` to six significant digits. A plan is part of the address of a run: it must not depend on the

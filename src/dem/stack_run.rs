@@ -80,10 +80,10 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
     let (mut scene, floor) = stress_free_stack(case, model);
     match schedule.preparation {
         PreparationSteps::GravityRamp { ramp, rest } => {
-            raise_gravity(&mut scene, case.stack.epsilon(), ramp, rest, &given_up);
+            raise_gravity(&mut scene, case.stack.epsilon(), ramp, rest, given_up);
         }
         PreparationSteps::SideWalls(steps) => {
-            prepare_between_walls(&mut scene, case.stack.epsilon(), &steps, &given_up);
+            prepare_between_walls(&mut scene, case.stack.epsilon(), &steps, given_up);
         }
     }
     scene.gravity = real(case.stack.epsilon());

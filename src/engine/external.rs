@@ -203,7 +203,7 @@ impl Engine for ExternalEngine {
 
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {
         let mut start = 0;
-        for same in cases.chunk_by(|left, right| same_deck(left, right)) {
+        for same in cases.chunk_by(same_deck) {
             let range = start..start + same.len();
             start = range.end;
             match self.adapter.deck(&same[0].protocol.preparation) {

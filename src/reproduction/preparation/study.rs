@@ -160,9 +160,9 @@ pub fn study_preparation(
     progress: &dyn Progress,
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let critical = critical_pushes(stacks, settings, progress)?;
-    let others = engines.iter().filter(|&&name| name != EngineName::Native);
-    let names = [EngineName::Native].iter().chain(others);
-    let names: Vec<EngineName> = names.copied().collect();
+    let mut names = [&[EngineName::Native], engines].concat();
+    names.sort();
+    names.dedup();
     let participants: Vec<Participant> = names.iter().copied().map(Participant::find).collect();
     let plans: Vec<Vec<PreparationPlan>> = stacks
         .iter()
@@ -204,8 +204,14 @@ fn plans(
         }
     }
     plans.retain(|plan| {
-        let offers = |case: &Case| plan.engine.check_preparation(&case.protocol.preparation);
-        plan.cases().iter().all(|case| offers(case).is_ok())
+        // A twin of a run that is not there is of no use.
+        let names = [plan.engine, plan.convention_of];
+        let offered = |case: &Case| {
+            let preparation = &case.protocol.preparation;
+            let refused = |name: EngineName| name.check_preparation(preparation).is_err();
+            !names.into_iter().any(refused)
+        };
+        plan.cases().iter().all(offered)
     });
     plans
 }

@@ -266,7 +266,13 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
     let (Some(force), Some(reference), Some(uncertainty)) =
         (row.yield_force, row.reference_force, row.uncertainty)
     else {
-        return row.verdict.as_str();
+        // Runs without a yield; a failed one leaves none.
+        let without_yield = judgement.contradicted && !judgement.runs.is_empty();
+        return if without_yield {
+            Verdict::NoYield.as_str()
+        } else {
+            row.verdict.as_str()
+        };
     };
     let allowed = uncertainty.max(FLOOR * (reference + 3.0));
     if (force - reference).abs() > allowed {

@@ -317,6 +317,36 @@ mod tests {
         assert_eq!(short, middle);
     }
 
+    /// The recorded runs depend on it: their plans are from before the touch of the wall was looked at.
+    #[test]
+    fn walls_of_the_figure_are_gentle_as_they_are() {
+        let profile = crate::crosscheck::Profile::Standard;
+        for plan in profile.measurements(&EngineName::ALL) {
+            let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
+            let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
+            let expected = SPEEDS.map(|speed| rounded(speed * scale));
+            assert_eq!(speeds.take(3).collect::<Vec<_>>(), expected);
+            assert!(plan.is_gentle);
+        }
+    }
+
+    #[test]
+    fn a_wall_that_would_make_the_floor_slide_is_slower_or_the_plan_says_so() {
+        let planned = |stiffness: f64| {
+            let stack = Stack {
+                stiffness_ratio: 1.2,
+                ..Stack::paper(0.35, stiffness)
+            };
+            plan(EngineName::Native, &stack, Convention::PAPER)
+        };
+        let [slowed, rough] = [1e5, 1e6].map(planned);
+        assert!(slowed.is_gentle && !rough.is_gentle);
+        assert!(slowed.cases[0].protocol.wall_speed < 9e-5);
+        for case in slowed.cases.iter().chain(&rough.cases) {
+            assert!(case.total_steps() < 3_000_000, "{}", case.total_steps());
+        }
+    }
+
     #[test]
     fn a_plan_does_not_see_the_last_digits_of_the_limit() {
         assert_eq!(rounded(1.642_259_585e-4), 1.64226e-4);

@@ -5,6 +5,7 @@ use crate::stack::{Case, CaseError};
 use crate::trace::{SeriesError, Trace};
 use std::fs::{self, File};
 use std::io::{BufReader, Write};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -172,7 +173,11 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), ArchiveError>
         .parent()
         .filter(|parent| !parent.as_os_str().is_empty());
     let parent = parent.unwrap_or(Path::new("."));
-    let mut draft = tempfile::NamedTempFile::new_in(parent).map_err(ArchiveError::writing(path))?;
+    // As readable as any other file of this user, not as a temporary one.
+    let mut draft = tempfile::Builder::new()
+        .permissions(fs::Permissions::from_mode(0o666))
+        .tempfile_in(parent)
+        .map_err(ArchiveError::writing(path))?;
     draft
         .write_all(content)
         .and_then(|()| draft.as_file().sync_all())

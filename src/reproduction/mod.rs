@@ -112,12 +112,14 @@ pub fn reproduce(
     let names = participants.iter().map(|who| who.name);
     let probes = names.zip(probes).collect();
     let plan = Plan::new(scope);
-    let mut judgements = measure(&plan.all(), participants, settings, progress);
+    let measurements = plan.all();
+    let judgements = measure(&measurements, participants, settings, progress);
     if interrupted() {
         return Ok(None);
     }
-    let literal = judgements.split_off(plan.yield_curves.len() + plan.scaling.len());
-    let scaling = judgements.split_off(plan.yield_curves.len());
+    let of = |part: &[Measurement]| judged(part, &measurements, &judgements);
+    let (yield_curves, scaling) = (of(&plan.yield_curves), of(&plan.scaling));
+    let literal = of(&plan.literal);
     let (convergence, mut readings) = converge(participants, settings, progress);
     let native = Participant::find(EngineName::Native);
     if interrupted() {
@@ -141,8 +143,8 @@ pub fn reproduce(
     let Some(snapshots) = snapshots(settings.interrupt)? else {
         return Ok(None);
     };
-    let rows = judgements.iter().chain(&scaling).chain(&literal);
-    let runs = rows.flat_map(|judgement| &judgement.runs).chain(&readings);
+    let runs = judgements.iter().flat_map(|judgement| &judgement.runs);
+    let runs = runs.chain(&readings);
     let provenances = runs.map(|reading| &reading.provenance);
     let prepared = preparation.iter().flat_map(|study| &study.rows);
     let provenances = provenances.chain(prepared.flat_map(|row| &row.provenances));
@@ -150,7 +152,7 @@ pub fn reproduce(
         provenances: provenances.cloned().collect(),
         probes,
         exponents: exponents(&scaling),
-        yield_curves: judgements,
+        yield_curves,
         scaling,
         literal,
         convergence,
@@ -209,10 +211,34 @@ impl Plan {
         }
     }
 
+    /// Every measurement once: figures share stacks.
     fn all(&self) -> Vec<Measurement> {
         let parts = [&self.yield_curves, &self.scaling, &self.literal];
-        parts.into_iter().flatten().cloned().collect()
+        let mut all: Vec<Measurement> = Vec::new();
+        for measurement in parts.into_iter().flatten() {
+            if !all.iter().any(|known| is_same(known, measurement)) {
+                all.push(measurement.clone());
+            }
+        }
+        all
     }
+}
+
+fn is_same(left: &Measurement, right: &Measurement) -> bool {
+    (left.engine, left.stack, left.method) == (right.engine, right.stack, right.method)
+}
+
+/// The judgements on `part` of `measurements`, in the order of the part.
+fn judged(
+    part: &[Measurement],
+    measurements: &[Measurement],
+    judgements: &[Judgement],
+) -> Vec<Judgement> {
+    let found = part.iter().filter_map(|wanted| {
+        let mut all = measurements.iter().zip(judgements);
+        all.find(|(measurement, _)| is_same(measurement, wanted))
+    });
+    found.map(|(_, judgement)| judgement.clone()).collect()
 }
 
 /// Every run of an external engine that the report needs and whose series is too large to keep: the readings
@@ -232,12 +258,14 @@ pub fn readings_to_record(
         scaling_measurements(&engines),
         Profile::Paper.measurements(&engines),
     ];
-    for measurement in measurements.into_iter().flatten() {
-        loads[0].cases.extend(measurement.cases);
+    let prepared = preparation_cases(participant.name, settings, progress)?;
+    let cases = measurements.into_iter().flatten();
+    let cases = cases.flat_map(|measurement| measurement.cases);
+    for case in cases.chain(prepared) {
+        if !loads[0].cases.contains(&case) {
+            loads[0].cases.push(case);
+        }
     }
-    loads[0]
-        .cases
-        .extend(preparation_cases(participant.name, settings, progress)?);
     let participants = std::slice::from_ref(participant);
     let results = crate::crosscheck::read_all(&loads, participants, settings, progress);
     results.into_iter().flatten().collect()

@@ -10,11 +10,11 @@ use crate::reproduction::{PreparationRow, PreparationStudy};
 /// c(A) and F(A) of every code that can prepare the stack so, at the first stack of the study.
 pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     let epsilon = study.stack.epsilon();
-    let axis = || Axis::around("push A/ε r", (-0.15, 5.3));
+    let axis = || Axis::around("push A/(ε r)", (-0.15, 5.3));
     let mut contact = Panel::new(axis(), Axis::around("c/(m g)", (-0.02, 0.4)));
     let mut force = Panel::new(
         axis(),
-        Axis::around("yield force F = f/(m g)", (4.22, 4.52)),
+        Axis::around("yield force F = f/(m g)", (4.05, 4.55)),
     );
     if let Some(found) = study.critical_push {
         let place = found.push / epsilon;

@@ -14,7 +14,7 @@ use tristack::crosscheck::{
 };
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::reproduction::{
-    Reproduction, converge, curves, exponents, force_series, scaling_measurements,
+    Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
     study_preparation,
 };
 use tristack::stack::{CRITICAL_FRICTION, Case, Convention, PAPER_STIFFNESS_RATIO, Stack};
@@ -256,6 +256,9 @@ fn native_reproduction() -> Reproduction {
             &Quiet,
         )
         .expect("native runs"),
+        snapshots: snapshots(&interrupt)
+            .expect("a native run")
+            .expect("no interrupt"),
         trajectories: Vec::new(),
         maps: RegimeMap::standard(PAPER_STIFFNESS_RATIO),
         survey: Survey {

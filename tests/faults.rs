@@ -386,11 +386,13 @@ fn record_keeps_every_run_for_machines_without_the_engine() {
     let bench = Bench::with_system_programs();
     let recorded = replay::install(&bench, |_| Disturbance::None);
     let reference = bench.path("reference");
-    let mut record = bench.tristack("record --engines yade");
-    record
-        .env("TRISTACK_REFERENCE", &reference)
-        .assert()
-        .code(0);
+    for set in ["probe", "crosscheck", "trajectories"] {
+        let mut record = bench.tristack(&format!("record --engines yade --only {set}"));
+        record
+            .env("TRISTACK_REFERENCE", &reference)
+            .assert()
+            .code(0);
+    }
     let entries = fs::read_dir(reference.join("yade")).expect("recordings");
     assert_eq!(entries.count(), recorded);
 

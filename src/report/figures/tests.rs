@@ -3,10 +3,12 @@
 use super::style::Mark;
 use super::*;
 use crate::crosscheck::{Judgement, Row, Source, Survey};
-use crate::engine::EngineName;
+use crate::engine::{EngineName, Interrupt};
 use crate::reproduction::{
-    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, TheoryPoint,
+    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, PreparationRow, PreparationStudy,
+    TheoryPoint, snapshots,
 };
+use crate::stack::Stack;
 use crate::theory::RegimeMap;
 use crate::verdict::Verdict;
 
@@ -38,6 +40,31 @@ fn judgement(engine: EngineName, mu: f64, yield_force: Option<f64>) -> Judgement
         peak: None,
         notes: Vec::new(),
         contradicted: false,
+        arms_are_measured: true,
+    }
+}
+
+/// LIGGGHTS at two pushes, of which one has failed.
+fn preparation() -> PreparationStudy {
+    let row = |push: f64, force: Option<f64>| PreparationRow {
+        engine: EngineName::Liggghts,
+        convention_of: EngineName::Liggghts,
+        push: Some(push),
+        limit_force: None,
+        contact_force: force.map(|_| 0.1),
+        contact_uncertainty: None,
+        yield_force: force,
+        uncertainty: None,
+        estimator: None,
+        note: None,
+        provenances: Vec::new(),
+    };
+    PreparationStudy {
+        stack: Stack::paper(0.2, 1e2),
+        exact_force: Some(4.318),
+        predicted_critical_push: 0.0053,
+        critical_push: None,
+        rows: vec![row(0.0, Some(4.3)), row(0.01, None)],
     }
 }
 
@@ -120,6 +147,8 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
         literal: Vec::new(),
         convergence: study((!empty).then_some(4.1)),
         force_series: series(if empty { Vec::new() } else { rows }),
+        preparation: vec![preparation()],
+        snapshots: snapshots(&Interrupt::new()).unwrap().unwrap(),
         trajectories: Vec::new(),
         maps: RegimeMap::standard(2.5),
         survey: Survey {
@@ -159,6 +188,7 @@ fn every_point_is_marked() {
     assert_eq!(circles(&model_form, large), 1 + FRICTIONS.len());
     // Key, two forces at two speeds, and two forces at the two time steps other than the paper's.
     assert_eq!(circles(&figure("convergence").svg, large), 1 + 4 + 4);
+    assert_eq!(circles(&figure("preparation").svg, large), 1 + 2);
 }
 
 #[test]
@@ -183,6 +213,7 @@ fn the_axes_carry_symbols_and_units() {
         ("theory-error", ["floor friction μ", "stiffness kₙ r/(m g)"]),
         ("model-form", ["floor friction μ", " in %"]),
         ("regimes", ["floor friction μ", "stiffness ratio κ = kₙ/kₜ"]),
+        ("preparation", ["push A/(ε r)", "yield force F = f/(m g)"]),
     ] {
         let svg = figure(name).svg;
         for label in labels {
@@ -217,7 +248,7 @@ fn the_same_data_give_the_same_bytes() {
 #[test]
 fn figures_without_any_run_are_still_drawn() {
     let figures = figures(&reproduction(Vec::new()));
-    assert_eq!(figures.len(), 7);
+    assert_eq!(figures.len(), 9);
     for figure in &figures {
         assert!(
             !figure.svg.contains("NaN") && !figure.svg.contains("inf"),

@@ -112,6 +112,34 @@ fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
     }
 }
 
+/// The recorded answers to micro-tests, as they are.
+fn copy_probes(target: &Path) {
+    fs::create_dir_all(target).expect("a directory");
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes");
+    for entry in fs::read_dir(recorded).expect("recorded probes").flatten() {
+        fs::copy(entry.path(), target.join(entry.file_name())).expect("a copy");
+    }
+}
+
+#[test]
+fn a_code_whose_convention_is_not_known_is_not_judged() {
+    let bench = Bench::without_engines();
+    copy_recordings(&bench.path("reference/trajectories"), |_, series| series);
+    copy_probes(&bench.path("reference/probes"));
+    fs::remove_file(bench.path("reference/probes/lammps.json")).expect("it was there");
+    let mut command = bench.tristack("trajectories --format json");
+    command.env("TRISTACK_REFERENCE", bench.path("reference"));
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(4));
+    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = rows.as_array().expect("a list");
+    let (of_lammps, others): (Vec<_>, Vec<_>) =
+        rows.iter().partition(|row| row["engine"] == "lammps");
+    assert_eq!(of_lammps.len(), 1);
+    assert_eq!(of_lammps[0]["verdict"], "inconclusive");
+    assert!(others.iter().all(|row| row["verdict"] == "agrees"));
+}
+
 /// Two parts in a million on one code's force are seen, and seen as what they are.
 #[test]
 fn a_code_whose_force_is_slightly_off_differs() {
@@ -123,6 +151,7 @@ fn a_code_whose_force_is_slightly_off_differs() {
             series
         }
     });
+    copy_probes(&bench.path("reference/probes"));
     let mut command = bench.tristack("trajectories --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");

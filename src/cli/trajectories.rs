@@ -6,7 +6,7 @@ use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
 use crate::crosscheck::{
     Participant, Settings, Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory,
-    trajectory_stack,
+    probe_all, trajectory_stack,
 };
 use crate::engine::EngineName;
 use crate::report::{
@@ -49,13 +49,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let plans = trajectories(participants.iter().map(|participant| participant.name));
     participants.push(Participant::find(EngineName::Native));
+    let settings = arguments.run.settings()?;
+    let reporter = Reporter::new();
+    let probes = probe_all(&participants, &settings, &reporter);
     let settings = Settings {
         recorded: recorded_trajectories(),
-        ..arguments.run.settings()?
+        ..settings
     };
-    let reporter = Reporter::new();
     let judgements = measure_trajectories(&plans, &participants, &settings, &reporter);
     drop(reporter);
+    let judged = judgements.into_iter().map(|judgement| {
+        let names = participants.iter().map(|who| who.name);
+        judgement.unless_contradicted(names.zip(&probes))
+    });
+    let judgements: Vec<TrajectoryJudgement> = judged.collect();
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, &command_line(arguments))?;
     }

@@ -2,7 +2,7 @@
 
 use super::number::{optional, relative, significant};
 use super::table::Table;
-use crate::crosscheck::{Confirmation, Examination, Survey, THREE_DIGITS};
+use crate::crosscheck::{Confirmation, Evidence, Examination, Survey, THREE_DIGITS};
 use crate::stack::Stack;
 use crate::theory::{Across, Axis, Consequence, Course, Event, Outcome, Regime, RegimeMap, Stage};
 use crate::verdict::Verdict;
@@ -209,9 +209,12 @@ pub fn regimes_markdown(survey: &Survey, command: &str) -> String {
          what happens first.\n\n{friction}\n\
          ## Boundaries that do not depend on mu\n\n{lines}\n\
          ## Largest force\n\nThe peak of the wall force in the DEM, extrapolated to vanishing wall speed; \
-         the error is relative to F + 3.\n\n{forces}",
+         the error is relative to F + 3.\n\n{forces}\n\
+         ## Evidence\n\nOf the kind *{}*: it does not prove {}.\n",
         env!("CARGO_PKG_VERSION"),
-        what_events_do()
+        what_events_do(),
+        Evidence::ClosedForm.as_str(),
+        Evidence::ClosedForm.does_not_prove()
     )
 }
 

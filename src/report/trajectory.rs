@@ -71,7 +71,8 @@ fn meaning() -> String {
          *Verdict.* `round-off`: the distance is below what rounding can do (half a unit in the last place in \
          every step, grown as much as a small disturbance of the wall grows in the twin). `first`, `second`: \
          the order is that one within {ORDER_TOLERANCE}, from the pair of time steps that shows it best, or \
-         the distances are so close to rounding (some seven times it) that no order could be seen. `irregular`: the distance is below the step error, the largest \
+         the distances are so close to rounding (some ten times it) that no order could be seen; and the \
+         finest distance is below the step error. `irregular`: the distance is below the step error, the largest \
          change of the twin itself when its own time step is halved. In the collapse the full twin is closer than the one \
          with rotated springs. And up to the peak f is within \
          {FORCE_BAR:e} of its peak at the finest time step.\n\n",

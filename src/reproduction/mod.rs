@@ -110,7 +110,7 @@ pub fn reproduce(
     let interrupted = || settings.interrupt.requested();
     let probes = probe_all(participants, settings, progress);
     let names = participants.iter().map(|who| who.name);
-    let probes = names.zip(probes).collect();
+    let probes: Vec<(EngineName, Probed)> = names.zip(probes).collect();
     let plan = Plan::new(scope);
     let measurements = plan.all();
     let judgements = measure(&measurements, participants, settings, progress);
@@ -133,7 +133,7 @@ pub fn reproduce(
         return Ok(None);
     }
     let preparation = preparation?;
-    let trajectories = run_trajectories(scope, progress);
+    let trajectories = run_trajectories(scope, &probes, progress);
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
     let points = boundary_points(&maps);
     let survey = survey(&points, settings.threads, settings.interrupt, examined);
@@ -176,7 +176,11 @@ fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
     maps.iter().flat_map(of_map).collect()
 }
 
-fn run_trajectories(scope: &Scope, progress: &dyn Progress) -> Vec<TrajectoryJudgement> {
+fn run_trajectories(
+    scope: &Scope,
+    probes: &[(EngineName, Probed)],
+    progress: &dyn Progress,
+) -> Vec<TrajectoryJudgement> {
     let external = scope.participants.iter().map(|who| who.name);
     let external = external.filter(|name| !name.accepts_any_convention());
     let plans: Vec<Trajectory> = external
@@ -187,7 +191,12 @@ fn run_trajectories(scope: &Scope, progress: &dyn Progress) -> Vec<TrajectoryJud
         recorded: scope.trajectories.clone(),
         ..*scope.settings
     };
-    measure_trajectories(&plans, scope.participants, &settings, progress)
+    let judged = measure_trajectories(&plans, scope.participants, &settings, progress);
+    let judged = judged.into_iter().map(|judgement| {
+        let probes = probes.iter().map(|(engine, probed)| (*engine, probed));
+        judgement.unless_contradicted(probes)
+    });
+    judged.collect()
 }
 
 /// The measurements behind the figures.

@@ -89,10 +89,22 @@ pub fn judge_order(
         DocumentedOrder::Irregular => {
             within(step_error, "what the time step does to the twin itself")
         }
-        DocumentedOrder::First => judge_whole_order(1.0, finest, observed_order(distances)),
-        DocumentedOrder::Second => judge_whole_order(2.0, finest, observed_order(distances)),
+        DocumentedOrder::First | DocumentedOrder::Second => {
+            let bounded = within(step_error, "what the time step does to the twin itself");
+            if bounded.0 != Verdict::Agrees {
+                return bounded;
+            }
+            let order = match documented {
+                DocumentedOrder::First => 1.0,
+                _ => 2.0,
+            };
+            judge_whole_order(order, finest, observed_order(distances))
+        }
     }
 }
+
+/// Distances below this many times what rounding can do have noise above [`ORDER_TOLERANCE`] in their order.
+const NEAR_ROUND_OFF: f64 = 2.0 / (ORDER_TOLERANCE * LN_2);
 
 fn judge_whole_order(
     expected: f64,
@@ -109,9 +121,9 @@ fn judge_whole_order(
         };
     };
     let verdict = Verdict::of(seen.order - expected, seen.uncertainty(), ORDER_TOLERANCE);
-    // Noise above the tolerance means that the distances are less than some seven times what rounding can do:
-    // there is nothing left whose order could be seen.
-    let vanished = verdict == Verdict::Inconclusive && seen.noise > ORDER_TOLERANCE;
+    // So close to rounding there is nothing left whose order could be seen.
+    let near = finest.largest <= NEAR_ROUND_OFF * finest.round_off;
+    let vanished = verdict == Verdict::Inconclusive && seen.noise > ORDER_TOLERANCE && near;
     if verdict == Verdict::Agrees || vanished {
         return (Verdict::Agrees, None);
     }
@@ -141,6 +153,22 @@ mod tests {
 
     fn verdict(order: DocumentedOrder, distances: &[Distance]) -> Verdict {
         judge_order(order, distances, 1e-3).0
+    }
+
+    #[test]
+    fn a_distance_that_is_lost_in_rounding_at_one_step_alone_decides_nothing() {
+        let mut lost = distances(|_| 1e-4, 1e-12);
+        lost[1].largest = 1e-12;
+        assert_eq!(
+            verdict(DocumentedOrder::First, &lost),
+            Verdict::Inconclusive
+        );
+    }
+
+    #[test]
+    fn a_distance_of_the_right_order_must_also_be_small() {
+        let large = distances(|h| 1e-1 * h, 1e-12);
+        assert_eq!(verdict(DocumentedOrder::First, &large), Verdict::Differs);
     }
 
     #[test]
@@ -223,7 +251,7 @@ mod tests {
         ] {
             assert_eq!(verdict(order, &nan), Verdict::Inconclusive);
         }
-        let two = &distances(|h| h, 1e-12)[..2];
+        let two = &distances(|h| 1e-5 * h, 1e-12)[..2];
         assert_eq!(verdict(DocumentedOrder::First, two), Verdict::Inconclusive);
     }
 

@@ -4,6 +4,7 @@ use super::distance::{Branch, Distance, Quantity};
 use super::documented::{Documented, DocumentedOrder};
 use super::judge::order_between;
 use super::plan::Twin;
+use crate::crosscheck::probing::{Probed, contradictions, is_contradicted};
 use crate::crosscheck::verdict::Source;
 use crate::engine::EngineName;
 use crate::verdict::Verdict;
@@ -103,6 +104,29 @@ impl TrajectoryJudgement {
             .iter()
             .map(|comparison| comparison.verdict)
             .collect()
+    }
+
+    /// Takes the judgement back where the twin has a convention that the code does not have, or is not known to
+    /// have: `probes` are those of the participants.
+    pub fn unless_contradicted<'a>(
+        mut self,
+        probes: impl IntoIterator<Item = (EngineName, &'a Probed)>,
+    ) -> Self {
+        let mut probes = probes.into_iter();
+        let own = probes.find(|(engine, _)| *engine == self.engine);
+        let Some((_, probed)) = own.filter(|_| !self.comparisons.is_empty()) else {
+            return self;
+        };
+        if let Some(first) = contradictions(probed).first() {
+            self.notes.push(format!("not judged: {first}"));
+            self.comparisons.clear();
+            self.verdict = if is_contradicted(probed) {
+                Verdict::Differs
+            } else {
+                Verdict::Inconclusive
+            };
+        }
+        self
     }
 
     /// The rows, distance by distance.

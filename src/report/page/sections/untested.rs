@@ -31,9 +31,12 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &
     let untestable = claims
         .iter()
         .filter(|claim| claim.verdict == ClaimVerdict::Untestable);
-    items.extend(
-        untestable.map(|claim| format!("{}: {} {}", claim.place, claim.statement, claim.evidence)),
-    );
+    items.extend(untestable.map(|claim| {
+        format!(
+            "{}, “{}”: {}.",
+            claim.place, claim.statement, claim.evidence
+        )
+    }));
     Section {
         id: "untested",
         title: "What was not tested",

@@ -160,22 +160,7 @@ fn inspected(width: u32) -> Option<serde_json::Value> {
     let bench = Bench::without_engines();
     let script = include_str!("page_inspection.js");
     let page = file("report.html").replace("</body>", &format!("<script>{script}</script></body>"));
-    let path = bench.path("page.html");
-    fs::write(&path, page).expect("a page");
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
-        .args([
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--virtual-time-budget=20000",
-        ])
-        .arg(format!("--window-size={width},1000"))
-        .arg(format!(
-            "--user-data-dir={}",
-            bench.path("profile").display()
-        ))
-        .arg(format!("file://{}", path.display()))
-        .output()
-        .expect("the browser starts");
+    let output = laid_out(&browser, &bench, &page, width);
     let dom = String::from_utf8_lossy(&output.stdout).into_owned();
     let found = dom.split("<pre id=\"inspection\">").nth(1);
     let found = found.and_then(|rest| rest.split("</pre>").next());
@@ -187,6 +172,24 @@ fn inspected(width: u32) -> Option<serde_json::Value> {
             .replace("&gt;", ">")
             .replace("&amp;", "&"),
     ))
+}
+
+/// What `browser` makes of a page, printed after its scripts have run; no name is resolved.
+fn laid_out(browser: &Path, bench: &Bench, page: &str, width: u32) -> Output {
+    let path = bench.path("page.html");
+    fs::write(&path, page).expect("a page");
+    let profile = bench.path("profile");
+    Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .args([
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--virtual-time-budget=20000",
+        ])
+        .arg(format!("--window-size={width},1000"))
+        .arg(format!("--user-data-dir={}", profile.display()))
+        .arg(format!("file://{}", path.display()))
+        .output()
+        .expect("the browser starts")
 }
 
 fn browser() -> Option<PathBuf> {
@@ -244,21 +247,7 @@ fn the_inspection_sees_what_it_looks_for() {
          <text x=\"5\" y=\"40\">one</text><text x=\"8\" y=\"42\">two</text><text x=\"80\" y=\"80\">cut off</text>\
          </svg></figure><script>{script}</script></body>"
     );
-    let path = bench.path("page.html");
-    fs::write(&path, page).expect("a page");
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
-        .args([
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--virtual-time-budget=20000",
-        ])
-        .arg(format!(
-            "--user-data-dir={}",
-            bench.path("profile").display()
-        ))
-        .arg(format!("file://{}", path.display()))
-        .output()
-        .expect("the browser starts");
+    let output = laid_out(&browser, &bench, &page, 800);
     let dom = String::from_utf8_lossy(&output.stdout);
     assert!(dom.contains("\"one / two\""), "{dom}");
     assert!(dom.contains("example.invalid"), "{dom}");

@@ -21,7 +21,7 @@ impl Reporter {
         Self {
             bar: terminal.then(|| ProgressBar::new(0).with_style(style())),
             // Not drawn: it only counts for the plain lines.
-            lines: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
+            lines: ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden()),
         }
     }
 
@@ -41,9 +41,9 @@ fn style() -> ProgressStyle {
 impl Progress for Reporter {
     fn planned(&self, total: usize, reused: usize) {
         let open = (total - reused) as u64;
-        self.lines.set_length(open);
+        self.lines.inc_length(open);
         if let Some(bar) = &self.bar {
-            bar.set_length(open);
+            bar.inc_length(open);
         }
         if reused > 0 {
             self.say(&format!("{reused} of {total} runs are there already"));

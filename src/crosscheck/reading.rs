@@ -1,6 +1,5 @@
 //! Runs carried out and read, live or recorded.
 
-use super::recorded::RecordedError;
 use super::schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 use crate::archive::Reading;
 use crate::engine::EngineName;
@@ -20,7 +19,7 @@ pub fn read_all<W: Workload>(
     for (workload, results) in workloads.iter().zip(&mut results) {
         let engine = workload.engine();
         for (case, result) in workload.cases().iter().zip(results) {
-            if !matches!(result, Err(RunError::Missing(RecordedError::Absent { .. }))) {
+            if !result.as_ref().is_err_and(RunError::is_unrecorded) {
                 continue;
             }
             let readings = recorded

@@ -6,8 +6,9 @@ use super::store::Store;
 use crate::archive::Run;
 use crate::engine::{Engine, EngineName, Failure, FailureKind, Interrupt, Workplace};
 use crate::stack::Case;
-use std::sync::Mutex;
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use thiserror::Error;
 
@@ -46,14 +47,33 @@ impl Participant {
 }
 
 /// Why a run is not there.
-#[derive(Debug, Error)]
+#[derive(Debug, Clone, Error)]
 pub enum RunError {
     /// The engine failed.
     #[error(transparent)]
-    Failed(#[from] Box<Failure>),
+    Failed(Arc<Failure>),
     /// The engine is not installed, and no recorded run stands in.
     #[error(transparent)]
-    Missing(#[from] RecordedError),
+    Missing(Arc<RecordedError>),
+}
+
+impl RunError {
+    /// Whether nobody recorded the run.
+    pub(super) fn is_unrecorded(&self) -> bool {
+        matches!(self, Self::Missing(error) if matches!(**error, RecordedError::Absent { .. }))
+    }
+}
+
+impl From<Failure> for RunError {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(Arc::new(failure))
+    }
+}
+
+impl From<RecordedError> for RunError {
+    fn from(error: RecordedError) -> Self {
+        Self::Missing(Arc::new(error))
+    }
 }
 
 /// Somebody who wants to know how far it is.
@@ -84,71 +104,86 @@ impl Workload for Measurement {
     }
 }
 
-/// One case of one workload.
-#[derive(Clone, Copy)]
-struct Task {
-    workload: usize,
-    case: usize,
+/// One run: however many workloads want it, it is made once.
+struct Order<'a> {
+    engine: EngineName,
+    case: &'a Case,
+}
+
+/// Every run that `workloads` want, once, and which of them every case of every workload is.
+fn orders<W: Workload>(workloads: &[W]) -> (Vec<Order<'_>>, Vec<Vec<usize>>) {
+    let mut orders = Vec::new();
+    let mut known: HashMap<(EngineName, String), usize> = HashMap::new();
+    let wanted = workloads.iter().map(|workload| {
+        let engine = workload.engine();
+        let cases = workload.cases().iter().map(|case| {
+            let key = (engine, case.content_hash());
+            *known.entry(key).or_insert_with(|| {
+                orders.push(Order { engine, case });
+                orders.len() - 1
+            })
+        });
+        cases.collect()
+    });
+    let wanted = wanted.collect();
+    (orders, wanted)
 }
 
 type Slot<T> = Mutex<Option<Result<T, RunError>>>;
 
 /// What `keep` makes of each run, case by case, of every workload. Runs themselves are not held longer
 /// than that, so that memory does not grow with their number.
-pub fn run_all<W: Workload, T: Send>(
+pub fn run_all<W: Workload, T: Clone + Send>(
     workloads: &[W],
     participants: &[Participant],
     settings: &Settings,
     progress: &dyn Progress,
     keep: impl Fn(Run) -> T + Sync,
 ) -> Vec<Vec<Result<T, RunError>>> {
-    let slots = workloads.iter().map(|workload| {
-        let cases = workload.cases().iter();
-        cases.map(|_| Slot::<T>::default()).collect()
-    });
-    let slots: Vec<Vec<Slot<T>>> = slots.collect();
+    let (orders, wanted) = orders(workloads);
     let floor = Floor {
-        workloads,
+        slots: orders.iter().map(|_| Slot::<T>::default()).collect(),
+        orders,
         settings,
         progress,
         keep,
-        slots,
     };
     let jobs = floor.jobs(participants);
     floor.work_off(&jobs);
-    let results = floor.slots.into_iter().map(|slots| {
-        let results = slots
-            .into_iter()
-            .map(|slot| slot.into_inner().unwrap_or(None));
-        results
-            .map(|result| result.expect("every task reports"))
-            .collect()
+    let results = floor.slots.into_iter().map(|slot| {
+        let result = slot.into_inner().unwrap_or(None);
+        result.expect("every order is reported")
     });
-    results.collect()
+    let results: Vec<Result<T, RunError>> = results.collect();
+    let of_workload = |wanted: Vec<usize>| {
+        let results = wanted.into_iter().map(|order| results[order].clone());
+        results.collect()
+    };
+    wanted.into_iter().map(of_workload).collect()
 }
 
-/// Tasks for one call of one engine.
+/// Orders for one call of one engine.
 struct Job<'a> {
     engine: &'a dyn Engine,
-    tasks: Vec<Task>,
+    orders: Vec<usize>,
 }
 
 /// Everything the workers share.
-struct Floor<'a, W, T, Keep> {
-    workloads: &'a [W],
+struct Floor<'a, T, Keep> {
+    orders: Vec<Order<'a>>,
     settings: &'a Settings<'a>,
     progress: &'a dyn Progress,
     keep: Keep,
-    slots: Vec<Vec<Slot<T>>>,
+    slots: Vec<Slot<T>>,
 }
 
-impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
-    fn case(&self, task: Task) -> &Case {
-        &self.workloads[task.workload].cases()[task.case]
+impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
+    fn case(&self, order: usize) -> &Case {
+        self.orders[order].case
     }
 
-    fn fill(&self, task: Task, result: Result<Run, RunError>) {
-        if let Ok(mut slot) = self.slots[task.workload][task.case].lock() {
+    fn fill(&self, order: usize, result: Result<Run, RunError>) {
+        if let Ok(mut slot) = self.slots[order].lock() {
             *slot = Some(result.map(&self.keep));
         }
     }
@@ -158,13 +193,13 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
         let mut jobs = Vec::new();
         let (mut total, mut missing) = (0, 0);
         for participant in participants {
-            let tasks = self.tasks_of(participant.name);
-            total += tasks.len();
+            let orders = self.orders_of(participant.name);
+            total += orders.len();
             let Some(engine) = participant.engine.as_deref() else {
-                self.use_recorded(participant.name, &tasks);
+                self.use_recorded(participant.name, &orders);
                 continue;
             };
-            let open = self.without_stored(engine, tasks);
+            let open = self.without_stored(engine, orders);
             missing += open.len();
             let in_one_call = if engine.prefers_many_cases() {
                 open.len()
@@ -173,9 +208,9 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
                 1
             };
             let chunks = open.chunks(in_one_call.max(1));
-            jobs.extend(chunks.map(|tasks| Job {
+            jobs.extend(chunks.map(|orders| Job {
                 engine,
-                tasks: tasks.to_vec(),
+                orders: orders.to_vec(),
             }));
         }
         self.progress.planned(total, total - missing);
@@ -183,47 +218,40 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
         jobs
     }
 
-    fn tasks_of(&self, engine: EngineName) -> Vec<Task> {
-        let own = self.workloads.iter().enumerate();
-        own.filter(|(_, workload)| workload.engine() == engine)
-            .flat_map(|(index, workload)| {
-                let cases = 0..workload.cases().len();
-                cases.map(move |case| Task {
-                    workload: index,
-                    case,
-                })
-            })
-            .collect()
+    fn orders_of(&self, engine: EngineName) -> Vec<usize> {
+        let all = self.orders.iter().enumerate();
+        let own = all.filter(|(_, order)| order.engine == engine);
+        own.map(|(index, _)| index).collect()
     }
 
     fn steps(&self, job: &Job) -> u64 {
-        let steps = |&task: &Task| self.case(task).total_steps();
-        job.tasks.iter().map(steps).sum()
+        let steps = |&order: &usize| self.case(order).total_steps();
+        job.orders.iter().map(steps).sum()
     }
 
-    fn use_recorded(&self, engine: EngineName, tasks: &[Task]) {
-        for &task in tasks {
-            let run = self.settings.recorded.get(engine, self.case(task));
-            self.fill(task, run.map_err(RunError::from));
+    fn use_recorded(&self, engine: EngineName, orders: &[usize]) {
+        for &order in orders {
+            let run = self.settings.recorded.get(engine, self.case(order));
+            self.fill(order, run.map_err(RunError::from));
         }
     }
 
-    /// Fills the slots of the tasks whose runs are in the store, and returns the others.
-    fn without_stored(&self, engine: &dyn Engine, tasks: Vec<Task>) -> Vec<Task> {
+    /// Fills the slots of the orders whose runs are in the store, and returns the others.
+    fn without_stored(&self, engine: &dyn Engine, orders: Vec<usize>) -> Vec<usize> {
         if self.settings.fresh {
-            return tasks;
+            return orders;
         }
         let mut open = Vec::new();
-        for task in tasks {
-            let case = self.case(task);
+        for order in orders {
+            let case = self.case(order);
             let deck_hash = engine.name().deck_hash(case);
             match self.settings.store.get(engine.identity(), case, &deck_hash) {
-                Ok(Some(run)) => self.fill(task, Ok(run)),
-                Ok(None) => open.push(task),
+                Ok(Some(run)) => self.fill(order, Ok(run)),
+                Ok(None) => open.push(order),
                 Err(error) => {
                     self.progress
                         .warn(&format!("damaged run in the store, computed anew: {error}"));
-                    open.push(task);
+                    open.push(order);
                 }
             }
         }
@@ -248,7 +276,7 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
         if self.settings.interrupt.requested() {
             return self.fail_all(job, || FailureKind::Interrupted);
         }
-        let cases: Vec<Case> = job.tasks.iter().map(|&task| *self.case(task)).collect();
+        let cases: Vec<Case> = job.orders.iter().map(|&order| *self.case(order)).collect();
         let root = self.settings.store.work_directory();
         let prefix = format!("{}-", job.engine.name());
         let directory = match tempfile::Builder::new().prefix(&prefix).tempdir_in(&root) {
@@ -275,7 +303,7 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
     }
 
     fn accept(&self, job: &Job, index: usize, result: Result<Run, Failure>) {
-        let task = job.tasks[index];
+        let order = job.orders[index];
         if let Ok(run) = &result
             && let Err(error) = self.settings.store.put(run)
         {
@@ -283,20 +311,54 @@ impl<W: Workload, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, W, T, Keep> {
                 .warn(&format!("a finished run could not be kept: {error}"));
         }
         self.progress
-            .finished(job.engine.name(), self.case(task), result.as_ref());
-        self.fill(task, result.map_err(|failure| Box::new(failure).into()));
+            .finished(job.engine.name(), self.case(order), result.as_ref());
+        self.fill(order, result.map_err(RunError::from));
     }
 
     fn fail_all(&self, job: &Job, kind: impl Fn() -> FailureKind) {
-        for index in 0..job.tasks.len() {
+        for index in 0..job.orders.len() {
             let failure = Failure {
                 engine: job.engine.name(),
-                subject: self.case(job.tasks[index]).to_string(),
+                subject: self.case(job.orders[index]).to_string(),
                 kind: kind(),
                 run_directory: None,
                 last_lines: Vec::new(),
             };
             self.accept(job, index, Err(failure));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Load, plan};
+    use super::*;
+    use crate::stack::{Convention, Stack};
+
+    #[test]
+    fn a_run_that_several_workloads_want_is_made_once() {
+        let cases = |friction| {
+            let stack = Stack::paper(friction, 1e2);
+            plan(EngineName::Native, &stack, Convention::PAPER).cases
+        };
+        let (some, others) = (cases(0.2), cases(0.3));
+        let load = |engine, cases: [&[Case]; 2]| Load {
+            engine,
+            cases: cases.concat(),
+        };
+        let workloads = [
+            load(EngineName::Native, [&some, &some[1..]]),
+            load(EngineName::Native, [&others, &some]),
+            load(EngineName::Yade, [&some, &[]]),
+        ];
+        let (orders, wanted) = orders(&workloads);
+        assert_eq!(orders.len(), some.len() + others.len() + some.len());
+        for (workload, wanted) in workloads.iter().zip(&wanted) {
+            assert_eq!(wanted.len(), workload.cases.len());
+            for (case, &order) in workload.cases.iter().zip(wanted) {
+                assert_eq!(orders[order].engine, workload.engine);
+                assert_eq!(orders[order].case, case);
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use tristack::crosscheck::{
     FLOOR, Judgement, Participant, Progress, Recorded, Settings, Store, measure, plan, probe_all,
 };
 use tristack::dem::{
-    Contact, ContactForce, ContactModel, compress_stack, compress_stack_with, run_contact_test_with,
+    Composite, Contact, ContactForce, ContactModel, compress_stack, compress_stack_with, run_contact_test_with,
 };
 use tristack::engine::{Engine, EngineName, Failure, Finished, Interrupt, Workplace};
 use tristack::stack::{Case, ContactTest, Convention, Stack};
@@ -83,8 +83,19 @@ impl Twin {
     }
 }
 
+impl Composite<f64> for Memory {
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut f64, &f64)) {
+        self.length.visit(&other.length, visit);
+        self.vector.visit(&other.vector, visit);
+    }
+}
+
 impl ContactModel<f64> for Twin {
     type Memory = Memory;
+
+    fn forgotten(&self, _: f64) -> Memory {
+        Memory::default()
+    }
 
     fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
         let [nx, ny] = contact.normal;

@@ -7,7 +7,7 @@ use tristack::engine::EngineName;
 use tristack::stack::{Convention, PAPER_RESTITUTION, Stack, sha256_hex};
 
 fn law() -> SpringDashpot<f64> {
-    SpringDashpot::new(&Convention::PAPER, 0.4)
+    SpringDashpot::like(0.0, &Convention::PAPER, 0.4)
 }
 
 fn floor(friction: f64) -> PlaneWall {

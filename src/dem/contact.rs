@@ -1,6 +1,6 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
-use super::real::{Real, real};
+use super::real::{Composite, Real, composite};
 use crate::stack::{Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport};
 
 /// A contact between two bodies as it is at one moment.
@@ -33,9 +33,12 @@ pub struct ContactForce<R> {
     pub radius: R,
 }
 
-impl<R: Real> Default for ContactForce<R> {
-    fn default() -> Self {
-        let zero = R::zero();
+composite!(ContactForce { normal, tangential, radius });
+
+impl<R: Real> ContactForce<R> {
+    /// No force, in numbers like `number`.
+    pub fn none(number: R) -> Self {
+        let zero = number.like(0.0);
         Self {
             normal: zero,
             tangential: zero,
@@ -45,9 +48,12 @@ impl<R: Real> Default for ContactForce<R> {
 }
 
 /// A law that gives the force of a contact from its motion, step by step.
-pub trait ContactModel<R> {
-    /// What a contact remembers from one step to the next; its default is a contact without a past.
-    type Memory: Copy + Default;
+pub trait ContactModel<R: Real> {
+    /// What a contact remembers from one step to the next.
+    type Memory: Copy + Composite<R>;
+
+    /// The memory of a contact without a past, in numbers like `number`.
+    fn forgotten(&self, number: R) -> Self::Memory;
 
     /// The force of `contact`, whose memory is advanced to the present.
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
@@ -74,6 +80,13 @@ pub struct SpringDashpot<R> {
     pub separating_force: SeparatingForce,
 }
 
+composite!(SpringDashpot {
+    normal_stiffness,
+    tangential_stiffness,
+    normal_damping,
+    tangential_damping
+});
+
 /// What a [`SpringDashpot`] contact remembers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring<R> {
@@ -83,23 +96,16 @@ pub struct Spring<R> {
     pub normal: [R; 2],
 }
 
-impl<R: Real> Default for Spring<R> {
-    fn default() -> Self {
-        Self {
-            length: R::zero(),
-            normal: [R::zero(); 2],
-        }
-    }
-}
+composite!(Spring { length, normal });
 
 impl<R: Real> SpringDashpot<R> {
-    /// The law of `convention` with k_n = 1 and the given k_t.
-    pub fn new(convention: &Convention, tangential_stiffness: f64) -> Self {
+    /// The law of `convention` with k_n = 1 and the given k_t, in numbers like `number`.
+    pub fn like(number: R, convention: &Convention, tangential_stiffness: f64) -> Self {
         Self {
-            normal_stiffness: R::one(),
-            tangential_stiffness: real(tangential_stiffness),
-            normal_damping: real(convention.damping(1.0)),
-            tangential_damping: real(convention.damping(tangential_stiffness)),
+            normal_stiffness: number.like(1.0),
+            tangential_stiffness: number.like(tangential_stiffness),
+            normal_damping: number.like(convention.damping(1.0)),
+            tangential_damping: number.like(convention.damping(tangential_stiffness)),
             coulomb_operand: convention.coulomb_operand,
             sliding_spring: convention.sliding_spring,
             spring_transport: convention.spring_transport,
@@ -115,45 +121,53 @@ impl<R: Real> SpringDashpot<R> {
     /// use tristack::stack::Convention;
     /// let law = SpringDashpot {
     ///     normal_damping: 0.25,
-    ///     ..SpringDashpot::new(&Convention::PAPER, 0.4)
+    ///     ..SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
     /// };
     /// assert_eq!(law.normal_force(0.5, -1.0), 0.75);
     /// ```
+    #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
         let force = self.normal_stiffness * overlap - self.normal_damping * separation_speed;
         match self.separating_force {
             SeparatingForce::MayPull => force,
-            SeparatingForce::NeverPulls => force.max(R::zero()),
+            SeparatingForce::NeverPulls => {
+                let zero = force.like(0.0);
+                R::select(force.less(zero), zero, force)
+            }
         }
     }
 
     /// Advances the spring by one step in which the surfaces move at v_t, and returns the tangential force
     /// h_t = −k_t u − η_t v_t, limited to μ |f_n| (paper, "Numerical results").
+    #[inline(always)]
     fn tangential_force(&self, spring: &mut R, limit: R, velocity: R, time_step: R) -> R {
+        let zero = limit.like(0.0);
         let stretched = *spring + velocity * time_step;
         let elastic = -(self.tangential_stiffness * stretched);
         let damping = self.tangential_damping * velocity;
         let sticking = elastic - damping;
         let (operand, damping_in_operand) = match self.coulomb_operand {
             CoulombOperand::SpringAndDamping => (sticking, damping),
-            CoulombOperand::Spring => (elastic, R::zero()),
+            CoulombOperand::Spring => (elastic, zero),
         };
-        if operand.abs() < limit {
-            *spring = stretched;
-            return sticking;
-        }
-        let sliding = if operand < R::zero() { -limit } else { limit };
-        if self.sliding_spring == SlidingSpring::FollowsLimit {
-            *spring = -(sliding + damping_in_operand) / self.tangential_stiffness;
-        }
-        sliding
+        let sticks = operand.abs().less(limit);
+        let sliding = R::select(operand.less(zero), -limit, limit);
+        let length = match self.sliding_spring {
+            SlidingSpring::Frozen => *spring,
+            SlidingSpring::FollowsLimit => {
+                -(sliding + damping_in_operand) / self.tangential_stiffness
+            }
+        };
+        *spring = R::select(sticks, stretched, length);
+        R::select(sticks, sticking, sliding)
     }
 
     /// The factor by which the spring's length changes while the normal turns.
+    #[inline(always)]
     fn transport(&self, from: [R; 2], to: [R; 2]) -> R {
         let cosine = along(from, to);
         match self.spring_transport {
-            SpringTransport::Rotated => R::one(),
+            SpringTransport::Rotated => cosine.like(1.0),
             SpringTransport::Projected => cosine,
             SpringTransport::Linearised => {
                 let sine = tangential(from, to);
@@ -166,8 +180,17 @@ impl<R: Real> SpringDashpot<R> {
 impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     type Memory = Spring<R>;
 
+    fn forgotten(&self, number: R) -> Spring<R> {
+        let zero = number.like(0.0);
+        Spring {
+            length: zero,
+            normal: [zero; 2],
+        }
+    }
+
+    #[inline(always)]
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
-        let radius = R::one() + contact.arm * contact.overlap;
+        let radius = contact.overlap.like(1.0) + contact.arm * contact.overlap;
         let velocity = tangential(contact.normal, contact.velocity) - radius * contact.spin;
         let separation_speed = along(contact.normal, contact.velocity);
         let normal = self.normal_force(contact.overlap, separation_speed);
@@ -186,11 +209,13 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
 }
 
 /// Component of `vector` along `normal`.
+#[inline(always)]
 pub(super) fn along<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
     normal[0] * vector[0] + normal[1] * vector[1]
 }
 
 /// Component of `vector` along t = (−n_y, n_x).
+#[inline(always)]
 pub(super) fn tangential<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
     normal[0] * vector[1] - normal[1] * vector[0]
 }
@@ -215,7 +240,7 @@ mod tests {
             tangential_damping: 0.1,
             coulomb_operand,
             sliding_spring,
-            ..SpringDashpot::new(&Convention::PAPER, 0.4)
+            ..SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
         }
     }
 
@@ -240,7 +265,7 @@ mod tests {
 
     #[test]
     fn sticking_contact_stores_the_displacement() {
-        let mut memory = Spring::default();
+        let mut memory = paper().forgotten(0.0);
         let force = paper().evaluate(&CONTACT, &mut memory);
         assert_eq!(memory.length, 0.05);
         assert!((force.tangential + 0.4 * 0.05 + 0.1 * 0.5).abs() < 1e-17);

@@ -12,7 +12,7 @@ const BODIES: [usize; 2] = [0, 1];
 /// # Errors
 /// If the motion leaves the finite numbers.
 pub fn run_contact_test(test: &ContactTest) -> Result<Motion, SeriesError> {
-    let model = SpringDashpot::new(&test.convention, test.tangential_stiffness());
+    let model = SpringDashpot::like(0.0, &test.convention, test.tangential_stiffness());
     run_contact_test_with(test, model)
 }
 

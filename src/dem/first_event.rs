@@ -7,7 +7,7 @@
 
 use super::contact::SpringDashpot;
 use super::scene::{PlaneWall, Scene};
-use super::stack_run::{LEFT, RIGHT, TOP, stress_free_stack};
+use super::stack_scene::{FLOOR, LEFT, RIGHT, TOP, stress_free_stack};
 use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
 use crate::theory::{Event, Stage};
 
@@ -78,11 +78,10 @@ pub fn watch_stack(
     until: Until,
     wanted: impl Fn() -> bool,
 ) -> Observation {
-    let law = SpringDashpot::new(&Convention::PAPER, stack.tangential_stiffness());
-    let (scene, floor) = stress_free_stack(&case(stack, loading), law);
+    let law = SpringDashpot::like(0.0, &Convention::PAPER, stack.tangential_stiffness());
+    let scene = stress_free_stack(&case(stack, loading), law, 0.0);
     let mut run = Run {
         scene,
-        floor,
         stack: *stack,
         observation: Observation {
             closed: None,
@@ -107,7 +106,6 @@ pub fn watch_stack(
 
 struct Run {
     scene: Scene,
-    floor: usize,
     stack: Stack,
     observation: Observation,
 }
@@ -224,9 +222,9 @@ impl Run {
 
     /// Whether either floor contact bears all the tangential force it can.
     fn floor_slides(&self) -> bool {
-        let friction = self.scene.walls[self.floor].friction;
+        let friction = self.scene.walls[FLOOR].friction;
         [RIGHT, LEFT].into_iter().any(|cylinder| {
-            let contact = self.scene.wall_force(self.floor, cylinder);
+            let contact = self.scene.wall_force(FLOOR, cylinder);
             let limit = friction * contact.normal.abs();
             limit > 0.0 && contact.tangential.abs() >= limit
         })

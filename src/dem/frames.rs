@@ -2,7 +2,8 @@
 
 use super::contact::SpringDashpot;
 use super::scene::Scene;
-use super::stack_run::{TOP, compress_stack_watched, law};
+use super::stack_run::{compress_stack_watched, law};
+use super::stack_scene::{FLOOR, TOP};
 use crate::stack::Case;
 use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, SeriesError, Trace};
 
@@ -16,7 +17,7 @@ pub fn compress_stack_into_frames(
     wanted: impl Fn() -> bool,
 ) -> Result<(Trace, Frames), SeriesError> {
     let mut scenes = Vec::new();
-    let trace = compress_stack_watched(case, law::<f64>(case), wanted, |scene, top_wall| {
+    let trace = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene, top_wall| {
         scenes.push(frame(scene, top_wall));
     })?;
     let stamped = scenes.into_iter().zip(trace.samples());
@@ -76,14 +77,7 @@ fn wall_contacts(
     scene: &Scene<f64, SpringDashpot<f64>>,
     top_wall: usize,
 ) -> impl Iterator<Item = ContactPoint> + '_ {
-    let walls = (0..scene.walls.len()).map(move |wall| {
-        let partner = if wall == top_wall {
-            Partner::TopWall
-        } else {
-            Partner::Floor
-        };
-        (wall, partner)
-    });
+    let walls = [(FLOOR, Partner::Floor), (top_wall, Partner::TopWall)].into_iter();
     walls.flat_map(move |(wall, partner)| {
         (0..scene.cylinders.len()).map(move |cylinder| {
             let plane = &scene.walls[wall];

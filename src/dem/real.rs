@@ -1,14 +1,159 @@
-//! The numbers that the stepping is done in: doubles, or double-doubles to see what rounding does to them.
+//! The numbers that the stepping is done in: doubles, double-doubles to see what rounding does to them, or
+//! several doubles side by side, one for each of as many runs.
 
-use num_traits::{Float, NumAssign};
+use num_traits::Float;
 use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
+use twofloat::TwoFloat;
 
-/// A real number.
-pub trait Real: Float + NumAssign + Debug + From<f64> + Into<f64> {}
+/// A real number, or one in each of several lanes. Every operation acts on each lane alone, and gives it the
+/// bits that it gives to a single number.
+pub trait Real:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + MulAssign
+{
+    /// Where something holds.
+    type Mask: Copy;
 
-impl<R: Float + NumAssign + Debug + From<f64> + Into<f64>> Real for R {}
+    /// Number of lanes.
+    const LANES: usize;
 
-/// `value` exactly.
-pub fn real<R: Real>(value: f64) -> R {
-    <R as From<f64>>::from(value)
+    /// `value` exactly, in every lane.
+    fn like(self, value: f64) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// Where it is less than `other`.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `yes` where `mask` holds, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Whether `mask` holds anywhere.
+    fn any(self, mask: Self::Mask) -> bool;
+    /// The number in one lane, to double precision.
+    fn lane(self, lane: usize) -> f64;
+    /// Takes over one lane of `other`.
+    fn set_lane(&mut self, lane: usize, other: Self);
+    /// Does `work`, compiled for the instruction set of these numbers as far as it is inlined.
+    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
+}
+
+macro_rules! one_lane {
+    ($($number:ty),*) => {$(
+        impl Real for $number {
+            type Mask = bool;
+
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn like(self, value: f64) -> Self {
+                value.into()
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Float::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Float::abs(self)
+            }
+
+            #[inline(always)]
+            fn less(self, other: Self) -> bool {
+                self < other
+            }
+
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+
+            #[inline(always)]
+            fn any(self, mask: bool) -> bool {
+                mask
+            }
+
+            #[inline(always)]
+            fn lane(self, _: usize) -> f64 {
+                self.into()
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, _: usize, other: Self) {
+                *self = other;
+            }
+
+            #[inline(always)]
+            fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
+                work()
+            }
+        }
+    )*};
+}
+
+one_lane!(f64, TwoFloat);
+
+/// Something made of real numbers, always the same ones in the same order.
+pub trait Composite<R: Real>: Clone {
+    /// Shows `visit` every number of this beside its counterpart in `other`.
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R));
+
+    /// `yes` where `mask` holds, `no` elsewhere.
+    #[inline(always)]
+    fn choose(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        let mut chosen = yes.clone();
+        chosen.visit(no, &mut |number, no| *number = R::select(mask, *number, *no));
+        chosen
+    }
+
+    /// Takes over one lane of `other`.
+    fn take_lane(&mut self, lane: usize, other: &Self) {
+        self.visit(other, &mut |number, other| number.set_lane(lane, *other));
+    }
+}
+
+impl<R: Real> Composite<R> for R {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        visit(self, other);
+    }
+}
+
+impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        for (own, other) in self.iter_mut().zip(other) {
+            own.visit(other, visit);
+        }
+    }
+}
+
+/// Implements [`Composite`] for a struct whose named fields are all made of numbers.
+macro_rules! composite {
+    ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
+        impl<R: $crate::dem::Real> $crate::dem::Composite<R> for $name<R> {
+            #[inline(always)]
+            fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+                $(self.$field.visit(&other.$field, visit);)*
+            }
+        }
+    )*};
+}
+pub(super) use composite;
+
+impl<R: Real, C: Composite<R>, const N: usize> Composite<R> for [C; N] {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        for (own, other) in self.iter_mut().zip(other) {
+            own.visit(other, visit);
+        }
+    }
 }

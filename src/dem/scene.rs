@@ -1,7 +1,7 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
 use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along};
-use super::real::{Real, real};
+use super::real::{Composite, Real, composite};
 use crate::stack::CYLINDER_INERTIA;
 
 /// A cylinder of unit mass and radius. Velocities belong to the half step before the positions.
@@ -17,14 +17,21 @@ pub struct Cylinder<R = f64> {
     pub spin: R,
 }
 
+composite!(
+    Cylinder { position, angle, velocity, spin },
+    PlaneWall { normal, offset, speed, friction },
+    Load { force, torque },
+);
+
 impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.
     pub fn at(x: R, y: R) -> Self {
+        let zero = x.like(0.0);
         Self {
             position: [x, y],
-            angle: R::zero(),
-            velocity: [R::zero(); 2],
-            spin: R::zero(),
+            angle: zero,
+            velocity: [zero; 2],
+            spin: zero,
         }
     }
 }
@@ -44,7 +51,7 @@ pub struct PlaneWall<R = f64> {
 
 /// Cylinders, walls and the state of all their contacts.
 #[derive(Debug, Clone)]
-pub struct Scene<R = f64, Model: ContactModel<R> = SpringDashpot<R>> {
+pub struct Scene<R: Real = f64, Model: ContactModel<R> = SpringDashpot<R>> {
     /// The cylinders.
     pub cylinders: Vec<Cylinder<R>>,
     /// The walls.
@@ -73,14 +80,49 @@ pub struct Scene<R = f64, Model: ContactModel<R> = SpringDashpot<R>> {
 struct ContactState<R, Memory> {
     memory: Memory,
     force: ContactForce<R>,
+    /// Whether any lane has touched since it was last forgotten.
+    loaded: bool,
 }
 
-impl<R: Real, Memory: Default> Default for ContactState<R, Memory> {
-    fn default() -> Self {
+impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
+    fn forgotten<Model: ContactModel<R, Memory = Memory>>(model: &Model, number: R) -> Self {
         Self {
-            memory: Memory::default(),
-            force: ContactForce::default(),
+            memory: model.forgotten(number),
+            force: ContactForce::none(number),
+            loaded: false,
         }
+    }
+
+    /// The force of `contact` where it `touches`; elsewhere the contact is without force and past.
+    #[inline(always)]
+    fn evaluate<Model: ContactModel<R, Memory = Memory>>(
+        &mut self,
+        model: &Model,
+        contact: &Contact<R>,
+        touches: R::Mask,
+    ) {
+        let mut memory = self.memory;
+        let force = model.evaluate(contact, &mut memory);
+        let gone = Self::forgotten(model, contact.overlap);
+        self.memory = Memory::choose(touches, &memory, &gone.memory);
+        self.force = ContactForce::choose(touches, &force, &gone.force);
+        self.loaded = true;
+    }
+
+    #[inline(always)]
+    fn part<Model: ContactModel<R, Memory = Memory>>(&mut self, model: &Model, number: R) {
+        if self.loaded {
+            *self = Self::forgotten(model, number);
+        }
+    }
+}
+
+impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.memory.visit(&other.memory, visit);
+        self.force.visit(&other.force, visit);
+        // Perhaps; what does not touch is forgotten in the next step.
+        self.loaded = true;
     }
 }
 
@@ -97,9 +139,10 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
     /// A scene without walls, friction between cylinders and gravity, every contact stress free.
     pub fn new(cylinders: Vec<Cylinder<R>>, model: Model, time_step: R) -> Self {
         let count = cylinders.len();
-        let zero = R::zero();
+        let zero = time_step.like(0.0);
+        let contact = ContactState::forgotten(&model, zero);
         Self {
-            pair_contacts: vec![ContactState::default(); count * count.saturating_sub(1) / 2],
+            pair_contacts: vec![contact; count * count.saturating_sub(1) / 2],
             wall_contacts: Vec::new(),
             loads: vec![Load::weight(zero); count],
             cylinders,
@@ -108,7 +151,7 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
             cylinder_friction: zero,
             pair_arm: zero,
             wall_arm: zero,
-            moment_of_inertia: real(CYLINDER_INERTIA),
+            moment_of_inertia: zero.like(CYLINDER_INERTIA),
             gravity: zero,
             time_step,
         }
@@ -118,14 +161,9 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
     pub fn add_wall(&mut self, wall: PlaneWall<R>) -> usize {
         self.walls.push(wall);
         let all = self.walls.len() * self.cylinders.len();
-        self.wall_contacts.resize(all, ContactState::default());
+        let contact = ContactState::forgotten(&self.model, self.time_step);
+        self.wall_contacts.resize(all, contact);
         self.walls.len() - 1
-    }
-
-    /// Takes away the walls from index `first` on, with their contacts.
-    pub fn remove_walls_from(&mut self, first: usize) {
-        self.walls.truncate(first);
-        self.wall_contacts.truncate(first * self.cylinders.len());
     }
 
     /// Force of a wall on a cylinder, as of the last evaluation of the forces.
@@ -145,6 +183,7 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
     }
 
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
+    #[inline(always)]
     pub fn evaluate_forces(&mut self) {
         self.loads.fill(Load::weight(self.gravity));
         let count = self.cylinders.len();
@@ -164,6 +203,7 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
 
     /// Kicks the velocities over a whole step with the evaluated forces, then drifts the positions, and
     /// moves the walls.
+    #[inline(always)]
     pub fn advance(&mut self) {
         let dt = self.time_step;
         for (cylinder, load) in self.cylinders.iter_mut().zip(&self.loads) {
@@ -179,41 +219,44 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
         }
     }
 
+    #[inline(always)]
     fn evaluate_pair(&mut self, first: usize, second: usize, pair: usize) {
         let (i, j) = (&self.cylinders[first], &self.cylinders[second]);
         let dx = i.position[0] - j.position[0];
         let dy = i.position[1] - j.position[1];
         let square = dx * dx + dy * dy;
         let state = &mut self.pair_contacts[pair];
-        if square >= real(4.0) {
-            *state = ContactState::default();
-            return;
+        let touches = square.less(square.like(4.0));
+        if !square.any(touches) {
+            return state.part(&self.model, square);
         }
         let distance = square.sqrt();
         let contact = Contact {
             normal: [dx / distance, dy / distance],
-            overlap: real::<R>(2.0) - distance,
+            overlap: distance.like(2.0) - distance,
             velocity: [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]],
             spin: i.spin + j.spin,
             friction: self.cylinder_friction,
             arm: self.pair_arm,
             time_step: self.time_step,
         };
-        state.force = self.model.evaluate(&contact, &mut state.memory);
+        state.evaluate(&self.model, &contact, touches);
         let force = in_the_plane(contact.normal, &state.force);
         let torque = state.force.radius * state.force.tangential;
-        self.loads[first].add(force, -torque);
-        self.loads[second].add([-force[0], -force[1]], -torque);
+        self.loads[first].add(touches, force, -torque);
+        self.loads[second].add(touches, [-force[0], -force[1]], -torque);
     }
 
+    #[inline(always)]
     fn evaluate_wall(&mut self, wall: usize, cylinder: usize) {
         let state = &mut self.wall_contacts[wall * self.cylinders.len() + cylinder];
         let plane = &self.walls[wall];
         let body = &self.cylinders[cylinder];
-        let overlap = R::one() - (along(plane.normal, body.position) - plane.offset);
-        if overlap <= R::zero() {
-            *state = ContactState::default();
-            return;
+        let distance = along(plane.normal, body.position) - plane.offset;
+        let overlap = distance.like(1.0) - distance;
+        let touches = overlap.like(0.0).less(overlap);
+        if !overlap.any(touches) {
+            return state.part(&self.model, overlap);
         }
         let contact = Contact {
             normal: plane.normal,
@@ -227,31 +270,53 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
             arm: self.wall_arm,
             time_step: self.time_step,
         };
-        state.force = self.model.evaluate(&contact, &mut state.memory);
+        state.evaluate(&self.model, &contact, touches);
         let force = in_the_plane(plane.normal, &state.force);
         let torque = state.force.radius * state.force.tangential;
-        self.loads[cylinder].add(force, -torque);
+        self.loads[cylinder].add(touches, force, -torque);
     }
 }
 
 impl<R: Real> Load<R> {
+    #[inline(always)]
     fn weight(gravity: R) -> Self {
         Self {
-            force: [R::zero(), -gravity],
-            torque: R::zero(),
+            force: [gravity.like(0.0), -gravity],
+            torque: gravity.like(0.0),
         }
     }
 
-    fn add(&mut self, force: [R; 2], torque: R) {
-        self.force[0] += force[0];
-        self.force[1] += force[1];
-        self.torque += torque;
+    #[inline(always)]
+    fn add(&mut self, touches: R::Mask, force: [R; 2], torque: R) {
+        let sum = Self {
+            force: [self.force[0] + force[0], self.force[1] + force[1]],
+            torque: self.torque + torque,
+        };
+        *self = Self::choose(touches, &sum, self);
     }
 }
 
+#[inline(always)]
 fn in_the_plane<R: Real>(normal: [R; 2], force: &ContactForce<R>) -> [R; 2] {
     [
         force.normal * normal[0] - force.tangential * normal[1],
         force.normal * normal[1] + force.tangential * normal[0],
     ]
+}
+
+impl<R: Real, Model: ContactModel<R> + Composite<R>> Composite<R> for Scene<R, Model> {
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.cylinders.visit(&other.cylinders, visit);
+        self.walls.visit(&other.walls, visit);
+        self.model.visit(&other.model, visit);
+        self.cylinder_friction.visit(&other.cylinder_friction, visit);
+        self.pair_arm.visit(&other.pair_arm, visit);
+        self.wall_arm.visit(&other.wall_arm, visit);
+        self.moment_of_inertia.visit(&other.moment_of_inertia, visit);
+        self.gravity.visit(&other.gravity, visit);
+        self.time_step.visit(&other.time_step, visit);
+        self.pair_contacts.visit(&other.pair_contacts, visit);
+        self.wall_contacts.visit(&other.wall_contacts, visit);
+        self.loads.visit(&other.loads, visit);
+    }
 }

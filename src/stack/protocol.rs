@@ -138,9 +138,18 @@ pub struct Schedule {
 impl Schedule {
     /// Steps of the compression at which a row is taken, in order, first and last step included.
     pub fn sampled_steps(&self) -> impl Iterator<Item = u64> + use<> {
-        let coarse = (0..self.fine_from_step).step_by(self.coarse_every as usize);
-        let fine = (self.fine_from_step..=self.compression_steps).step_by(self.fine_every as usize);
-        coarse.chain(fine)
+        let schedule = *self;
+        let next = move |step: &u64| schedule.row_from(step + 1);
+        std::iter::successors(self.row_from(0), next)
+    }
+
+    /// The first step of the compression from `step` on at which a row is taken.
+    pub fn row_from(&self, step: u64) -> Option<u64> {
+        if step < self.fine_from_step {
+            return Some(step.next_multiple_of(self.coarse_every).min(self.fine_from_step));
+        }
+        let fine = (step - self.fine_from_step).next_multiple_of(self.fine_every);
+        Some(self.fine_from_step + fine).filter(|&row| row <= self.compression_steps)
     }
 
     /// How many they are.

@@ -1,0 +1,165 @@
+//! Stacks that advance in lockstep, one in each lane, each at its own step of its own case.
+
+use super::contact::ContactModel;
+use super::loading::LoadingProgram;
+use super::real::Real;
+use super::stack_scene::StackScene;
+use crate::stack::Case;
+use crate::trace::Sample;
+
+/// Some milliseconds.
+const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
+
+/// How far one lane is.
+#[derive(Debug, Clone)]
+pub(super) struct Lane {
+    /// Which case it is, to those who have put it there.
+    pub(super) index: usize,
+    pub(super) case: Case,
+    /// Steps done, from the start of the preparation.
+    pub(super) step: u64,
+    /// Rows so far.
+    pub(super) samples: Vec<Sample>,
+    program: LoadingProgram,
+    next_event: Option<u64>,
+}
+
+impl Lane {
+    /// A run of `case` of which `step` steps are done and `samples` taken.
+    pub(super) fn new(index: usize, case: Case, step: u64, samples: Vec<Sample>) -> Self {
+        let program = LoadingProgram::new(&case);
+        Self {
+            index,
+            case,
+            step,
+            samples,
+            program,
+            next_event: program.event_from(step),
+        }
+    }
+
+    fn has_event(&self) -> bool {
+        self.next_event == Some(self.step)
+    }
+
+    fn is_complete(&self) -> bool {
+        self.next_event.is_none()
+    }
+}
+
+/// Fills lanes, and takes out what is in them.
+pub(super) trait Supervisor<R: Real, Model: ContactModel<R>> {
+    /// Puts the next run into a lane, if there is one.
+    fn fill(&mut self, stack: &mut StackScene<R, Model>, lane: usize) -> Option<Lane>;
+    /// Whether to go on; asked every few milliseconds.
+    fn wanted(&mut self, stack: &StackScene<R, Model>, lanes: &[Option<Lane>]) -> bool;
+    /// A row has been taken.
+    fn sampled(&mut self, _stack: &StackScene<R, Model>) {}
+    /// The run of a lane has ended, early if no longer wanted.
+    fn ended(&mut self, lane: Lane);
+}
+
+/// As many stacks as there are lanes.
+pub(super) struct LaneGroup<R: Real, Model: ContactModel<R>> {
+    stack: StackScene<R, Model>,
+    lanes: Vec<Option<Lane>>,
+}
+
+impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
+    /// Lanes without runs; `stack` says what all their stacks have in common.
+    pub(super) fn new(stack: StackScene<R, Model>) -> Self {
+        Self {
+            stack,
+            lanes: vec![None; R::LANES],
+        }
+    }
+
+    /// Fills the lanes again and again, until nothing is left or wanted.
+    pub(super) fn run(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
+        for lane in 0..self.lanes.len() {
+            self.lanes[lane] = supervisor.fill(&mut self.stack, lane);
+        }
+        let mut unasked = 0;
+        while let Some(quiet) = self.quiet_steps() {
+            let steps = quiet.min(STEPS_BETWEEN_QUESTIONS - unasked);
+            self.advance(steps);
+            unasked += steps;
+            if unasked >= STEPS_BETWEEN_QUESTIONS {
+                unasked = 0;
+                if !supervisor.wanted(&self.stack, &self.lanes) {
+                    break;
+                }
+            } else {
+                self.eventful_step(supervisor);
+                unasked += 1;
+            }
+        }
+        for lane in self.lanes.iter_mut().filter_map(Option::take) {
+            supervisor.ended(lane);
+        }
+    }
+
+    /// Steps until something happens in some lane; `None` if all are empty.
+    fn quiet_steps(&self) -> Option<u64> {
+        let lanes = self.lanes.iter().flatten();
+        lanes
+            .filter_map(|lane| Some(lane.next_event? - lane.step))
+            .min()
+    }
+
+    fn advance(&mut self, steps: u64) {
+        let scene = &mut self.stack.scene;
+        scene.time_step.vectorize(|| {
+            for _ in 0..steps {
+                scene.evaluate_forces();
+                scene.advance();
+            }
+        });
+        for lane in self.lanes.iter_mut().flatten() {
+            lane.step += steps;
+        }
+    }
+
+    /// One step in which something happens.
+    fn eventful_step(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
+        for (index, lane) in eventful(&mut self.lanes) {
+            let mut act = |action| self.stack.act(index, &lane.case, action);
+            lane.program.actions_at(lane.step, &mut act);
+        }
+        let scene = &mut self.stack.scene;
+        scene.time_step.vectorize(|| scene.evaluate_forces());
+        for (index, lane) in eventful(&mut self.lanes) {
+            if let Some(row) = lane.program.row_at(lane.step) {
+                let time = row as f64 * lane.case.protocol.time_step;
+                lane.samples.push(self.stack.sample(index, row, time));
+                supervisor.sampled(&self.stack);
+            }
+        }
+        let scene = &mut self.stack.scene;
+        scene.time_step.vectorize(|| scene.advance());
+        for index in 0..self.lanes.len() {
+            self.step_on(index, supervisor);
+        }
+    }
+
+    /// Counts the step, and takes the run out if it was its last.
+    fn step_on(&mut self, index: usize, supervisor: &mut impl Supervisor<R, Model>) {
+        let slot = &mut self.lanes[index];
+        let Some(lane) = slot else { return };
+        lane.step += 1;
+        if lane.next_event.is_some_and(|event| event < lane.step) {
+            lane.next_event = lane.program.event_from(lane.step);
+        }
+        if let Some(lane) = slot.take_if(|lane| lane.is_complete()) {
+            supervisor.ended(lane);
+            *slot = supervisor.fill(&mut self.stack, index);
+        }
+    }
+}
+
+/// The lanes in which something happens now.
+fn eventful(lanes: &mut [Option<Lane>]) -> impl Iterator<Item = (usize, &mut Lane)> {
+    let lanes = lanes.iter_mut().enumerate();
+    let lanes = lanes.filter_map(|(index, lane)| Some((index, lane.as_mut()?)));
+    lanes.filter(|(_, lane)| lane.has_event())
+}

@@ -1,0 +1,169 @@
+//! What is done to a stack, and at which step.
+
+use crate::stack::{Case, PreparationSteps, Schedule, SideWallSteps};
+
+/// Something that is done before the forces of a step are evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Action {
+    /// Gravity becomes this.
+    SetGravity(f64),
+    /// The side walls move inwards at this speed.
+    MoveSideWalls(f64),
+    /// The side walls are taken away.
+    RemoveSideWalls,
+    /// The top cylinder is put at x = 0.
+    PlaceTop {
+        /// Height of its centre.
+        height: f64,
+        /// Its velocity, upwards.
+        velocity: f64,
+    },
+    /// The top wall touches the top cylinder and starts to move.
+    StartTopWall,
+}
+
+/// The preparation and compression of one case.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LoadingProgram {
+    schedule: Schedule,
+    gravity: f64,
+}
+
+impl LoadingProgram {
+    /// The program of `case`.
+    pub(super) fn new(case: &Case) -> Self {
+        Self {
+            schedule: case.protocol.schedule(),
+            gravity: case.stack.epsilon(),
+        }
+    }
+
+    /// Steps before the compression.
+    fn preparation(&self) -> u64 {
+        self.schedule.preparation.total()
+    }
+
+    /// The step of the compression that `step` is, if a row is taken there.
+    pub(super) fn row_at(&self, step: u64) -> Option<u64> {
+        let step = step.checked_sub(self.preparation())?;
+        (self.schedule.row_from(step) == Some(step)).then_some(step)
+    }
+
+    /// The first step from `step` on at which something is done or a row is taken; none after the last row.
+    pub(super) fn event_from(&self, step: u64) -> Option<u64> {
+        let compression = self.preparation();
+        if step >= compression {
+            let row = self.schedule.row_from(step - compression)?;
+            return Some(compression + row);
+        }
+        let next = match &self.schedule.preparation {
+            PreparationSteps::GravityRamp { ramp, .. } => Some(step).filter(|step| step <= ramp),
+            PreparationSteps::SideWalls(walls) => SideWallPhases::of(walls).event_from(step),
+        };
+        Some(next.unwrap_or(compression))
+    }
+
+    /// Tells `act` everything that is done at `step`, in order.
+    pub(super) fn actions_at(&self, step: u64, act: &mut impl FnMut(Action)) {
+        let compression = self.preparation();
+        if step == compression {
+            act(Action::SetGravity(self.gravity));
+            act(Action::StartTopWall);
+        }
+        if step >= compression {
+            return;
+        }
+        match &self.schedule.preparation {
+            PreparationSteps::GravityRamp { ramp, .. } => {
+                if step <= *ramp {
+                    act(Action::SetGravity(self.gravity * smooth_step(step, *ramp)));
+                }
+            }
+            PreparationSteps::SideWalls(walls) => {
+                SideWallPhases::of(walls).actions_at(step, self.gravity, act);
+            }
+        }
+    }
+}
+
+/// x³(10 − 15x + 6x²) at x = step/steps, 1 beyond.
+fn smooth_step(step: u64, steps: u64) -> f64 {
+    if step >= steps {
+        return 1.0;
+    }
+    let x = step as f64 / steps as f64;
+    x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x))
+}
+
+/// When the phases of the preparation between side walls begin (see [`crate::stack::SideWalls`]).
+struct SideWallPhases<'a> {
+    steps: &'a SideWallSteps,
+    hold: u64,
+    fall: u64,
+    settle: u64,
+    withdrawal: u64,
+    rest: u64,
+}
+
+impl<'a> SideWallPhases<'a> {
+    fn of(steps: &'a SideWallSteps) -> Self {
+        let hold = steps.push_steps;
+        let fall = hold + steps.hold_steps;
+        let settle = fall + steps.fall_steps;
+        let withdrawal = settle + steps.settle_steps;
+        Self {
+            steps,
+            hold,
+            fall,
+            settle,
+            withdrawal,
+            rest: withdrawal + steps.withdrawal_steps,
+        }
+    }
+
+    /// The top cylinder is held step by step until it is let go.
+    fn event_from(&self, step: u64) -> Option<u64> {
+        if step <= self.settle {
+            return Some(step);
+        }
+        [self.withdrawal, self.rest]
+            .into_iter()
+            .find(|&start| start >= step)
+    }
+
+    fn actions_at(&self, step: u64, gravity: f64, act: &mut impl FnMut(Action)) {
+        let walls = &self.steps.walls;
+        if step == 0 {
+            act(Action::MoveSideWalls(self.steps.push_speed));
+        }
+        if step == self.hold {
+            act(Action::MoveSideWalls(0.0));
+        }
+        if step < self.settle {
+            let height = self.held_height(step, gravity);
+            act(Action::PlaceTop {
+                height,
+                velocity: 0.0,
+            });
+        }
+        if step == self.settle {
+            act(Action::PlaceTop {
+                height: self.steps.landing_height(gravity),
+                velocity: -walls.landing_speed,
+            });
+        }
+        if step == self.withdrawal {
+            act(Action::MoveSideWalls(-walls.withdrawal_speed));
+        }
+        if step == self.rest {
+            act(Action::RemoveSideWalls);
+        }
+    }
+
+    fn held_height(&self, step: u64, gravity: f64) -> f64 {
+        let steps = self.steps;
+        let start = steps.landing_height(gravity) + steps.fall;
+        let fallen = step.saturating_sub(self.fall);
+        start - steps.fall * (fallen as f64 / steps.fall_steps as f64)
+    }
+}

@@ -1,0 +1,194 @@
+//! Many stacks at once, one in each lane of the machine's vector registers.
+
+use super::contact::SpringDashpot;
+use super::lane_group::{Lane, LaneGroup, Supervisor};
+use super::lanes::Lanes;
+use super::real::Real;
+use super::stack_run::law;
+use super::stack_scene::StackScene;
+use crate::stack::{Case, Convention, Preparation};
+use crate::trace::{Sample, SeriesError, Trace};
+use pulp::{Scalar128b, Simd};
+use serde::{Deserialize, Serialize};
+
+/// A run that is not complete yet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpenRun {
+    /// Which one it is, to the caller.
+    pub index: usize,
+    /// What is run.
+    pub case: Case,
+    /// How far it has come before; `None` at the start.
+    pub checkpoint: Option<Checkpoint>,
+}
+
+/// All that is needed to go on with a run, to the same bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Steps done, from the start of the preparation.
+    pub step: u64,
+    /// Rows so far.
+    pub samples: Vec<Sample>,
+    /// Every number of the scene.
+    pub numbers: Vec<f64>,
+}
+
+/// Where runs come from, and where their series go.
+pub trait RunQueue {
+    /// The next run. All must be of the same [`LaneKind`].
+    fn next(&mut self) -> Option<OpenRun>;
+    /// Whether to go on; asked every few milliseconds. The open runs, by index, are made on demand.
+    fn wanted(&mut self, open: &dyn Fn() -> Vec<(usize, Checkpoint)>) -> bool;
+    /// Run `index` has ended: its series, truncated if no longer wanted.
+    fn ended(&mut self, index: usize, series: Result<Trace, SeriesError>);
+}
+
+/// What the cases in the lanes of one vector must have in common: what a contact does is one program for all
+/// of them, in which only numbers differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LaneKind {
+    convention: Convention,
+    between_side_walls: bool,
+}
+
+impl LaneKind {
+    /// The kind of `case`.
+    pub fn of(case: &Case) -> Self {
+        Self {
+            convention: Convention {
+                pair_arm: 0.0,
+                floor_arm: 0.0,
+                restitution: 1.0,
+                moment_of_inertia: 1.0,
+                ..case.convention
+            },
+            between_side_walls: matches!(case.protocol.preparation, Preparation::SideWalls(_)),
+        }
+    }
+}
+
+/// How many doubles this machine adds in one instruction.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneWidth(Instructions);
+
+#[derive(Debug, Clone, Copy)]
+enum Instructions {
+    Two,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(pulp::x86::V3),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(pulp::x86::V4),
+}
+
+impl LaneWidth {
+    /// Every width that can be used here, narrowest first.
+    pub fn available() -> Vec<Self> {
+        let mut widths = vec![Self(Instructions::Two)];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = pulp::x86::V3::try_new().map(Instructions::Avx2);
+            let avx512 = pulp::x86::V4::try_new().map(Instructions::Avx512);
+            widths.extend(avx2.into_iter().chain(avx512).map(Self));
+        }
+        widths
+    }
+
+    /// The widest of them.
+    pub fn widest() -> Self {
+        let available = Self::available();
+        available.into_iter().next_back().unwrap_or(Self(Instructions::Two))
+    }
+
+    /// Number of lanes: 8 with AVX-512, 4 with AVX2, 2 otherwise.
+    pub fn lanes(self) -> usize {
+        match self.0 {
+            Instructions::Two => Scalar128b::F64_LANES,
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2(_) => pulp::x86::V3::F64_LANES,
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512(_) => pulp::x86::V4::F64_LANES,
+        }
+    }
+
+    /// Carries out all runs of `queue`, a lane each, each to the bits of [`compress_stack`], for as long as
+    /// they are wanted.
+    ///
+    /// [`compress_stack`]: super::compress_stack
+    pub fn compress_stacks(self, queue: &mut impl RunQueue) {
+        match self.0 {
+            Instructions::Two => compress(Lanes::splat(Scalar128b, 0.0), queue),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2(simd) => compress(Lanes::splat(simd, 0.0), queue),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512(simd) => compress(Lanes::splat(simd, 0.0), queue),
+        }
+    }
+}
+
+fn compress<R: Real>(number: R, queue: &mut impl RunQueue) {
+    let Some(first) = queue.next() else { return };
+    let stack = stack(&first.case, number);
+    let mut many = Many {
+        kind: LaneKind::of(&first.case),
+        next: Some(first),
+        queue,
+    };
+    LaneGroup::new(stack).run(&mut many);
+}
+
+fn stack<R: Real>(case: &Case, number: R) -> StackScene<R, SpringDashpot<R>> {
+    StackScene::new(case, law(case, number), number)
+}
+
+struct Many<'a, Queue> {
+    kind: LaneKind,
+    next: Option<OpenRun>,
+    queue: &'a mut Queue,
+}
+
+impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queue> {
+    fn fill(
+        &mut self,
+        stack_of_all: &mut StackScene<R, SpringDashpot<R>>,
+        lane: usize,
+    ) -> Option<Lane> {
+        let run = self.next.take().or_else(|| self.queue.next())?;
+        assert_eq!(LaneKind::of(&run.case), self.kind, "one kind for all lanes");
+        let mut fresh = stack(&run.case, stack_of_all.scene.time_step);
+        let (step, samples) = match run.checkpoint {
+            Some(checkpoint) => {
+                fresh.set_numbers(&checkpoint.numbers);
+                (checkpoint.step, checkpoint.samples)
+            }
+            None => (0, Vec::new()),
+        };
+        stack_of_all.take_lane(lane, &fresh);
+        Some(Lane::new(run.index, run.case, step, samples))
+    }
+
+    fn wanted(
+        &mut self,
+        stack: &StackScene<R, SpringDashpot<R>>,
+        lanes: &[Option<Lane>],
+    ) -> bool {
+        self.queue.wanted(&|| {
+            let open = lanes.iter().enumerate();
+            let open = open.filter_map(|(index, lane)| Some((index, lane.as_ref()?)));
+            let checkpoints = open.map(|(index, lane)| {
+                let checkpoint = Checkpoint {
+                    step: lane.step,
+                    samples: lane.samples.clone(),
+                    numbers: stack.numbers(index),
+                };
+                (lane.index, checkpoint)
+            });
+            checkpoints.collect()
+        })
+    }
+
+    fn ended(&mut self, lane: Lane) {
+        let protocol = &lane.case.protocol;
+        let series = Trace::new(lane.samples, &protocol.schedule(), protocol.time_step);
+        self.queue.ended(lane.index, series);
+    }
+}

@@ -6,9 +6,10 @@ use tristack::crosscheck::{
     FLOOR, Judgement, Participant, Progress, Recorded, Settings, Store, measure, plan, probe_all,
 };
 use tristack::dem::{
-    Composite, Contact, ContactForce, ContactModel, compress_stack, compress_stack_with, run_contact_test_with,
+    Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
+    run_contact_test_with,
 };
-use tristack::engine::{Engine, EngineName, Failure, Finished, Interrupt, Workplace};
+use tristack::engine::{Batching, Engine, EngineName, Failure, Finished, Interrupt, Workplace};
 use tristack::stack::{Case, ContactTest, Convention, Stack};
 use tristack::trace::{Motion, Trace};
 use tristack::verdict::Verdict;
@@ -87,6 +88,12 @@ impl Composite<f64> for Memory {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut f64, &f64)) {
         self.length.visit(&other.length, visit);
         self.vector.visit(&other.vector, visit);
+    }
+}
+
+impl LaneWise<f64> for Memory {
+    fn choose(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
     }
 }
 
@@ -196,8 +203,8 @@ impl Engine for TwinEngine {
         &self.identity
     }
 
-    fn prefers_many_cases(&self) -> bool {
-        false
+    fn batching(&self) -> Batching {
+        Batching::OneCallACase
     }
 
     fn run(&self, cases: &[Case], _: &Workplace, finished: Finished<Run>) {

@@ -4,10 +4,9 @@ use super::plan::Measurement;
 use super::recorded::{Recorded, RecordedError};
 use super::store::Store;
 use crate::archive::Run;
-use crate::engine::{Engine, EngineName, Failure, FailureKind, Interrupt, Workplace};
+use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Interrupt, Workplace};
 use crate::stack::Case;
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use thiserror::Error;
@@ -201,21 +200,25 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
             };
             let open = self.without_stored(engine, orders);
             missing += open.len();
-            let in_one_call = if engine.prefers_many_cases() {
-                open.len()
-                    .div_ceil(self.settings.threads.div_ceil(participants.len()))
-            } else {
-                1
+            let calls = match engine.batching() {
+                Batching::OneCallACase => open.len(),
+                Batching::FewCalls => self.settings.threads.div_ceil(participants.len()),
+                Batching::OneCallACore => self.settings.threads,
             };
-            let chunks = open.chunks(in_one_call.max(1));
-            jobs.extend(chunks.map(|orders| Job {
-                engine,
-                orders: orders.to_vec(),
-            }));
+            let hands = self.deal(open, calls).into_iter();
+            jobs.extend(hands.map(|orders| Job { engine, orders }));
         }
         self.progress.planned(total, total - missing);
         jobs.sort_by_key(|job| std::cmp::Reverse(self.steps(job)));
         jobs
+    }
+
+    /// Deals `orders` out to at most so many calls, the longest first, so that all calls take about as long.
+    fn deal(&self, mut orders: Vec<usize>, calls: usize) -> Vec<Vec<usize>> {
+        orders.sort_by_key(|&order| std::cmp::Reverse(self.case(order).total_steps()));
+        let calls = calls.min(orders.len());
+        let hand = |call| orders.iter().copied().skip(call).step_by(calls).collect();
+        (0..calls).map(hand).collect()
     }
 
     fn orders_of(&self, engine: EngineName) -> Vec<usize> {
@@ -259,17 +262,20 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
     }
 
     fn work_off(&self, jobs: &[Job]) {
-        let next = AtomicUsize::new(0);
         let workers = self.settings.threads.min(jobs.len());
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(|| {
-                    while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        self.carry_out(job);
-                    }
-                });
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
+        match pool {
+            Ok(pool) => pool.in_place_scope_fifo(|scope| {
+                for job in jobs {
+                    scope.spawn_fifo(|_| self.carry_out(job));
+                }
+            }),
+            Err(error) => {
+                self.progress
+                    .warn(&format!("everything runs on one core: {error}"));
+                jobs.iter().for_each(|job| self.carry_out(job));
             }
-        });
+        }
     }
 
     fn carry_out(&self, job: &Job) {
@@ -287,8 +293,10 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
                 return self.fail_all(job, start);
             }
         };
+        let checkpoints = self.settings.store.checkpoint_directory();
         let workplace = Workplace {
             directory: directory.path(),
+            checkpoints: Some(&checkpoints),
             time_limit: self.settings.time_limit,
             interrupt: self.settings.interrupt,
         };

@@ -78,6 +78,11 @@ impl Store {
         self.archive.root().join("probes").join(name)
     }
 
+    /// Where native runs are kept that are under way.
+    pub fn checkpoint_directory(&self) -> PathBuf {
+        self.archive.root().join("checkpoints")
+    }
+
     /// Where run directories are made; those of failed runs stay.
     pub fn work_directory(&self) -> PathBuf {
         self.archive.root().join("work")

@@ -1,6 +1,6 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
-use super::real::{Composite, Real, composite};
+use super::real::{LaneWise, Real, composite, lane_wise};
 use crate::stack::{Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport};
 
 /// A contact between two bodies as it is at one moment.
@@ -33,10 +33,20 @@ pub struct ContactForce<R> {
     pub radius: R,
 }
 
-composite!(ContactForce { normal, tangential, radius });
+composite!(ContactForce {
+    normal,
+    tangential,
+    radius
+});
+lane_wise!(ContactForce {
+    normal,
+    tangential,
+    radius
+});
 
 impl<R: Real> ContactForce<R> {
     /// No force, in numbers like `number`.
+    #[inline(always)]
     pub fn none(number: R) -> Self {
         let zero = number.like(0.0);
         Self {
@@ -50,7 +60,7 @@ impl<R: Real> ContactForce<R> {
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real> {
     /// What a contact remembers from one step to the next.
-    type Memory: Copy + Composite<R>;
+    type Memory: Copy + LaneWise<R>;
 
     /// The memory of a contact without a past, in numbers like `number`.
     fn forgotten(&self, number: R) -> Self::Memory;
@@ -97,6 +107,7 @@ pub struct Spring<R> {
 }
 
 composite!(Spring { length, normal });
+lane_wise!(Spring { length, normal });
 
 impl<R: Real> SpringDashpot<R> {
     /// The law of `convention` with k_n = 1 and the given k_t, in numbers like `number`.
@@ -180,6 +191,7 @@ impl<R: Real> SpringDashpot<R> {
 impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     type Memory = Spring<R>;
 
+    #[inline(always)]
     fn forgotten(&self, number: R) -> Spring<R> {
         let zero = number.like(0.0);
         Spring {

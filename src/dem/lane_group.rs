@@ -2,7 +2,8 @@
 
 use super::contact::ContactModel;
 use super::loading::LoadingProgram;
-use super::real::Real;
+use super::real::{Real, Work};
+use super::scene::Scene;
 use super::stack_scene::StackScene;
 use crate::stack::Case;
 use crate::trace::Sample;
@@ -108,16 +109,15 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     }
 
     fn advance(&mut self, steps: u64) {
-        let scene = &mut self.stack.scene;
-        scene.time_step.vectorize(|| {
-            for _ in 0..steps {
-                scene.evaluate_forces();
-                scene.advance();
-            }
-        });
+        self.carry_out(Part::Steps(steps));
         for lane in self.lanes.iter_mut().flatten() {
             lane.step += steps;
         }
+    }
+
+    fn carry_out(&mut self, part: Part) {
+        let scene = &mut self.stack.scene;
+        scene.time_step.vectorize(Stepping { scene, part });
     }
 
     /// One step in which something happens.
@@ -126,8 +126,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
             let mut act = |action| self.stack.act(index, &lane.case, action);
             lane.program.actions_at(lane.step, &mut act);
         }
-        let scene = &mut self.stack.scene;
-        scene.time_step.vectorize(|| scene.evaluate_forces());
+        self.carry_out(Part::Forces);
         for (index, lane) in eventful(&mut self.lanes) {
             if let Some(row) = lane.program.row_at(lane.step) {
                 let time = row as f64 * lane.case.protocol.time_step;
@@ -135,8 +134,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
                 supervisor.sampled(&self.stack);
             }
         }
-        let scene = &mut self.stack.scene;
-        scene.time_step.vectorize(|| scene.advance());
+        self.carry_out(Part::Motion);
         for index in 0..self.lanes.len() {
             self.step_on(index, supervisor);
         }
@@ -153,6 +151,37 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
         if let Some(lane) = slot.take_if(|lane| lane.is_complete()) {
             supervisor.ended(lane);
             *slot = supervisor.fill(&mut self.stack, index);
+        }
+    }
+}
+
+/// What is done in all lanes at once.
+enum Part {
+    /// The forces are evaluated.
+    Forces,
+    /// Velocities, positions and walls are moved by them.
+    Motion,
+    /// Both, so many times.
+    Steps(u64),
+}
+
+struct Stepping<'a, R: Real, Model: ContactModel<R>> {
+    scene: &'a mut Scene<R, Model>,
+    part: Part,
+}
+
+impl<R: Real, Model: ContactModel<R>> Work for Stepping<'_, R, Model> {
+    #[inline(always)]
+    fn carry_out(self) {
+        match self.part {
+            Part::Forces => self.scene.evaluate_forces(),
+            Part::Motion => self.scene.advance(),
+            Part::Steps(steps) => {
+                for _ in 0..steps {
+                    self.scene.evaluate_forces();
+                    self.scene.advance();
+                }
+            }
         }
     }
 }

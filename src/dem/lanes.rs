@@ -1,8 +1,8 @@
 //! Several doubles side by side, in the vector registers of the machine.
 
-use super::real::Real;
-use pulp::{Simd, WithSimd};
+use super::real::{Real, Work};
 use pulp::bytemuck::{bytes_of, cast_slice, cast_slice_mut};
+use pulp::{Simd, WithSimd};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 use std::slice::{from_mut, from_ref};
 
@@ -116,18 +116,123 @@ impl<S: Simd> Real for Lanes<S> {
     }
 
     #[inline(always)]
-    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
-        self.simd.vectorize(Work(work))
+    fn vectorize(self, work: impl Work) {
+        self.simd.vectorize(Vectorized(work));
     }
 }
 
-struct Work<F>(F);
+struct Vectorized<W>(W);
 
-impl<T, F: FnOnce() -> T> WithSimd for Work<F> {
-    type Output = T;
+impl<W: Work> WithSimd for Vectorized<W> {
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> T {
-        (self.0)()
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.carry_out();
+    }
+}
+
+/// Two doubles, for machines of which nothing more is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair([f64; 2]);
+
+macro_rules! pair_operators {
+    ($($operator:ident, $method:ident, $sign:tt;)*) => {$(
+        impl $operator for Pair {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self([self.0[0] $sign other.0[0], self.0[1] $sign other.0[1]])
+            }
+        }
+    )*};
+}
+
+pair_operators! {
+    Add, add, +;
+    Sub, sub, -;
+    Mul, mul, *;
+    Div, div, /;
+}
+
+impl Neg for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self([-self.0[0], -self.0[1]])
+    }
+}
+
+impl AddAssign for Pair {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl MulAssign for Pair {
+    #[inline(always)]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl Pair {
+    /// `value` in both lanes.
+    #[inline(always)]
+    pub fn splat(value: f64) -> Self {
+        Self([value; 2])
+    }
+}
+
+impl Real for Pair {
+    type Mask = [bool; 2];
+
+    const LANES: usize = 2;
+
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::splat(value)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self([self.0[0].sqrt(), self.0[1].sqrt()])
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self([self.0[0].abs(), self.0[1].abs()])
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> [bool; 2] {
+        [self.0[0] < other.0[0], self.0[1] < other.0[1]]
+    }
+
+    #[inline(always)]
+    fn select(mask: [bool; 2], yes: Self, no: Self) -> Self {
+        let pick = |lane: usize| if mask[lane] { yes.0[lane] } else { no.0[lane] };
+        Self([pick(0), pick(1)])
+    }
+
+    #[inline(always)]
+    fn any(self, mask: [bool; 2]) -> bool {
+        mask[0] | mask[1]
+    }
+
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    fn set_lane(&mut self, lane: usize, other: Self) {
+        self.0[lane] = other.0[lane];
+    }
+
+    #[inline(always)]
+    fn vectorize(self, work: impl Work) {
+        work.carry_out();
     }
 }

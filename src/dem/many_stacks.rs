@@ -2,13 +2,13 @@
 
 use super::contact::SpringDashpot;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Pair};
 use super::real::Real;
 use super::stack_run::law;
 use super::stack_scene::StackScene;
 use crate::stack::{Case, Convention, Preparation};
 use crate::trace::{Sample, SeriesError, Trace};
-use pulp::{Scalar128b, Simd};
+use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
 /// A run that is not complete yet.
@@ -73,6 +73,7 @@ pub struct LaneWidth(Instructions);
 
 #[derive(Debug, Clone, Copy)]
 enum Instructions {
+    One,
     Two,
     #[cfg(target_arch = "x86_64")]
     Avx2(pulp::x86::V3),
@@ -81,9 +82,12 @@ enum Instructions {
 }
 
 impl LaneWidth {
+    /// A run at a time, without vectors.
+    pub const ONE: Self = Self(Instructions::One);
+
     /// Every width that can be used here, narrowest first.
     pub fn available() -> Vec<Self> {
-        let mut widths = vec![Self(Instructions::Two)];
+        let mut widths = vec![Self::ONE, Self(Instructions::Two)];
         #[cfg(target_arch = "x86_64")]
         {
             let avx2 = pulp::x86::V3::try_new().map(Instructions::Avx2);
@@ -96,13 +100,14 @@ impl LaneWidth {
     /// The widest of them.
     pub fn widest() -> Self {
         let available = Self::available();
-        available.into_iter().next_back().unwrap_or(Self(Instructions::Two))
+        available.into_iter().next_back().unwrap_or(Self::ONE)
     }
 
     /// Number of lanes: 8 with AVX-512, 4 with AVX2, 2 otherwise.
     pub fn lanes(self) -> usize {
         match self.0 {
-            Instructions::Two => Scalar128b::F64_LANES,
+            Instructions::One => f64::LANES,
+            Instructions::Two => Pair::LANES,
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(_) => pulp::x86::V3::F64_LANES,
             #[cfg(target_arch = "x86_64")]
@@ -116,7 +121,8 @@ impl LaneWidth {
     /// [`compress_stack`]: super::compress_stack
     pub fn compress_stacks(self, queue: &mut impl RunQueue) {
         match self.0 {
-            Instructions::Two => compress(Lanes::splat(Scalar128b, 0.0), queue),
+            Instructions::One => compress(0.0, queue),
+            Instructions::Two => compress(Pair::splat(0.0), queue),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(simd) => compress(Lanes::splat(simd, 0.0), queue),
             #[cfg(target_arch = "x86_64")]
@@ -166,11 +172,7 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
         Some(Lane::new(run.index, run.case, step, samples))
     }
 
-    fn wanted(
-        &mut self,
-        stack: &StackScene<R, SpringDashpot<R>>,
-        lanes: &[Option<Lane>],
-    ) -> bool {
+    fn wanted(&mut self, stack: &StackScene<R, SpringDashpot<R>>, lanes: &[Option<Lane>]) -> bool {
         self.queue.wanted(&|| {
             let open = lanes.iter().enumerate();
             let open = open.filter_map(|(index, lane)| Some((index, lane.as_ref()?)));

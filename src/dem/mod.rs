@@ -21,6 +21,6 @@ pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use first_event::{Loading, Observation, Until, watch_stack};
 pub use frames::compress_stack_into_frames;
 pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, RunQueue};
-pub use real::{Composite, Real};
+pub use real::{Composite, LaneWise, Real, Work};
 pub use scene::{Cylinder, Load, PlaneWall, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};

@@ -41,8 +41,15 @@ pub trait Real:
     fn lane(self, lane: usize) -> f64;
     /// Takes over one lane of `other`.
     fn set_lane(&mut self, lane: usize, other: Self);
-    /// Does `work`, compiled for the instruction set of these numbers as far as it is inlined.
-    fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
+    /// Does `work`, compiled for the instruction set of these numbers.
+    fn vectorize(self, work: impl Work);
+}
+
+/// Something to do with numbers. Only what is inlined into it is compiled for their instruction set; the rest
+/// gives the same bits many times more slowly.
+pub trait Work {
+    /// Does it; to be inlined always.
+    fn carry_out(self);
 }
 
 macro_rules! one_lane {
@@ -93,8 +100,8 @@ macro_rules! one_lane {
             }
 
             #[inline(always)]
-            fn vectorize<T>(self, work: impl FnOnce() -> T) -> T {
-                work()
+            fn vectorize(self, work: impl Work) {
+                work.carry_out();
             }
         }
     )*};
@@ -106,14 +113,6 @@ one_lane!(f64, TwoFloat);
 pub trait Composite<R: Real>: Clone {
     /// Shows `visit` every number of this beside its counterpart in `other`.
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R));
-
-    /// `yes` where `mask` holds, `no` elsewhere.
-    #[inline(always)]
-    fn choose(mask: R::Mask, yes: &Self, no: &Self) -> Self {
-        let mut chosen = yes.clone();
-        chosen.visit(no, &mut |number, no| *number = R::select(mask, *number, *no));
-        chosen
-    }
 
     /// Takes over one lane of `other`.
     fn take_lane(&mut self, lane: usize, other: &Self) {
@@ -136,7 +135,40 @@ impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
     }
 }
 
-/// Implements [`Composite`] for a struct whose named fields are all made of numbers.
+/// Something that can differ from lane to lane.
+pub trait LaneWise<R: Real>: Composite<R> {
+    /// `yes` where `mask` holds, `no` elsewhere.
+    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// Implements [`LaneWise`] for a struct which consists of the named fields.
+macro_rules! lane_wise {
+    ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
+        impl<R: $crate::dem::Real> $crate::dem::LaneWise<R> for $name<R> {
+            #[inline(always)]
+            fn choose(mask: R::Mask, yes: Self, no: Self) -> Self {
+                Self { $($field: $crate::dem::LaneWise::choose(mask, yes.$field, no.$field),)* }
+            }
+        }
+    )*};
+}
+pub(super) use lane_wise;
+
+impl<R: Real> LaneWise<R> for R {
+    #[inline(always)]
+    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self {
+        R::select(mask, yes, no)
+    }
+}
+
+impl<R: Real> LaneWise<R> for [R; 2] {
+    #[inline(always)]
+    fn choose(mask: R::Mask, [x, y]: Self, [other_x, other_y]: Self) -> Self {
+        [R::select(mask, x, other_x), R::select(mask, y, other_y)]
+    }
+}
+
+/// Implements [`Composite`] for a struct whose named fields are all its numbers.
 macro_rules! composite {
     ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
         impl<R: $crate::dem::Real> $crate::dem::Composite<R> for $name<R> {

@@ -1,7 +1,7 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
 use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along};
-use super::real::{Composite, Real, composite};
+use super::real::{Composite, LaneWise, Real, composite, lane_wise};
 use crate::stack::CYLINDER_INERTIA;
 
 /// A cylinder of unit mass and radius. Velocities belong to the half step before the positions.
@@ -18,10 +18,21 @@ pub struct Cylinder<R = f64> {
 }
 
 composite!(
-    Cylinder { position, angle, velocity, spin },
-    PlaneWall { normal, offset, speed, friction },
+    Cylinder {
+        position,
+        angle,
+        velocity,
+        spin
+    },
+    PlaneWall {
+        normal,
+        offset,
+        speed,
+        friction
+    },
     Load { force, torque },
 );
+lane_wise!(Load { force, torque });
 
 impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.
@@ -84,7 +95,8 @@ struct ContactState<R, Memory> {
     loaded: bool,
 }
 
-impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
+impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
+    #[inline(always)]
     fn forgotten<Model: ContactModel<R, Memory = Memory>>(model: &Model, number: R) -> Self {
         Self {
             memory: model.forgotten(number),
@@ -104,8 +116,8 @@ impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
         let mut memory = self.memory;
         let force = model.evaluate(contact, &mut memory);
         let gone = Self::forgotten(model, contact.overlap);
-        self.memory = Memory::choose(touches, &memory, &gone.memory);
-        self.force = ContactForce::choose(touches, &force, &gone.force);
+        self.memory = Memory::choose(touches, memory, gone.memory);
+        self.force = ContactForce::choose(touches, force, gone.force);
         self.loaded = true;
     }
 
@@ -292,7 +304,7 @@ impl<R: Real> Load<R> {
             force: [self.force[0] + force[0], self.force[1] + force[1]],
             torque: self.torque + torque,
         };
-        *self = Self::choose(touches, &sum, self);
+        *self = Self::choose(touches, sum, *self);
     }
 }
 
@@ -309,10 +321,12 @@ impl<R: Real, Model: ContactModel<R> + Composite<R>> Composite<R> for Scene<R, M
         self.cylinders.visit(&other.cylinders, visit);
         self.walls.visit(&other.walls, visit);
         self.model.visit(&other.model, visit);
-        self.cylinder_friction.visit(&other.cylinder_friction, visit);
+        self.cylinder_friction
+            .visit(&other.cylinder_friction, visit);
         self.pair_arm.visit(&other.pair_arm, visit);
         self.wall_arm.visit(&other.wall_arm, visit);
-        self.moment_of_inertia.visit(&other.moment_of_inertia, visit);
+        self.moment_of_inertia
+            .visit(&other.moment_of_inertia, visit);
         self.gravity.visit(&other.gravity, visit);
         self.time_step.visit(&other.time_step, visit);
         self.pair_contacts.visit(&other.pair_contacts, visit);

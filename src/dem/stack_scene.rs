@@ -66,7 +66,8 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
             }
             Action::PlaceTop { height, velocity } => {
                 let top = &mut scene.cylinders[TOP];
-                let [zero, height, velocity] = [0.0, height, velocity].map(|value| number.like(value));
+                let [zero, height, velocity] =
+                    [0.0, height, velocity].map(|value| number.like(value));
                 top.position.take_lane(lane, &[zero, height]);
                 top.velocity.take_lane(lane, &[zero, velocity]);
             }
@@ -74,7 +75,8 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
                 let top = scene.cylinders[TOP].position[1];
                 let wall = &mut scene.walls[self.top_wall];
                 wall.offset.set_lane(lane, -(top + number.like(1.0)));
-                wall.speed.set_lane(lane, number.like(case.protocol.wall_speed));
+                wall.speed
+                    .set_lane(lane, number.like(case.protocol.wall_speed));
             }
         }
     }

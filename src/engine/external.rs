@@ -3,7 +3,7 @@
 use super::batch::Batch;
 use super::installation::{self, Installation, VersionQuestion};
 use super::task::{Deck, ParameterFile, Task};
-use super::{Engine, EngineName, Environment, Failure, FailureKind, Finished, Workplace};
+use super::{Batching, Engine, EngineName, Environment, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
 use crate::stack::{Case, ContactTest, Preparation, sha256_hex};
 use crate::trace::Motion;
@@ -197,8 +197,11 @@ impl Engine for ExternalEngine {
         &self.identity
     }
 
-    fn prefers_many_cases(&self) -> bool {
-        self.adapter.stack.completion_file.is_some()
+    fn batching(&self) -> Batching {
+        match self.adapter.stack.completion_file {
+            Some(_) => Batching::FewCalls,
+            None => Batching::OneCallACase,
+        }
     }
 
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>) {

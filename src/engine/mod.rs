@@ -272,10 +272,23 @@ impl std::fmt::Display for EngineName {
 pub struct Workplace<'a> {
     /// Directory in which every case gets a run directory of its own.
     pub directory: &'a Path,
+    /// Directory that keeps runs which are under way, if they are to be taken up after an interruption.
+    pub checkpoints: Option<&'a Path>,
     /// Longest time without a finished case; the engine's own estimate if absent.
     pub time_limit: Option<Duration>,
     /// Set when the user wants to stop.
     pub interrupt: &'a Interrupt,
+}
+
+/// How an engine is fastest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Batching {
+    /// With a call for each case.
+    OneCallACase,
+    /// With as few calls as there are cores for it, because starting takes longer than running.
+    FewCalls,
+    /// With a call on each core, because cases in one call share every instruction.
+    OneCallACore,
 }
 
 /// Receives results, each with its index, as soon as they are there.
@@ -289,10 +302,10 @@ pub trait Engine: Send + Sync {
     /// What decides its numbers.
     fn identity(&self) -> &Identity;
 
-    /// Whether one call with many cases is faster than many calls.
-    fn prefers_many_cases(&self) -> bool;
+    /// How many cases one call should have.
+    fn batching(&self) -> Batching;
 
-    /// Runs `cases` in order and hands each result, with its index, to `finished` as soon as it is there.
+    /// Runs `cases` and hands each result, with its index, to `finished` as soon as it is there.
     fn run(&self, cases: &[Case], workplace: &Workplace, finished: Finished<Run>);
 
     /// Carries out micro-tests, in order.

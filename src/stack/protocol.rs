@@ -146,7 +146,10 @@ impl Schedule {
     /// The first step of the compression from `step` on at which a row is taken.
     pub fn row_from(&self, step: u64) -> Option<u64> {
         if step < self.fine_from_step {
-            return Some(step.next_multiple_of(self.coarse_every).min(self.fine_from_step));
+            return Some(
+                step.next_multiple_of(self.coarse_every)
+                    .min(self.fine_from_step),
+            );
         }
         let fine = (step - self.fine_from_step).next_multiple_of(self.fine_every);
         Some(self.fine_from_step + fine).filter(|&row| row <= self.compression_steps)

@@ -9,6 +9,7 @@ fn paths_in(document: &str) -> Vec<String> {
     let folders = [
         "src/",
         "tests/",
+        "benches/",
         "reference/",
         "liggghts_inputs/",
         "yade_scripts/",

@@ -1,7 +1,9 @@
 //! The yield force without time stepping: the paper's theories, and the exact quasi-static limit.
 
 mod events;
+mod floor_slip;
 mod limit;
+mod overlap;
 mod path;
 mod predictions;
 mod quasistatic;
@@ -11,10 +13,12 @@ mod side_walls;
 mod small_displacement;
 
 pub use events::Event;
+pub use floor_slip::{floor_slip_force, floor_slip_forces};
 pub use limit::Limit;
+pub use overlap::pair_overlap;
 pub use path::followed_limit;
 pub use predictions::{Prediction, Predictions};
-pub use quasistatic::{closed_form_limit, pair_overlap};
+pub use quasistatic::closed_form_limit;
 pub use regimes::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
     Line, Outcome, Regime, RegimeMap, Stage, released_frictions,

@@ -11,12 +11,9 @@
 //! through states held by walls or by contact 2–3 changes ∫ρ dψ by the area between the paths in the plane of
 //! ρ and ψ, which is of order ε²: as much as a change of A by some 0.03 ε².
 
-use super::quasistatic::overlap_grown;
-use super::root::bracketed_root;
+use super::floor_slip::FloorSlip;
+use super::overlap::OverlapCurve;
 use crate::stack::{CRITICAL_FRICTION, Stack};
-
-/// At T = 1 the centre of cylinder 1 has sunk to the level of the other two.
-const HIGHEST_TANGENT: f64 = 1.0;
 
 /// A*, the largest push after which the bottom cylinders end without contact, in r, to leading order in ε, if
 /// nothing slides during the preparation (docs/theory.md, Eq. 70).
@@ -54,23 +51,13 @@ pub fn critical_push(stack: &Stack) -> f64 {
 /// assert!((pushed - unpushed - 0.0345).abs() < 1e-4);
 /// ```
 pub fn pushed_slip_force(stack: &Stack, push: f64) -> Option<f64> {
-    let mu = stack.floor_friction;
     let sine = 0.5 * (1.0 - push / 3.0);
-    let start = sine / (1.0 + (1.0 - sine * sine).sqrt());
-    let lowest = mu.max(start);
-    let overlap = |offset: f64| {
-        let tangent = lowest + offset;
-        let length = 2.0 * libm::log1p((tangent - start) / start);
-        overlap_grown(tangent, length, stack.stiffness_ratio)
+    let curve = OverlapCurve {
+        start: sine / (1.0 + (1.0 - sine * sine).sqrt()),
+        stiffness_ratio: stack.stiffness_ratio,
     };
-    let target = stack.epsilon() * mu;
-    let excess = |offset: f64| overlap(offset) * (lowest - mu + offset) / target - 1.0;
-    let widest = HIGHEST_TANGENT - lowest;
-    if widest <= 0.0 {
-        return None;
-    }
-    let offset = bracketed_root(excess, 0.0, widest)?;
-    Some(2.0 * overlap(offset) * stack.stiffness - 1.0)
+    let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon());
+    slip.map(|slip| slip.force)
 }
 
 #[cfg(test)]

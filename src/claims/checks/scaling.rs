@@ -4,7 +4,7 @@ use super::Check;
 use crate::claims::finding::{Finding, relative, worst};
 use crate::claims::printed::PaperTheory;
 use crate::stack::{CRITICAL_FRICTION, Stack};
-use crate::theory::{elastic_root, quasistatic_limit, rigid_yield};
+use crate::theory::{elastic_root, floor_slip_force, rigid_yield};
 
 pub const CHECKS: &[Check] = &[
     Check::theory("scaling", scaling),
@@ -34,10 +34,7 @@ fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
 }
 
 fn exact_load(stack: &Stack) -> f64 {
-    quasistatic_limit(stack, 0.0, 0.0)
-        .floor_slip_force
-        .unwrap_or(f64::NAN)
-        + 3.0
+    floor_slip_force(stack).unwrap_or(f64::NAN) + 3.0
 }
 
 fn rigid_load(mu: f64) -> f64 {

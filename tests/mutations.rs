@@ -106,7 +106,6 @@ impl ContactModel<f64> for Twin {
 
     fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
         let [nx, ny] = contact.normal;
-        let [vx, vy] = contact.velocity;
         let is_pair = nx != 0.0;
         let arm = match self.mutation {
             Mutation::PairArmOffBy001 if is_pair => contact.arm + 0.01,
@@ -118,9 +117,9 @@ impl ContactModel<f64> for Twin {
             Mutation::SignOfSpin => -(radius * contact.spin),
             _ => radius * contact.spin,
         };
-        let velocity = (nx * vy - ny * vx) - rolling;
+        let velocity = contact.sliding_speed - rolling;
         let elastic = contact.overlap;
-        let normal = elastic - self.normal_damping * (nx * vx + ny * vy);
+        let normal = elastic - self.normal_damping * contact.separation_speed;
         let friction = match self.mutation {
             Mutation::FrictionOnePercentHigh => 1.01 * contact.friction,
             _ => contact.friction,

@@ -2,7 +2,7 @@
 //! everywhere.
 
 use tristack::crosscheck::plan;
-use tristack::dem::{Cylinder, PlaneWall, Scene, SpringDashpot, compress_stack};
+use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::engine::EngineName;
 use tristack::stack::{Convention, PAPER_RESTITUTION, Stack, sha256_hex};
 
@@ -12,14 +12,14 @@ fn law() -> SpringDashpot<f64> {
 
 fn floor(friction: f64) -> PlaneWall {
     PlaneWall {
-        normal: [0.0, 1.0],
+        facing: Facing::Up,
         offset: 0.0,
         speed: 0.0,
         friction,
     }
 }
 
-fn advance(scene: &mut Scene, steps: usize) {
+fn advance<const N: usize, const W: usize>(scene: &mut Scene<N, W>, steps: usize) {
     for _ in 0..steps {
         scene.evaluate_forces();
         scene.advance();
@@ -31,8 +31,7 @@ fn a_cylinder_bounces_off_a_wall_with_the_restitution_of_the_paper() {
     let restitution = |time_step: f64| {
         let mut ball = Cylinder::at(0.0, 1.0);
         ball.velocity = [0.0, -1e-3];
-        let mut scene = Scene::new(vec![ball], law(), time_step);
-        scene.add_wall(floor(0.5));
+        let mut scene = Scene::new([ball], [floor(0.5)], law(), time_step);
         advance(&mut scene, (10.0 / time_step) as usize);
         scene.cylinders[0].velocity[1] / 1e-3
     };
@@ -47,7 +46,7 @@ fn a_collision_of_two_conserves_momentum() {
     left.velocity = [0.02, 0.01];
     right.velocity = [-0.01, 0.0];
     left.spin = 0.02;
-    let mut scene = Scene::new(vec![left, right], law(), 0.01);
+    let mut scene = Scene::new([left, right], [], law(), 0.01);
     scene.cylinder_friction = 0.7;
     advance(&mut scene, 2000);
     for axis in 0..2 {
@@ -61,9 +60,8 @@ fn a_collision_of_two_conserves_momentum() {
 fn a_cylinder_that_slides_ends_up_rolling() {
     let mut body = Cylinder::at(0.0, 1.0 - 1e-3);
     body.velocity = [0.1, 0.0];
-    let mut scene = Scene::new(vec![body], law(), 0.05);
+    let mut scene = Scene::new([body], [floor(0.5)], law(), 0.05);
     scene.gravity = 1e-3;
-    scene.add_wall(floor(0.5));
     advance(&mut scene, 100_000);
     let body = &scene.cylinders[0];
     // Angular momentum about the line of contact is conserved: v falls to 2/3.
@@ -87,23 +85,22 @@ fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
             cylinders.push(Cylinder::at(x, 1.0 + f64::from(row) * 3f64.sqrt()));
         }
     }
-    let count = cylinders.len();
-    let mut scene = Scene::new(cylinders, law(), 0.1);
+    let cylinders: [Cylinder; 10] = cylinders.try_into().expect("ten");
+    let side_wall = |facing, offset| PlaneWall {
+        facing,
+        offset,
+        ..floor(0.0)
+    };
+    let walls = [
+        floor(0.7),
+        side_wall(Facing::Right, -1.0),
+        side_wall(Facing::Left, -7.0),
+    ];
+    let mut scene = Scene::new(cylinders, walls, law(), 0.1);
     scene.cylinder_friction = 0.7;
-    let floor = scene.add_wall(floor(0.7));
-    for (normal, offset) in [([1.0, 0.0], -1.0), ([-1.0, 0.0], -7.0)] {
-        scene.add_wall(PlaneWall {
-            normal,
-            offset,
-            speed: 0.0,
-            friction: 0.0,
-        });
-    }
     scene.gravity = 1e-4;
     advance(&mut scene, 200_000);
-    let weight: f64 = (0..count)
-        .map(|body| scene.wall_force(floor, body).normal)
-        .sum();
+    let weight: f64 = (0..10).map(|body| scene.wall_force(0, body).normal).sum();
     assert!((weight - 10.0 * 1e-4).abs() < 1e-9, "{weight:e}");
     let fastest = scene
         .cylinders

@@ -10,8 +10,10 @@ pub struct Contact<R> {
     pub normal: [R; 2],
     /// Overlap δ.
     pub overlap: R,
-    /// Velocity of the first body relative to the second.
-    pub velocity: [R; 2],
+    /// Velocity of the first centre relative to the second body along the normal.
+    pub separation_speed: R,
+    /// The same along t = (−n_y, n_x).
+    pub sliding_speed: R,
     /// Sum of the angular velocities of the two bodies.
     pub spin: R,
     /// Friction coefficient.
@@ -58,7 +60,7 @@ impl<R: Real> ContactForce<R> {
 }
 
 /// A law that gives the force of a contact from its motion, step by step.
-pub trait ContactModel<R: Real> {
+pub trait ContactModel<R: Real>: Copy {
     /// What a contact remembers from one step to the next.
     type Memory: Copy + LaneWise<R>;
 
@@ -72,9 +74,7 @@ pub trait ContactModel<R: Real> {
 /// The paper's contact law, with the conventions by which other codes differ from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDashpot<R> {
-    /// k_n.
-    pub normal_stiffness: R,
-    /// k_t.
+    /// k_t in units of k_n, which is 1 like mass and radius.
     pub tangential_stiffness: R,
     /// η_n.
     pub normal_damping: R,
@@ -91,7 +91,6 @@ pub struct SpringDashpot<R> {
 }
 
 composite!(SpringDashpot {
-    normal_stiffness,
     tangential_stiffness,
     normal_damping,
     tangential_damping
@@ -113,7 +112,6 @@ impl<R: Real> SpringDashpot<R> {
     /// The law of `convention` with k_n = 1 and the given k_t, in numbers like `number`.
     pub fn like(number: R, convention: &Convention, tangential_stiffness: f64) -> Self {
         Self {
-            normal_stiffness: number.like(1.0),
             tangential_stiffness: number.like(tangential_stiffness),
             normal_damping: number.like(convention.damping(1.0)),
             tangential_damping: number.like(convention.damping(tangential_stiffness)),
@@ -124,7 +122,7 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n of an overlap Δ and a normal velocity v_n, positive when separating
+    /// h_n = k_n Δ − η_n v_n, with k_n = 1, of an overlap Δ and a normal velocity v_n, positive when separating
     /// (paper, "Numerical results").
     ///
     /// ```
@@ -138,7 +136,7 @@ impl<R: Real> SpringDashpot<R> {
     /// ```
     #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        let force = self.normal_stiffness * overlap - self.normal_damping * separation_speed;
+        let force = overlap - self.normal_damping * separation_speed;
         match self.separating_force {
             SeparatingForce::MayPull => force,
             SeparatingForce::NeverPulls => {
@@ -162,6 +160,10 @@ impl<R: Real> SpringDashpot<R> {
             CoulombOperand::Spring => (elastic, zero),
         };
         let sticks = operand.abs().less(limit);
+        if operand.all(sticks) {
+            *spring = stretched;
+            return sticking;
+        }
         let sliding = R::select(operand.less(zero), -limit, limit);
         let length = match self.sliding_spring {
             SlidingSpring::Frozen => *spring,
@@ -203,9 +205,8 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     #[inline(always)]
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
         let radius = contact.overlap.like(1.0) + contact.arm * contact.overlap;
-        let velocity = tangential(contact.normal, contact.velocity) - radius * contact.spin;
-        let separation_speed = along(contact.normal, contact.velocity);
-        let normal = self.normal_force(contact.overlap, separation_speed);
+        let velocity = contact.sliding_speed - radius * contact.spin;
+        let normal = self.normal_force(contact.overlap, contact.separation_speed);
         let limit = contact.friction * normal.abs();
         if self.spring_transport != SpringTransport::Rotated {
             memory.length *= self.transport(memory.normal, contact.normal);
@@ -239,7 +240,8 @@ mod tests {
     const CONTACT: Contact<f64> = Contact {
         normal: [0.0, 1.0],
         overlap: 1.0,
-        velocity: [-0.5, 0.0],
+        separation_speed: 0.0,
+        sliding_speed: 0.5,
         spin: 0.0,
         friction: 0.5,
         arm: 0.0,
@@ -269,7 +271,7 @@ mod tests {
 
     #[test]
     fn normal_force_is_the_negative_slope_of_its_elastic_energy() {
-        let energy = |overlap: f64| 0.5 * paper().normal_stiffness * overlap * overlap;
+        let energy = |overlap: f64| 0.5 * overlap * overlap;
         let (overlap, width) = (0.3, 1e-3);
         let slope = (energy(overlap + width) - energy(overlap - width)) / (2.0 * width);
         assert!((paper().normal_force(overlap, 0.0) - slope).abs() < 1e-12);
@@ -288,7 +290,7 @@ mod tests {
         for sign in [1.0, -1.0] {
             let mut memory = stretched(2.0 * sign);
             let contact = Contact {
-                velocity: [-0.5 * sign, 0.0],
+                sliding_speed: 0.5 * sign,
                 ..CONTACT
             };
             let force = paper().evaluate(&contact, &mut memory);

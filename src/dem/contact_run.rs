@@ -1,11 +1,13 @@
 //! A micro-test in the native DEM.
 
 use super::contact::{ContactModel, SpringDashpot};
-use super::scene::{Cylinder, PlaneWall, Scene};
+use super::scene::{Cylinder, Scene};
+use super::wall::{Facing, PlaneWall};
 use crate::stack::{ContactTest, Launch};
 use crate::trace::{Motion, MotionRow, SeriesError};
 
 const BODIES: [usize; 2] = [0, 1];
+const TOP_WALL: usize = 1;
 
 /// Runs `test` and reports every step.
 ///
@@ -24,30 +26,25 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     test: &ContactTest,
     model: Model,
 ) -> Result<Motion, SeriesError> {
-    let mut scene = Scene::new(
-        test.launches.iter().map(launched).collect(),
-        model,
-        test.time_step,
-    );
+    let wall = |facing, offset, speed, friction| PlaneWall {
+        facing,
+        offset,
+        speed,
+        friction,
+    };
+    let walls = [
+        wall(Facing::Up, 0.0, 0.0, test.floor_friction),
+        wall(Facing::Down, -test.wall_height, test.wall_speed, 0.0),
+    ];
+    let cylinders = BODIES.map(|body| launched(&test.launches[body]));
+    let mut scene = Scene::new(cylinders, walls, model, test.time_step);
     scene.cylinder_friction = test.cylinder_friction;
     scene.pair_arm = test.convention.pair_arm;
     scene.wall_arm = test.convention.floor_arm;
     scene.moment_of_inertia = test.convention.moment_of_inertia;
-    scene.add_wall(PlaneWall {
-        normal: [0.0, 1.0],
-        offset: 0.0,
-        speed: 0.0,
-        friction: test.floor_friction,
-    });
-    let top_wall = scene.add_wall(PlaneWall {
-        normal: [0.0, -1.0],
-        offset: -test.wall_height,
-        speed: test.wall_speed,
-        friction: 0.0,
-    });
     let rows = (0..=test.steps).map(|step| {
         scene.evaluate_forces();
-        let row = row(&scene, top_wall, step);
+        let row = row(&scene, step);
         scene.advance();
         row
     });
@@ -62,14 +59,10 @@ fn launched(launch: &Launch) -> Cylinder {
     }
 }
 
-fn row<Model: ContactModel<f64>>(
-    scene: &Scene<f64, Model>,
-    top_wall: usize,
-    step: u64,
-) -> MotionRow {
+fn row<Model: ContactModel<f64>>(scene: &Scene<2, 2, f64, Model>, step: u64) -> MotionRow {
     let [one, two] = BODIES.map(|index| &scene.cylinders[index]);
     let [on_one, on_two] = BODIES.map(|index| scene.load(index));
-    let wall_force = BODIES.map(|index| scene.wall_force(top_wall, index).normal);
+    let wall_force = BODIES.map(|index| scene.wall_force(TOP_WALL, index).normal);
     MotionRow {
         step,
         x1: one.position[0],

@@ -6,8 +6,7 @@
 //! stack grows by the same factor, and inertia changes the ratio of any two by the square of the rate.
 
 use super::contact::SpringDashpot;
-use super::scene::{PlaneWall, Scene};
-use super::stack_scene::{FLOOR, LEFT, RIGHT, TOP, stress_free_stack};
+use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
 use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
 use crate::theory::{Event, Stage};
 
@@ -79,7 +78,7 @@ pub fn watch_stack(
     wanted: impl Fn() -> bool,
 ) -> Observation {
     let law = SpringDashpot::like(0.0, &Convention::PAPER, stack.tangential_stiffness());
-    let scene = stress_free_stack(&case(stack, loading), law, 0.0);
+    let scene = StackScene::of(&case(stack, loading), law, 0.0);
     let mut run = Run {
         scene,
         stack: *stack,
@@ -105,7 +104,7 @@ pub fn watch_stack(
 }
 
 struct Run {
-    scene: Scene,
+    scene: StackScene<f64, SpringDashpot<f64>>,
     stack: Stack,
     observation: Observation,
 }
@@ -125,7 +124,7 @@ impl Run {
             self.scene.evaluate_forces();
             if load >= COUNTED_LOAD {
                 if self.observation.last.is_none() {
-                    self.watch(Stage::OwnWeight, None);
+                    self.watch(Stage::OwnWeight);
                 }
                 if until == Until::LastEvent && self.observation.last.is_some() {
                     return true;
@@ -145,12 +144,7 @@ impl Run {
         if until == Until::LastEvent && self.observation.last.is_some() {
             return true;
         }
-        let wall = self.scene.add_wall(PlaneWall {
-            normal: [0.0, -1.0],
-            offset: -(self.scene.cylinders[TOP].position[1] + 1.0),
-            speed: 0.0,
-            friction: 0.0,
-        });
+        self.scene.lower_top_wall(0, 0.0);
         let (mut step, mut travel) = (0, 0.0);
         while travel < loading.wall_travel {
             if !wanted(step) {
@@ -158,14 +152,14 @@ impl Run {
             }
             // At first the load grows as slowly, compared with the weight, as gravity did.
             let gentle = loading.gravity_rate * (self.stack.epsilon() + travel);
-            self.scene.walls[wall].speed = loading.wall_speed.min(gentle);
+            self.scene.walls[TOP_WALL].speed = loading.wall_speed.min(gentle);
             self.scene.evaluate_forces();
-            self.record(wall, travel);
+            self.record(travel);
             if until == Until::LastEvent && self.observation.last.is_some() {
                 return true;
             }
             self.advance();
-            travel += self.scene.walls[wall].speed * loading.time_step;
+            travel += self.scene.walls[TOP_WALL].speed * loading.time_step;
             step += 1;
         }
         true
@@ -182,28 +176,27 @@ impl Run {
         top - right
     }
 
-    fn record(&mut self, wall: usize, travel: f64) {
-        let force = |cylinder| self.scene.wall_force(wall, cylinder).normal;
+    fn record(&mut self, travel: f64) {
+        let force = |cylinder| self.scene.wall_force(TOP_WALL, cylinder).normal;
         let on_top = force(TOP) * self.stack.stiffness;
         let whole = on_top + (force(RIGHT) + force(LEFT)) * self.stack.stiffness;
         if !self.observation.peaked {
             let peak = self.observation.peak_force.max(whole);
             let fallen = (peak - whole) * self.stack.epsilon();
             self.observation.peak_force = peak;
-            self.observation.peaked = fallen > RINGING * self.scene.walls[wall].speed;
+            self.observation.peaked = fallen > RINGING * self.scene.walls[TOP_WALL].speed;
         }
         if self.observation.last.is_none() {
             self.observation.force = on_top;
             self.observation.travel = travel;
-            self.watch(Stage::Wall, Some(wall));
+            self.watch(Stage::Wall);
         }
     }
 
     /// Notes what has happened, once the forces are evaluated.
-    fn watch(&mut self, stage: Stage, wall: Option<usize>) {
+    fn watch(&mut self, stage: Stage) {
         let scene = &self.scene;
-        let touches =
-            |cylinder| wall.is_some_and(|wall| scene.wall_force(wall, cylinder).normal != 0.0);
+        let touches = |cylinder| scene.wall_force(TOP_WALL, cylinder).normal != 0.0;
         let event = if self.floor_slides() {
             Some(Event::FloorSlip)
         } else if self.cylinders_slide() {

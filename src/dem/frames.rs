@@ -1,9 +1,8 @@
 //! The sampled moments of a native run with all contact forces.
 
 use super::contact::SpringDashpot;
-use super::scene::Scene;
 use super::stack_run::{compress_stack_watched, law};
-use super::stack_scene::{FLOOR, TOP};
+use super::stack_scene::{FLOOR, StackScene, TOP, TOP_WALL};
 use crate::stack::Case;
 use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, SeriesError, Trace};
 
@@ -17,8 +16,8 @@ pub fn compress_stack_into_frames(
     wanted: impl Fn() -> bool,
 ) -> Result<(Trace, Frames), SeriesError> {
     let mut scenes = Vec::new();
-    let trace = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene, top_wall| {
-        scenes.push(frame(scene, top_wall));
+    let trace = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene| {
+        scenes.push(frame(scene));
     })?;
     let stamped = scenes.into_iter().zip(trace.samples());
     let frames = stamped.map(|(frame, sample)| Frame {
@@ -34,26 +33,26 @@ pub fn compress_stack_into_frames(
 }
 
 /// The scene as it is, without a date.
-fn frame(scene: &Scene<f64, SpringDashpot<f64>>, top_wall: usize) -> Frame {
+fn frame(scene: &StackScene<f64, SpringDashpot<f64>>) -> Frame {
     let cylinders = scene.cylinders.iter().map(|cylinder| PlacedCylinder {
         position: cylinder.position,
         angle: cylinder.angle,
         velocity: Some(cylinder.velocity),
     });
-    let contacts = pair_contacts(scene).chain(wall_contacts(scene, top_wall));
+    let contacts = pair_contacts(scene).chain(wall_contacts(scene));
     let loaded = |contact: &ContactPoint| contact.force() != [0.0; 2];
     Frame {
         step: 0,
         time: 0.0,
-        wall_force: scene.wall_force(top_wall, TOP).normal,
-        wall_height: -scene.walls[top_wall].offset,
+        wall_force: scene.wall_force(TOP_WALL, TOP).normal,
+        wall_height: -scene.walls[TOP_WALL].offset,
         cylinders: cylinders.collect(),
         contacts: contacts.filter(loaded).collect(),
     }
 }
 
 fn pair_contacts(
-    scene: &Scene<f64, SpringDashpot<f64>>,
+    scene: &StackScene<f64, SpringDashpot<f64>>,
 ) -> impl Iterator<Item = ContactPoint> + '_ {
     let count = scene.cylinders.len();
     let pairs = (1..count).flat_map(|first| (0..first).map(move |second| (first, second)));
@@ -74,20 +73,20 @@ fn pair_contacts(
 }
 
 fn wall_contacts(
-    scene: &Scene<f64, SpringDashpot<f64>>,
-    top_wall: usize,
+    scene: &StackScene<f64, SpringDashpot<f64>>,
 ) -> impl Iterator<Item = ContactPoint> + '_ {
-    let walls = [(FLOOR, Partner::Floor), (top_wall, Partner::TopWall)].into_iter();
+    let walls = [(FLOOR, Partner::Floor), (TOP_WALL, Partner::TopWall)].into_iter();
     walls.flat_map(move |(wall, partner)| {
         (0..scene.cylinders.len()).map(move |cylinder| {
             let plane = &scene.walls[wall];
+            let normal = plane.facing.normal(0.0);
             let [x, _] = scene.cylinders[cylinder].position;
             let force = scene.wall_force(wall, cylinder);
             ContactPoint {
                 cylinder,
                 partner,
-                position: [x, plane.offset * plane.normal[1]],
-                normal: plane.normal,
+                position: [x, plane.offset * normal[1]],
+                normal,
                 normal_force: force.normal,
                 tangential_force: force.tangential,
             }

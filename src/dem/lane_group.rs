@@ -3,7 +3,6 @@
 use super::contact::ContactModel;
 use super::loading::LoadingProgram;
 use super::real::{Real, Work};
-use super::scene::Scene;
 use super::stack_scene::StackScene;
 use crate::stack::Case;
 use crate::trace::Sample;
@@ -116,7 +115,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     }
 
     fn carry_out(&mut self, part: Part) {
-        let scene = &mut self.stack.scene;
+        let scene = &mut self.stack;
         scene.time_step.vectorize(Stepping { scene, part });
     }
 
@@ -166,7 +165,7 @@ enum Part {
 }
 
 struct Stepping<'a, R: Real, Model: ContactModel<R>> {
-    scene: &'a mut Scene<R, Model>,
+    scene: &'a mut StackScene<R, Model>,
     part: Part,
 }
 
@@ -178,8 +177,7 @@ impl<R: Real, Model: ContactModel<R>> Work for Stepping<'_, R, Model> {
             Part::Motion => self.scene.advance(),
             Part::Steps(steps) => {
                 for _ in 0..steps {
-                    self.scene.evaluate_forces();
-                    self.scene.advance();
+                    self.scene.step();
                 }
             }
         }

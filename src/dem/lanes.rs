@@ -3,35 +3,66 @@
 use super::real::{Real, Work};
 use pulp::bytemuck::{bytes_of, cast_slice, cast_slice_mut};
 use pulp::{Simd, WithSimd};
+use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 use std::slice::{from_mut, from_ref};
+
+/// An instruction set, with the alignment that its loads and stores are fastest with: those across cache lines
+/// take twice as long, and delay what reads the same address soon after.
+pub trait InstructionSet: Simd {
+    /// Something so aligned.
+    type Alignment: Copy + Debug;
+}
+
+/// Something aligned like four doubles.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub struct AlignedLikeFour;
+
+/// Something aligned like eight doubles.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub struct AlignedLikeEight;
+
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for pulp::x86::V3 {
+    type Alignment = AlignedLikeFour;
+}
+
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for pulp::x86::V4 {
+    type Alignment = AlignedLikeEight;
+}
 
 /// One double for each lane of the instruction set `S`. Products are never fused with sums, and root and
 /// quotient are those of IEEE 754, so that a lane holds the same bits as a double of its own.
 #[derive(Debug, Clone, Copy)]
-pub struct Lanes<S: Simd> {
+pub struct Lanes<S: InstructionSet> {
     simd: S,
     values: S::f64s,
+    alignment: [S::Alignment; 0],
 }
 
-impl<S: Simd> Lanes<S> {
+impl<S: InstructionSet> Lanes<S> {
     /// `value` in every lane.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
-        let values = simd.splat_f64s(value);
-        Self { simd, values }
+        Self {
+            simd,
+            values: simd.splat_f64s(value),
+            alignment: [],
+        }
     }
 
     #[inline(always)]
     fn with(self, values: S::f64s) -> Self {
-        let simd = self.simd;
-        Self { simd, values }
+        Self { values, ..self }
     }
 }
 
 macro_rules! operators {
     ($($operator:ident, $method:ident, $vector:ident;)*) => {$(
-        impl<S: Simd> $operator for Lanes<S> {
+        impl<S: InstructionSet> $operator for Lanes<S> {
             type Output = Self;
 
             #[inline(always)]
@@ -49,7 +80,7 @@ operators! {
     Div, div, div_f64s;
 }
 
-impl<S: Simd> Neg for Lanes<S> {
+impl<S: InstructionSet> Neg for Lanes<S> {
     type Output = Self;
 
     #[inline(always)]
@@ -58,21 +89,21 @@ impl<S: Simd> Neg for Lanes<S> {
     }
 }
 
-impl<S: Simd> AddAssign for Lanes<S> {
+impl<S: InstructionSet> AddAssign for Lanes<S> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<S: Simd> MulAssign for Lanes<S> {
+impl<S: InstructionSet> MulAssign for Lanes<S> {
     #[inline(always)]
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }
 }
 
-impl<S: Simd> Real for Lanes<S> {
+impl<S: InstructionSet> Real for Lanes<S> {
     type Mask = S::m64s;
 
     const LANES: usize = S::F64_LANES;
@@ -105,6 +136,12 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn any(self, mask: S::m64s) -> bool {
         bytes_of(&mask).iter().fold(0, |all, byte| all | byte) != 0
+    }
+
+    #[inline(always)]
+    fn all(self, mask: S::m64s) -> bool {
+        let here = self.simd.not_m64s(mask);
+        !self.any(here)
     }
 
     fn lane(self, lane: usize) -> f64 {
@@ -221,6 +258,11 @@ impl Real for Pair {
     #[inline(always)]
     fn any(self, mask: [bool; 2]) -> bool {
         mask[0] | mask[1]
+    }
+
+    #[inline(always)]
+    fn all(self, mask: [bool; 2]) -> bool {
+        mask[0] & mask[1]
     }
 
     fn lane(self, lane: usize) -> f64 {

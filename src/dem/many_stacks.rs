@@ -3,7 +3,7 @@
 use super::contact::SpringDashpot;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::lanes::{Lanes, Pair};
-use super::real::Real;
+use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
 use crate::stack::{Case, Convention, Preparation};
@@ -143,7 +143,7 @@ fn compress<R: Real>(number: R, queue: &mut impl RunQueue) {
 }
 
 fn stack<R: Real>(case: &Case, number: R) -> StackScene<R, SpringDashpot<R>> {
-    StackScene::new(case, law(case, number), number)
+    StackScene::of(case, law(case, number), number)
 }
 
 struct Many<'a, Queue> {
@@ -160,7 +160,7 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
     ) -> Option<Lane> {
         let run = self.next.take().or_else(|| self.queue.next())?;
         assert_eq!(LaneKind::of(&run.case), self.kind, "one kind for all lanes");
-        let mut fresh = stack(&run.case, stack_of_all.scene.time_step);
+        let mut fresh = stack(&run.case, stack_of_all.time_step);
         let (step, samples) = match run.checkpoint {
             Some(checkpoint) => {
                 fresh.set_numbers(&checkpoint.numbers);

@@ -5,6 +5,8 @@
 
 mod contact;
 mod contact_run;
+mod contact_state;
+mod double_double;
 mod first_event;
 mod frames;
 mod lane_group;
@@ -15,6 +17,7 @@ mod real;
 mod scene;
 mod stack_run;
 mod stack_scene;
+mod wall;
 
 pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_with};
@@ -22,5 +25,6 @@ pub use first_event::{Loading, Observation, Until, watch_stack};
 pub use frames::compress_stack_into_frames;
 pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, RunQueue};
 pub use real::{Composite, LaneWise, Real, Work};
-pub use scene::{Cylinder, Load, PlaneWall, Scene};
+pub use scene::{Cylinder, Load, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};
+pub use wall::{Facing, PlaneWall};

@@ -1,10 +1,8 @@
 //! The numbers that the stepping is done in: doubles, double-doubles to see what rounding does to them, or
 //! several doubles side by side, one for each of as many runs.
 
-use num_traits::Float;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
-use twofloat::TwoFloat;
 
 /// A real number, or one in each of several lanes. Every operation acts on each lane alone, and gives it the
 /// bits that it gives to a single number.
@@ -37,6 +35,8 @@ pub trait Real:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether `mask` holds anywhere.
     fn any(self, mask: Self::Mask) -> bool;
+    /// Whether `mask` holds everywhere.
+    fn all(self, mask: Self::Mask) -> bool;
     /// The number in one lane, to double precision.
     fn lane(self, lane: usize) -> f64;
     /// Takes over one lane of `other`.
@@ -52,62 +52,59 @@ pub trait Work {
     fn carry_out(self);
 }
 
-macro_rules! one_lane {
-    ($($number:ty),*) => {$(
-        impl Real for $number {
-            type Mask = bool;
+impl Real for f64 {
+    type Mask = bool;
 
-            const LANES: usize = 1;
+    const LANES: usize = 1;
 
-            #[inline(always)]
-            fn like(self, value: f64) -> Self {
-                value.into()
-            }
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        value
+    }
 
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Float::sqrt(self)
-            }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
 
-            #[inline(always)]
-            fn abs(self) -> Self {
-                Float::abs(self)
-            }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
 
-            #[inline(always)]
-            fn less(self, other: Self) -> bool {
-                self < other
-            }
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
 
-            #[inline(always)]
-            fn select(mask: bool, yes: Self, no: Self) -> Self {
-                if mask { yes } else { no }
-            }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
 
-            #[inline(always)]
-            fn any(self, mask: bool) -> bool {
-                mask
-            }
+    #[inline(always)]
+    fn any(self, mask: bool) -> bool {
+        mask
+    }
 
-            #[inline(always)]
-            fn lane(self, _: usize) -> f64 {
-                self.into()
-            }
+    #[inline(always)]
+    fn all(self, mask: bool) -> bool {
+        mask
+    }
 
-            #[inline(always)]
-            fn set_lane(&mut self, _: usize, other: Self) {
-                *self = other;
-            }
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
 
-            #[inline(always)]
-            fn vectorize(self, work: impl Work) {
-                work.carry_out();
-            }
-        }
-    )*};
+    fn set_lane(&mut self, _: usize, other: Self) {
+        *self = other;
+    }
+
+    #[inline(always)]
+    fn vectorize(self, work: impl Work) {
+        work.carry_out();
+    }
 }
-
-one_lane!(f64, TwoFloat);
 
 /// Something made of real numbers, always the same ones in the same order.
 pub trait Composite<R: Real>: Clone {

@@ -1,8 +1,29 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
-use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along};
-use super::real::{Composite, LaneWise, Real, composite, lane_wise};
+use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along, tangential};
+use super::contact_state::{ContactState, Touch};
+use super::real::{Composite, Real, composite, lane_wise};
+use super::wall::PlaneWall;
 use crate::stack::CYLINDER_INERTIA;
+
+/// A loop over all indices below a count, the first three of which the compiler knows.
+macro_rules! unrolled {
+    ($index:ident below $count:ident $body:block) => {
+        if $count > 0 {
+            let $index = 0;
+            $body
+        }
+        if $count > 1 {
+            let $index = 1;
+            $body
+        }
+        if $count > 2 {
+            let $index = 2;
+            $body
+        }
+        for $index in 3..$count $body
+    };
+}
 
 /// A cylinder of unit mass and radius. Velocities belong to the half step before the positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,12 +45,6 @@ composite!(
         velocity,
         spin
     },
-    PlaneWall {
-        normal,
-        offset,
-        speed,
-        friction
-    },
     Load { force, torque },
 );
 lane_wise!(Load { force, torque });
@@ -47,26 +62,21 @@ impl<R: Real> Cylinder<R> {
     }
 }
 
-/// A plane wall; the cylinders are on the side its normal points to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlaneWall<R = f64> {
-    /// Unit normal n.
-    pub normal: [R; 2],
-    /// Offset: the plane is n · x = offset.
-    pub offset: R,
-    /// Velocity of the plane along its normal.
-    pub speed: R,
-    /// Friction coefficient against cylinders.
-    pub friction: R,
-}
-
-/// Cylinders, walls and the state of all their contacts.
+/// Cylinders, walls and the state of all their contacts; as many as the compiler knows, which then keeps them
+/// in registers as far as it can.
 #[derive(Debug, Clone)]
-pub struct Scene<R: Real = f64, Model: ContactModel<R> = SpringDashpot<R>> {
+pub struct Scene<
+    const CYLINDERS: usize,
+    const WALLS: usize,
+    R: Real = f64,
+    Model: ContactModel<R> = SpringDashpot<R>,
+> {
     /// The cylinders.
-    pub cylinders: Vec<Cylinder<R>>,
+    pub cylinders: [Cylinder<R>; CYLINDERS],
     /// The walls.
-    pub walls: Vec<PlaneWall<R>>,
+    pub walls: [PlaneWall<R>; WALLS],
+    /// Which walls there are; the others are passed over.
+    pub wall_exists: [bool; WALLS],
     /// Contact law of every contact.
     pub model: Model,
     /// Friction coefficient between cylinders.
@@ -81,61 +91,10 @@ pub struct Scene<R: Real = f64, Model: ContactModel<R> = SpringDashpot<R>> {
     pub gravity: R,
     /// Time step.
     pub time_step: R,
-    pair_contacts: Vec<ContactState<R, Model::Memory>>,
-    wall_contacts: Vec<ContactState<R, Model::Memory>>,
-    loads: Vec<Load<R>>,
-}
-
-/// What a contact remembers and exerts.
-#[derive(Debug, Clone, Copy)]
-struct ContactState<R, Memory> {
-    memory: Memory,
-    force: ContactForce<R>,
-    /// Whether any lane has touched since it was last forgotten.
-    loaded: bool,
-}
-
-impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
-    #[inline(always)]
-    fn forgotten<Model: ContactModel<R, Memory = Memory>>(model: &Model, number: R) -> Self {
-        Self {
-            memory: model.forgotten(number),
-            force: ContactForce::none(number),
-            loaded: false,
-        }
-    }
-
-    /// The force of `contact` where it `touches`; elsewhere the contact is without force and past.
-    #[inline(always)]
-    fn evaluate<Model: ContactModel<R, Memory = Memory>>(
-        &mut self,
-        model: &Model,
-        contact: &Contact<R>,
-        touches: R::Mask,
-    ) {
-        let mut memory = self.memory;
-        let force = model.evaluate(contact, &mut memory);
-        let gone = Self::forgotten(model, contact.overlap);
-        self.memory = Memory::choose(touches, memory, gone.memory);
-        self.force = ContactForce::choose(touches, force, gone.force);
-        self.loaded = true;
-    }
-
-    #[inline(always)]
-    fn part<Model: ContactModel<R, Memory = Memory>>(&mut self, model: &Model, number: R) {
-        if self.loaded {
-            *self = Self::forgotten(model, number);
-        }
-    }
-}
-
-impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
-    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
-        self.memory.visit(&other.memory, visit);
-        self.force.visit(&other.force, visit);
-        // Perhaps; what does not touch is forgotten in the next step.
-        self.loaded = true;
-    }
+    /// By the higher index and the lower one.
+    pair_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; CYLINDERS],
+    wall_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; WALLS],
+    loads: [Load<R>; CYLINDERS],
 }
 
 /// Force and torque on a cylinder.
@@ -147,18 +106,25 @@ pub struct Load<R = f64> {
     pub torque: R,
 }
 
-impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
-    /// A scene without walls, friction between cylinders and gravity, every contact stress free.
-    pub fn new(cylinders: Vec<Cylinder<R>>, model: Model, time_step: R) -> Self {
-        let count = cylinders.len();
+impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>>
+    Scene<CYLINDERS, WALLS, R, Model>
+{
+    /// A scene without friction between cylinders and without gravity, every contact stress free.
+    pub fn new(
+        cylinders: [Cylinder<R>; CYLINDERS],
+        walls: [PlaneWall<R>; WALLS],
+        model: Model,
+        time_step: R,
+    ) -> Self {
         let zero = time_step.like(0.0);
         let contact = ContactState::forgotten(&model, zero);
         Self {
-            pair_contacts: vec![contact; count * count.saturating_sub(1) / 2],
-            wall_contacts: Vec::new(),
-            loads: vec![Load::weight(zero); count],
+            pair_contacts: [[contact; CYLINDERS]; CYLINDERS],
+            wall_contacts: [[contact; CYLINDERS]; WALLS],
+            loads: [Load::weight(zero); CYLINDERS],
             cylinders,
-            walls: Vec::new(),
+            walls,
+            wall_exists: [true; WALLS],
             model,
             cylinder_friction: zero,
             pair_arm: zero,
@@ -169,18 +135,9 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
         }
     }
 
-    /// Adds a wall and returns its index.
-    pub fn add_wall(&mut self, wall: PlaneWall<R>) -> usize {
-        self.walls.push(wall);
-        let all = self.walls.len() * self.cylinders.len();
-        let contact = ContactState::forgotten(&self.model, self.time_step);
-        self.wall_contacts.resize(all, contact);
-        self.walls.len() - 1
-    }
-
     /// Force of a wall on a cylinder, as of the last evaluation of the forces.
     pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R> {
-        &self.wall_contacts[wall * self.cylinders.len() + cylinder].force
+        &self.wall_contacts[wall][cylinder].force
     }
 
     /// Force and torque on a cylinder, as of the last evaluation of the forces.
@@ -191,34 +148,52 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
     /// Force of a cylinder on another, the one with the higher index being named first, as of the last
     /// evaluation of the forces.
     pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R> {
-        &self.pair_contacts[first * (first - 1) / 2 + second].force
+        &self.pair_contacts[first][second].force
     }
 
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     #[inline(always)]
     pub fn evaluate_forces(&mut self) {
-        self.loads.fill(Load::weight(self.gravity));
-        let count = self.cylinders.len();
-        let mut pair = 0;
-        for first in 1..count {
-            for second in 0..first {
-                self.evaluate_pair(first, second, pair);
-                pair += 1;
-            }
-        }
-        for wall in 0..self.walls.len() {
-            for cylinder in 0..count {
-                self.evaluate_wall(wall, cylinder);
-            }
-        }
+        self.loads = self.forces::<true>();
     }
 
     /// Kicks the velocities over a whole step with the evaluated forces, then drifts the positions, and
     /// moves the walls.
     #[inline(always)]
     pub fn advance(&mut self) {
+        self.accelerate(&self.loads.clone());
+    }
+
+    /// Both. The contact forces are not kept.
+    #[inline(always)]
+    pub fn step(&mut self) {
+        let loads = self.forces::<false>();
+        self.accelerate(&loads);
+    }
+
+    /// The loads on all cylinders.
+    #[inline(always)]
+    fn forces<const KEEP: bool>(&mut self) -> [Load<R>; CYLINDERS] {
+        let mut loads = [Load::weight(self.gravity); CYLINDERS];
+        unrolled!(first below CYLINDERS {
+            unrolled!(second below first {
+                self.evaluate_pair::<KEEP>(first, second, &mut loads);
+            });
+        });
+        for wall in 0..WALLS {
+            if self.wall_exists[wall] {
+                unrolled!(cylinder below CYLINDERS {
+                    self.evaluate_wall::<KEEP>(wall, cylinder, &mut loads);
+                });
+            }
+        }
+        loads
+    }
+
+    #[inline(always)]
+    fn accelerate(&mut self, loads: &[Load<R>; CYLINDERS]) {
         let dt = self.time_step;
-        for (cylinder, load) in self.cylinders.iter_mut().zip(&self.loads) {
+        for (cylinder, load) in self.cylinders.iter_mut().zip(loads) {
             for axis in 0..2 {
                 cylinder.velocity[axis] += load.force[axis] * dt;
                 cylinder.position[axis] += cylinder.velocity[axis] * dt;
@@ -226,66 +201,111 @@ impl<R: Real, Model: ContactModel<R>> Scene<R, Model> {
             cylinder.spin += load.torque / self.moment_of_inertia * dt;
             cylinder.angle += cylinder.spin * dt;
         }
-        for wall in &mut self.walls {
-            wall.offset += wall.speed * dt;
+        for (wall, exists) in self.walls.iter_mut().zip(self.wall_exists) {
+            if exists {
+                wall.offset += wall.speed * dt;
+            }
         }
     }
 
     #[inline(always)]
-    fn evaluate_pair(&mut self, first: usize, second: usize, pair: usize) {
-        let (i, j) = (&self.cylinders[first], &self.cylinders[second]);
-        let dx = i.position[0] - j.position[0];
-        let dy = i.position[1] - j.position[1];
-        let square = dx * dx + dy * dy;
-        let state = &mut self.pair_contacts[pair];
+    fn evaluate_pair<const KEEP: bool>(
+        &mut self,
+        first: usize,
+        second: usize,
+        loads: &mut [Load<R>; CYLINDERS],
+    ) {
+        let [i, j] = [first, second].map(|index| self.cylinders[index].position);
+        let apart = [i[0] - j[0], i[1] - j[1]];
+        let square = apart[0] * apart[0] + apart[1] * apart[1];
         let touches = square.less(square.like(4.0));
         if !square.any(touches) {
-            return state.part(&self.model, square);
+            self.pair_contacts[first][second].part::<KEEP, _>(&self.model, square);
+        } else if square.all(touches) {
+            self.press_pair::<KEEP>(first, second, (apart, square), Touch::Everywhere, loads);
+        } else {
+            self.press_pair::<KEEP>(first, second, (apart, square), Touch::Where(touches), loads);
         }
+    }
+
+    #[inline(always)]
+    fn press_pair<const KEEP: bool>(
+        &mut self,
+        first: usize,
+        second: usize,
+        (apart, square): ([R; 2], R),
+        touches: Touch<R>,
+        loads: &mut [Load<R>; CYLINDERS],
+    ) {
+        let [i, j] = [first, second].map(|index| self.cylinders[index]);
         let distance = square.sqrt();
+        let normal = [apart[0] / distance, apart[1] / distance];
+        let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
         let contact = Contact {
-            normal: [dx / distance, dy / distance],
+            normal,
             overlap: distance.like(2.0) - distance,
-            velocity: [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]],
+            separation_speed: along(normal, velocity),
+            sliding_speed: tangential(normal, velocity),
             spin: i.spin + j.spin,
             friction: self.cylinder_friction,
             arm: self.pair_arm,
             time_step: self.time_step,
         };
-        state.evaluate(&self.model, &contact, touches);
-        let force = in_the_plane(contact.normal, &state.force);
-        let torque = state.force.radius * state.force.tangential;
-        self.loads[first].add(touches, force, -torque);
-        self.loads[second].add(touches, [-force[0], -force[1]], -torque);
+        let state = &mut self.pair_contacts[first][second];
+        let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
+        let force = in_the_plane(normal, &exerted);
+        let torque = exerted.radius * exerted.tangential;
+        loads[first].add(touches, force, -torque);
+        loads[second].add(touches, [-force[0], -force[1]], -torque);
     }
 
     #[inline(always)]
-    fn evaluate_wall(&mut self, wall: usize, cylinder: usize) {
-        let state = &mut self.wall_contacts[wall * self.cylinders.len() + cylinder];
+    fn evaluate_wall<const KEEP: bool>(
+        &mut self,
+        wall: usize,
+        cylinder: usize,
+        loads: &mut [Load<R>; CYLINDERS],
+    ) {
         let plane = &self.walls[wall];
-        let body = &self.cylinders[cylinder];
-        let distance = along(plane.normal, body.position) - plane.offset;
+        let position = self.cylinders[cylinder].position;
+        let distance = plane.facing.along(position) - plane.offset;
         let overlap = distance.like(1.0) - distance;
         let touches = overlap.like(0.0).less(overlap);
         if !overlap.any(touches) {
-            return state.part(&self.model, overlap);
+            self.wall_contacts[wall][cylinder].part::<KEEP, _>(&self.model, overlap);
+        } else if overlap.all(touches) {
+            self.press_on_wall::<KEEP>(wall, cylinder, overlap, Touch::Everywhere, loads);
+        } else {
+            self.press_on_wall::<KEEP>(wall, cylinder, overlap, Touch::Where(touches), loads);
         }
+    }
+
+    #[inline(always)]
+    fn press_on_wall<const KEEP: bool>(
+        &mut self,
+        wall: usize,
+        cylinder: usize,
+        overlap: R,
+        touches: Touch<R>,
+        loads: &mut [Load<R>; CYLINDERS],
+    ) {
+        let plane = self.walls[wall];
+        let body = self.cylinders[cylinder];
         let contact = Contact {
-            normal: plane.normal,
+            normal: plane.facing.normal(overlap),
             overlap,
-            velocity: [
-                body.velocity[0] - plane.speed * plane.normal[0],
-                body.velocity[1] - plane.speed * plane.normal[1],
-            ],
+            separation_speed: plane.facing.along(body.velocity) - plane.speed,
+            sliding_speed: plane.facing.tangential(body.velocity),
             spin: body.spin,
             friction: plane.friction,
             arm: self.wall_arm,
             time_step: self.time_step,
         };
-        state.evaluate(&self.model, &contact, touches);
-        let force = in_the_plane(plane.normal, &state.force);
-        let torque = state.force.radius * state.force.tangential;
-        self.loads[cylinder].add(touches, force, -torque);
+        let state = &mut self.wall_contacts[wall][cylinder];
+        let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
+        let force = plane.facing.in_the_plane(&exerted);
+        let torque = exerted.radius * exerted.tangential;
+        loads[cylinder].add(touches, force, -torque);
     }
 }
 
@@ -299,12 +319,12 @@ impl<R: Real> Load<R> {
     }
 
     #[inline(always)]
-    fn add(&mut self, touches: R::Mask, force: [R; 2], torque: R) {
+    fn add(&mut self, touches: Touch<R>, force: [R; 2], torque: R) {
         let sum = Self {
             force: [self.force[0] + force[0], self.force[1] + force[1]],
             torque: self.torque + torque,
         };
-        *self = Self::choose(touches, sum, *self);
+        *self = touches.choose(sum, *self);
     }
 }
 
@@ -316,7 +336,9 @@ fn in_the_plane<R: Real>(normal: [R; 2], force: &ContactForce<R>) -> [R; 2] {
     ]
 }
 
-impl<R: Real, Model: ContactModel<R> + Composite<R>> Composite<R> for Scene<R, Model> {
+impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R> + Composite<R>>
+    Composite<R> for Scene<CYLINDERS, WALLS, R, Model>
+{
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.cylinders.visit(&other.cylinders, visit);
         self.walls.visit(&other.walls, visit);

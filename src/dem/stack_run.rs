@@ -1,14 +1,13 @@
 //! The three-cylinder stack: prepared, compressed, sampled.
 
 use super::contact::{ContactModel, SpringDashpot};
+use super::double_double::DoubleDouble;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::real::Real;
-use super::scene::Scene;
 use super::stack_scene::StackScene;
 use crate::stack::{Case, sha256_hex};
 use crate::trace::{SeriesError, Trace};
 use std::sync::LazyLock;
-use twofloat::TwoFloat;
 
 /// Digest of the sources that decide the numbers of the native DEM; it takes the place that the hash of
 /// the deck has for an external code.
@@ -16,12 +15,15 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
     let sources = [
         include_str!("contact.rs"),
         include_str!("contact_run.rs"),
+        include_str!("contact_state.rs"),
+        include_str!("double_double.rs"),
         include_str!("lane_group.rs"),
         include_str!("lanes.rs"),
         include_str!("loading.rs"),
         include_str!("real.rs"),
         include_str!("scene.rs"),
         include_str!("stack_scene.rs"),
+        include_str!("wall.rs"),
     ];
     sha256_hex(sources.concat().as_bytes())
 });
@@ -44,8 +46,8 @@ pub fn compress_stack_precisely(
     case: &Case,
     wanted: impl Fn() -> bool,
 ) -> Result<Trace, SeriesError> {
-    let zero = TwoFloat::from(0.0);
-    compress_stack_watched(case, (law(case, zero), zero), wanted, |_, _| ())
+    let zero = DoubleDouble::new(0.0);
+    compress_stack_watched(case, (law(case, zero), zero), wanted, |_| ())
 }
 
 /// The contact law of `case`, in numbers like `number`.
@@ -62,16 +64,15 @@ pub fn compress_stack_with<Model: ContactModel<f64>>(
     model: Model,
     wanted: impl Fn() -> bool,
 ) -> Result<Trace, SeriesError> {
-    compress_stack_watched(case, (model, 0.0), wanted, |_, _| ())
+    compress_stack_watched(case, (model, 0.0), wanted, |_| ())
 }
 
-/// The same in numbers like `number`, every sampled state being shown to `watch`, with the index of the top
-/// wall.
+/// The same in numbers like `number`, every sampled state being shown to `watch`.
 pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
     case: &Case,
     (model, number): (Model, R),
     wanted: impl Fn() -> bool,
-    watch: impl FnMut(&Scene<R, Model>, usize),
+    watch: impl FnMut(&StackScene<R, Model>),
 ) -> Result<Trace, SeriesError> {
     let mut single = Single {
         case: Some(*case),
@@ -79,7 +80,7 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
         watch,
         samples: Vec::new(),
     };
-    LaneGroup::new(StackScene::new(case, model, number)).run(&mut single);
+    LaneGroup::new(StackScene::of(case, model, number)).run(&mut single);
     let protocol = &case.protocol;
     Trace::new(single.samples, &protocol.schedule(), protocol.time_step)
 }
@@ -97,7 +98,7 @@ where
     R: Real,
     Model: ContactModel<R>,
     Wanted: Fn() -> bool,
-    Watch: FnMut(&Scene<R, Model>, usize),
+    Watch: FnMut(&StackScene<R, Model>),
 {
     fn fill(&mut self, _: &mut StackScene<R, Model>, _: usize) -> Option<Lane> {
         let case = self.case.take()?;
@@ -109,7 +110,7 @@ where
     }
 
     fn sampled(&mut self, stack: &StackScene<R, Model>) {
-        (self.watch)(&stack.scene, stack.top_wall);
+        (self.watch)(stack);
     }
 
     fn ended(&mut self, lane: Lane) {

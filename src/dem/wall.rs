@@ -1,0 +1,84 @@
+//! Plane walls.
+
+use super::contact::ContactForce;
+use super::real::{Real, composite};
+
+/// Where the normal n of a wall points to: the side on which the cylinders are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Facing {
+    /// n = (0, 1), a floor.
+    Up,
+    /// n = (0, −1).
+    Down,
+    /// n = (−1, 0).
+    Left,
+    /// n = (1, 0).
+    Right,
+}
+
+impl Facing {
+    /// n, in numbers like `number`.
+    #[inline(always)]
+    pub fn normal<R: Real>(self, number: R) -> [R; 2] {
+        let normal = match self {
+            Self::Up => [0.0, 1.0],
+            Self::Down => [0.0, -1.0],
+            Self::Left => [-1.0, 0.0],
+            Self::Right => [1.0, 0.0],
+        };
+        [number.like(normal[0]), number.like(normal[1])]
+    }
+
+    /// Component of a vector along n.
+    #[inline(always)]
+    pub(super) fn along<R: Real>(self, [x, y]: [R; 2]) -> R {
+        match self {
+            Self::Up => y,
+            Self::Down => -y,
+            Self::Left => -x,
+            Self::Right => x,
+        }
+    }
+
+    /// Component of a vector along t = (−n_y, n_x).
+    #[inline(always)]
+    pub(super) fn tangential<R: Real>(self, [x, y]: [R; 2]) -> R {
+        match self {
+            Self::Up => -x,
+            Self::Down => x,
+            Self::Left => -y,
+            Self::Right => y,
+        }
+    }
+
+    /// A contact force as a vector.
+    #[inline(always)]
+    pub(super) fn in_the_plane<R: Real>(self, force: &ContactForce<R>) -> [R; 2] {
+        let (normal, tangential) = (force.normal, force.tangential);
+        match self {
+            Self::Up => [-tangential, normal],
+            Self::Down => [tangential, -normal],
+            Self::Left => [-normal, -tangential],
+            Self::Right => [normal, tangential],
+        }
+    }
+}
+
+/// A plane wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneWall<R = f64> {
+    /// Direction of its unit normal n.
+    pub facing: Facing,
+    /// Offset: the plane is n · x = offset.
+    pub offset: R,
+    /// Velocity of the plane along its normal.
+    pub speed: R,
+    /// Friction coefficient against cylinders.
+    pub friction: R,
+}
+
+composite!(PlaneWall {
+    offset,
+    speed,
+    friction
+});

@@ -213,7 +213,8 @@ fn changing_one_constant_flips_the_right_verdicts() {
 struct Quiet;
 
 impl Progress for Quiet {
-    fn planned(&self, _: usize, _: usize) {}
+    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn advanced(&self, _: f64) {}
     fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }

@@ -1,6 +1,6 @@
 //! Runs in the lanes of vectors have the bits of single runs, however many share one and whenever they stop.
 
-use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, RunQueue, compress_stack};
+use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue, compress_stack};
 use tristack::stack::{
     Case, Convention, CoulombOperand, Preparation, Protocol, Sampling, SeparatingForce, SideWalls,
     SlidingSpring, SpringTransport, Stack,
@@ -21,12 +21,13 @@ impl RunQueue for Queue<'_> {
         self.waiting.pop()
     }
 
-    fn wanted(&mut self, open: &dyn Fn() -> Vec<(usize, Checkpoint)>) -> bool {
+    fn wanted(&mut self, open: &dyn OpenRuns) -> bool {
         self.patience -= 1;
         if self.patience > 0 {
             return true;
         }
-        self.stopped = open()
+        self.stopped = open
+            .checkpoints()
             .into_iter()
             .map(|(index, checkpoint)| OpenRun {
                 index,

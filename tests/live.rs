@@ -241,6 +241,7 @@ fn cases_of_both_preparations_come_back_in_order() {
         let directory = tempfile::tempdir().expect("a directory");
         let workplace = Workplace {
             directory: directory.path(),
+            advanced: &|_, _| (),
             checkpoints: None,
             time_limit: None,
             interrupt: &interrupt,

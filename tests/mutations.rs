@@ -236,7 +236,8 @@ impl Engine for TwinEngine {
 struct Silent;
 
 impl Progress for Silent {
-    fn planned(&self, _: usize, _: usize) {}
+    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn advanced(&self, _: f64) {}
     fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }

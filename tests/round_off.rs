@@ -10,6 +10,7 @@ fn slip(engine: &dyn Engine, stack: &Stack) -> Extrapolation {
     let directory = tempfile::tempdir().expect("a directory");
     let workplace = Workplace {
         directory: directory.path(),
+        advanced: &|_, _| (),
         checkpoints: None,
         time_limit: None,
         interrupt: &Interrupt::new(),

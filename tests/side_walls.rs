@@ -19,7 +19,8 @@ static INTERRUPT: Interrupt = Interrupt::new();
 struct Silent;
 
 impl Progress for Silent {
-    fn planned(&self, _total: usize, _reused: usize) {}
+    fn planned(&self, _total: usize, _reused: usize, _seconds: f64) {}
+    fn advanced(&self, _seconds: f64) {}
     fn finished(&self, _engine: EngineName, _case: &Case, _result: Result<&Run, &Failure>) {}
     fn warn(&self, message: &str) {
         panic!("{message}");

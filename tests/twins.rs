@@ -17,7 +17,8 @@ static INTERRUPT: Interrupt = Interrupt::new();
 struct Silence;
 
 impl Progress for Silence {
-    fn planned(&self, _: usize, _: usize) {}
+    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn advanced(&self, _: f64) {}
     fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }

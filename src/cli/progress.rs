@@ -5,79 +5,107 @@ use crate::crosscheck::Progress;
 use crate::engine::{EngineName, Failure};
 use crate::report::friction;
 use crate::stack::Case;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Time between two lines that say how far it is, where there is no bar.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 /// Tells the user how far it is.
 pub struct Reporter {
-    bar: Option<ProgressBar>,
-    lines: ProgressBar,
+    /// In nanoseconds of expected work. Not drawn where there is no terminal.
+    bar: ProgressBar,
+    drawn: bool,
+    counts: Mutex<Counts>,
+}
+
+struct Counts {
+    finished: usize,
+    open: usize,
+    last_line: Instant,
 }
 
 impl Reporter {
     /// A reporter for the standard error of this process.
     pub fn new() -> Self {
-        let terminal = std::io::stderr().is_terminal();
+        let drawn = std::io::stderr().is_terminal();
+        let target = if drawn {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
         Self {
-            bar: terminal.then(|| ProgressBar::new(0).with_style(style())),
-            // Not drawn: it only counts for the plain lines.
-            lines: ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden()),
+            bar: ProgressBar::with_draw_target(Some(0), target).with_style(style()),
+            drawn,
+            counts: Mutex::new(Counts {
+                finished: 0,
+                open: 0,
+                last_line: Instant::now(),
+            }),
         }
     }
 
     fn say(&self, line: &str) {
-        match &self.bar {
-            Some(bar) => bar.println(line),
-            None => eprintln!("{line}"),
+        if self.drawn {
+            self.bar.println(line);
+        } else {
+            eprintln!("{line}");
         }
+    }
+
+    /// Counts are plain: whoever held them and died left them whole.
+    fn counts(&self) -> MutexGuard<'_, Counts> {
+        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 fn style() -> ProgressStyle {
-    ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {elapsed} elapsed, {eta} left  {msg}")
+    ProgressStyle::with_template("{bar:40} {percent} %, {elapsed} elapsed, {eta} left  {msg}")
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 impl Progress for Reporter {
-    fn planned(&self, total: usize, reused: usize) {
-        let open = (total - reused) as u64;
-        self.lines.inc_length(open);
-        if let Some(bar) = &self.bar {
-            bar.inc_length(open);
-        }
+    fn planned(&self, total: usize, reused: usize, seconds: f64) {
+        self.counts().open += total - reused;
+        self.bar.inc_length((1e9 * seconds) as u64);
         if reused > 0 {
             self.say(&format!("{reused} of {total} runs are there already"));
         }
     }
 
+    fn advanced(&self, seconds: f64) {
+        self.bar.inc((1e9 * seconds) as u64);
+        let mut counts = self.counts();
+        if !self.drawn && counts.last_line.elapsed() > BETWEEN_LINES {
+            counts.last_line = Instant::now();
+            let done = self.bar.position() as f64 / self.bar.length().unwrap_or(1) as f64;
+            let left = HumanDuration(self.bar.eta());
+            eprintln!("{:.0} % done, {left} left", 100.0 * done);
+        }
+    }
+
     fn finished(&self, engine: EngineName, case: &Case, result: Result<&Run, &Failure>) {
-        self.lines.inc(1);
+        let (finished, open) = {
+            let mut counts = self.counts();
+            counts.finished += 1;
+            (counts.finished, counts.open)
+        };
         let subject = format!(
-            "{engine} mu={} stiffness={} speed={:.2e} dt={}",
+            "[{finished}/{open}] {engine} mu={} stiffness={} speed={:.2e} dt={}",
             friction(case.stack.floor_friction),
             case.stack.stiffness,
             case.protocol.wall_speed,
             case.protocol.time_step
         );
-        if let Err(failure) = result
-            && !failure.is_interrupted()
-        {
-            self.say(&format!("failed: {failure}"));
-        }
-        match (&self.bar, result) {
-            (Some(bar), _) => {
-                bar.set_message(subject);
-                bar.inc(1);
-            }
-            (None, Ok(run)) => {
-                let length = self.lines.length().unwrap_or(0);
+        match result {
+            Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
+            Ok(run) if !self.drawn => {
                 let seconds = run.provenance.seconds;
-                eprintln!(
-                    "[{}/{length}] {subject}: {seconds:.2} s",
-                    self.lines.position()
-                );
+                eprintln!("{subject}: {seconds:.2} s");
             }
-            (None, Err(_)) => {}
+            _ => self.bar.set_message(subject),
         }
     }
 
@@ -88,9 +116,7 @@ impl Progress for Reporter {
 
 impl Drop for Reporter {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
     }
 }
 

@@ -114,6 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         .or(scratch.as_ref().map(tempfile::TempDir::path));
     let workplace = Workplace {
         directory: directory.unwrap_or(Path::new(".")),
+        advanced: &|_, _| (),
         checkpoints: None,
         time_limit: limit,
         interrupt: &INTERRUPT,

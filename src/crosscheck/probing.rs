@@ -141,6 +141,7 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         let place = directory.path().join(format!("round-{round}"));
         let workplace = Workplace {
             directory: &place,
+            advanced: &|_, _| (),
             checkpoints: None,
             time_limit: settings.time_limit,
             interrupt: settings.interrupt,

@@ -7,6 +7,7 @@ use crate::archive::Run;
 use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Interrupt, Workplace};
 use crate::stack::Case;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use thiserror::Error;
@@ -77,8 +78,11 @@ impl From<RecordedError> for RunError {
 
 /// Somebody who wants to know how far it is.
 pub trait Progress: Sync {
-    /// `total` runs are needed, `reused` of which were there already.
-    fn planned(&self, total: usize, reused: usize);
+    /// `total` runs are needed, `reused` of which were there already; the others will take `seconds` of all
+    /// cores together, about.
+    fn planned(&self, total: usize, reused: usize, seconds: f64);
+    /// What was to take so many of these seconds is done.
+    fn advanced(&self, seconds: f64);
     /// One run has ended.
     fn finished(&self, engine: EngineName, case: &Case, result: Result<&Run, &Failure>);
     /// Something went wrong that does not touch the results.
@@ -107,6 +111,28 @@ impl Workload for Measurement {
 struct Order<'a> {
     engine: EngineName,
     case: &'a Case,
+    /// Steps of which [`Progress`] has been told.
+    told: AtomicU64,
+}
+
+impl<'a> Order<'a> {
+    fn new(engine: EngineName, case: &'a Case) -> Self {
+        Self {
+            engine,
+            case,
+            told: AtomicU64::new(0),
+        }
+    }
+
+    fn seconds(&self, steps: u64) -> f64 {
+        steps as f64 * self.engine.seconds_per_step()
+    }
+
+    /// Tells `progress` that so many steps are done in all.
+    fn advance(&self, steps: u64, progress: &dyn Progress) {
+        let told = self.told.fetch_max(steps, Ordering::Relaxed);
+        progress.advanced(self.seconds(steps.saturating_sub(told)));
+    }
 }
 
 /// Every run that `workloads` want, once, and which of them every case of every workload is.
@@ -118,7 +144,7 @@ fn orders<W: Workload>(workloads: &[W]) -> (Vec<Order<'_>>, Vec<Vec<usize>>) {
         let cases = workload.cases().iter().map(|case| {
             let key = (engine, case.content_hash());
             *known.entry(key).or_insert_with(|| {
-                orders.push(Order { engine, case });
+                orders.push(Order::new(engine, case));
                 orders.len() - 1
             })
         });
@@ -208,8 +234,9 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
             let hands = self.deal(open, calls).into_iter();
             jobs.extend(hands.map(|orders| Job { engine, orders }));
         }
-        self.progress.planned(total, total - missing);
-        jobs.sort_by_key(|job| std::cmp::Reverse(self.steps(job)));
+        let work = jobs.iter().map(|job| self.seconds(job)).sum();
+        self.progress.planned(total, total - missing, work);
+        jobs.sort_by(|left, right| self.seconds(right).total_cmp(&self.seconds(left)));
         jobs
     }
 
@@ -227,9 +254,12 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
         own.map(|(index, _)| index).collect()
     }
 
-    fn steps(&self, job: &Job) -> u64 {
-        let steps = |&order: &usize| self.case(order).total_steps();
-        job.orders.iter().map(steps).sum()
+    /// What a job takes, about.
+    fn seconds(&self, job: &Job) -> f64 {
+        let orders = job.orders.iter().map(|&order| &self.orders[order]);
+        orders
+            .map(|order| order.seconds(order.case.total_steps()))
+            .sum()
     }
 
     fn use_recorded(&self, engine: EngineName, orders: &[usize]) {
@@ -299,6 +329,7 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
             checkpoints: Some(&checkpoints),
             time_limit: self.settings.time_limit,
             interrupt: self.settings.interrupt,
+            advanced: &|index, steps| self.orders[job.orders[index]].advance(steps, self.progress),
         };
         let mut evidence = false;
         job.engine.run(&cases, &workplace, &mut |index, result| {
@@ -318,6 +349,7 @@ impl<T: Send, Keep: Fn(Run) -> T + Sync> Floor<'_, T, Keep> {
             self.progress
                 .warn(&format!("a finished run could not be kept: {error}"));
         }
+        self.orders[order].advance(self.case(order).total_steps(), self.progress);
         self.progress
             .finished(job.engine.name(), self.case(order), result.as_ref());
         self.fill(order, result.map_err(RunError::from));

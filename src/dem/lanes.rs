@@ -40,7 +40,7 @@ impl InstructionSet for pulp::x86::V4 {
 pub struct Lanes<S: InstructionSet> {
     simd: S,
     values: S::f64s,
-    alignment: [S::Alignment; 0],
+    _alignment: [S::Alignment; 0],
 }
 
 impl<S: InstructionSet> Lanes<S> {
@@ -50,7 +50,7 @@ impl<S: InstructionSet> Lanes<S> {
         Self {
             simd,
             values: simd.splat_f64s(value),
-            alignment: [],
+            _alignment: [],
         }
     }
 

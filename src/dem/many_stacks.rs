@@ -37,10 +37,18 @@ pub struct Checkpoint {
 pub trait RunQueue {
     /// The next run. All must be of the same [`LaneKind`].
     fn next(&mut self) -> Option<OpenRun>;
-    /// Whether to go on; asked every few milliseconds. The open runs, by index, are made on demand.
-    fn wanted(&mut self, open: &dyn Fn() -> Vec<(usize, Checkpoint)>) -> bool;
+    /// Whether to go on; asked every few milliseconds.
+    fn wanted(&mut self, open: &dyn OpenRuns) -> bool;
     /// Run `index` has ended: its series, truncated if no longer wanted.
     fn ended(&mut self, index: usize, series: Result<Trace, SeriesError>);
+}
+
+/// The runs that are in lanes, by index.
+pub trait OpenRuns {
+    /// Steps that each has done.
+    fn steps(&self) -> Vec<(usize, u64)>;
+    /// What is needed to go on with each.
+    fn checkpoints(&self) -> Vec<(usize, Checkpoint)>;
 }
 
 /// What the cases in the lanes of one vector must have in common: what a contact does is one program for all
@@ -173,24 +181,38 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
     }
 
     fn wanted(&mut self, stack: &StackScene<R, SpringDashpot<R>>, lanes: &[Option<Lane>]) -> bool {
-        self.queue.wanted(&|| {
-            let open = lanes.iter().enumerate();
-            let open = open.filter_map(|(index, lane)| Some((index, lane.as_ref()?)));
-            let checkpoints = open.map(|(index, lane)| {
-                let checkpoint = Checkpoint {
-                    step: lane.step,
-                    samples: lane.samples.clone(),
-                    numbers: stack.numbers(index),
-                };
-                (lane.index, checkpoint)
-            });
-            checkpoints.collect()
-        })
+        self.queue.wanted(&Open { stack, lanes })
     }
 
     fn ended(&mut self, lane: Lane) {
         let protocol = &lane.case.protocol;
         let series = Trace::new(lane.samples, &protocol.schedule(), protocol.time_step);
         self.queue.ended(lane.index, series);
+    }
+}
+
+struct Open<'a, R: Real> {
+    stack: &'a StackScene<R, SpringDashpot<R>>,
+    lanes: &'a [Option<Lane>],
+}
+
+impl<R: Real> OpenRuns for Open<'_, R> {
+    fn steps(&self) -> Vec<(usize, u64)> {
+        let lanes = self.lanes.iter().flatten();
+        lanes.map(|lane| (lane.index, lane.step)).collect()
+    }
+
+    fn checkpoints(&self) -> Vec<(usize, Checkpoint)> {
+        let lanes = self.lanes.iter().enumerate();
+        let lanes = lanes.filter_map(|(index, lane)| Some((index, lane.as_ref()?)));
+        let checkpoints = lanes.map(|(index, lane)| {
+            let checkpoint = Checkpoint {
+                step: lane.step,
+                samples: lane.samples.clone(),
+                numbers: self.stack.numbers(index),
+            };
+            (lane.index, checkpoint)
+        });
+        checkpoints.collect()
     }
 }

@@ -23,7 +23,7 @@ pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use first_event::{Loading, Observation, Until, watch_stack};
 pub use frames::compress_stack_into_frames;
-pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, RunQueue};
+pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue};
 pub use real::{Composite, LaneWise, Real, Work};
 pub use scene::{Cylinder, Load, Scene};
 pub use stack_run::{SOURCE_DIGEST, compress_stack, compress_stack_precisely, compress_stack_with};

@@ -248,6 +248,15 @@ impl EngineName {
         }
     }
 
+    /// What a step of the stack takes, about, in seconds: for forecasts of the time that is left.
+    pub fn seconds_per_step(self) -> f64 {
+        match self {
+            Self::Native => 1e-8,
+            Self::Liggghts | Self::Lammps => 2.5e-6,
+            Self::Yade | Self::YadeFacet | Self::YadeWall => 5e-6,
+        }
+    }
+
     /// How to install it.
     pub fn installation_hint(self) -> &'static str {
         match self {
@@ -267,8 +276,11 @@ impl std::fmt::Display for EngineName {
     }
 }
 
+/// Is told how many steps of a case, by its index, are done.
+pub type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
+
 /// Where and how runs are made.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Workplace<'a> {
     /// Directory in which every case gets a run directory of its own.
     pub directory: &'a Path,
@@ -278,6 +290,8 @@ pub struct Workplace<'a> {
     pub time_limit: Option<Duration>,
     /// Set when the user wants to stop.
     pub interrupt: &'a Interrupt,
+    /// Told now and then how far long runs are.
+    pub advanced: Advanced<'a>,
 }
 
 /// How an engine is fastest.

@@ -3,7 +3,7 @@
 use super::checkpoints::{CHECKPOINT_INTERVAL, Checkpoints, Unfinished};
 use super::{Native, failure, why};
 use crate::archive::Run;
-use crate::dem::{Checkpoint, OpenRun, RunQueue};
+use crate::dem::{Checkpoint, OpenRun, OpenRuns, RunQueue};
 use crate::engine::{EngineName, Finished, Workplace};
 use crate::stack::Case;
 use crate::trace::{SeriesError, Trace};
@@ -107,10 +107,13 @@ impl RunQueue for Lanes<'_, '_> {
         })
     }
 
-    fn wanted(&mut self, open: &dyn Fn() -> Vec<(usize, Checkpoint)>) -> bool {
+    fn wanted(&mut self, open: &dyn OpenRuns) -> bool {
+        for (index, steps) in open.steps() {
+            (self.workplace.advanced)(index, steps);
+        }
         let wanted = !self.workplace.interrupt.requested() && self.late().is_none();
         if !wanted || self.last_kept.elapsed() > CHECKPOINT_INTERVAL {
-            self.keep(open());
+            self.keep(open.checkpoints());
         }
         wanted
     }

@@ -2,9 +2,9 @@
 
 use super::{Engine, EngineName, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::{compress_stack, compress_stack_precisely, run_contact_test};
-use crate::stack::{Case, ContactTest};
-use crate::trace::{Motion, SeriesError, Trace};
+use crate::dem::{compress_stack, compress_stack_precisely, run_contact_test, run_pyramid};
+use crate::stack::{Case, ContactTest, Pyramid};
+use crate::trace::{Motion, PyramidRun, SeriesError, Trace};
 use std::time::Instant;
 
 /// The DEM of this program.
@@ -45,14 +45,7 @@ impl Native {
 
     fn run_one(&self, case: &Case, workplace: &Workplace) -> Result<Run, FailureKind> {
         let start = Instant::now();
-        let limit = workplace.time_limit;
-        let late = || limit.is_some_and(|limit| start.elapsed() > limit);
-        let stopped = || workplace.interrupt.requested() || late();
-        let trace = (self.compress)(case, &|| !stopped()).map_err(|error| match limit {
-            _ if workplace.interrupt.requested() => FailureKind::Interrupted,
-            Some(limit) if late() => FailureKind::TimedOut(limit),
-            _ => error.into(),
-        })?;
+        let trace = while_wanted(workplace, |wanted| (self.compress)(case, wanted))?;
         let seconds = start.elapsed().as_secs_f64();
         let steps = case.total_steps();
         let command = [
@@ -71,6 +64,22 @@ impl Native {
             provenance: Provenance::now(identity, deck_hash, command, steps, seconds),
         })
     }
+}
+
+/// Hands `run` the question whether it is still wanted, and says why if it was not.
+fn while_wanted<T>(
+    workplace: &Workplace,
+    run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
+) -> Result<T, FailureKind> {
+    let start = Instant::now();
+    let limit = workplace.time_limit;
+    let late = || limit.is_some_and(|limit| start.elapsed() > limit);
+    let stopped = || workplace.interrupt.requested() || late();
+    run(&|| !stopped()).map_err(|error| match limit {
+        _ if workplace.interrupt.requested() => FailureKind::Interrupted,
+        Some(limit) if late() => FailureKind::TimedOut(limit),
+        _ => error.into(),
+    })
 }
 
 impl Engine for Native {
@@ -116,5 +125,23 @@ impl Engine for Native {
             })
         });
         motions.collect()
+    }
+
+    fn pyramid(
+        &self,
+        pyramid: &Pyramid,
+        workplace: &Workplace,
+    ) -> Result<PyramidRun, Box<Failure>> {
+        let valid = pyramid.validate().map_err(FailureKind::Unsupported);
+        let run = || while_wanted(workplace, |wanted| run_pyramid(pyramid, wanted));
+        valid.and_then(|()| run()).map_err(|kind| {
+            Box::new(Failure {
+                engine: EngineName::Native,
+                subject: pyramid.to_string(),
+                kind,
+                run_directory: None,
+                last_lines: Vec::new(),
+            })
+        })
     }
 }

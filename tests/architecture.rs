@@ -68,6 +68,7 @@ fn no_folder_points_back() {
         "archive",
         "dem",
         "engine",
+        "bench",
         "probe",
         "crosscheck",
         "reproduction",

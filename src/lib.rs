@@ -1,6 +1,7 @@
 //! A validation harness for DEM codes: the yield force of a three-cylinder stack (arXiv:2511.06807).
 
 pub mod archive;
+pub mod bench;
 pub mod claims;
 pub mod cli;
 pub mod crosscheck;

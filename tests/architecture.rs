@@ -69,6 +69,7 @@ fn no_folder_points_back() {
         "archive",
         "dem",
         "engine",
+        "bench",
         "probe",
         "crosscheck",
         "reproduction",

@@ -3,7 +3,6 @@
 
 mod common;
 
-use clap::ValueEnum;
 use common::{Bench, assert_only, json};
 use std::fs;
 use tristack::crosscheck::plan;
@@ -20,24 +19,8 @@ const EXTERNAL: [EngineName; 5] = [
     EngineName::Lammps,
 ];
 
-/// The external engines that are installed; fails if one that is required is not.
 fn installed() -> Vec<EngineName> {
-    let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
-    for name in required.split(',').filter(|name| !name.is_empty()) {
-        let engine =
-            EngineName::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names engines");
-        assert!(
-            engine.find().is_some(),
-            "{engine} is required, but not installed"
-        );
-    }
-    let (installed, missing): (Vec<_>, Vec<_>) = EXTERNAL
-        .into_iter()
-        .partition(|engine| engine.find().is_some());
-    for engine in missing {
-        eprintln!("{engine} is not installed: its live tests are skipped");
-    }
-    installed
+    common::installed(&EXTERNAL)
 }
 
 #[test]
@@ -239,13 +222,7 @@ fn cases_of_both_preparations_come_back_in_order() {
     let interrupt = Interrupt::new();
     for name in installed() {
         let directory = tempfile::tempdir().expect("a directory");
-        let workplace = Workplace {
-            directory: directory.path(),
-            advanced: &|_, _| (),
-            checkpoints: None,
-            time_limit: None,
-            interrupt: &interrupt,
-        };
+        let workplace = Workplace::new(directory.path(), &interrupt);
         // The shortest that is a run.
         let mut ramp = plan(name, &Stack::paper(0.2, 1e2), name.convention()).cases[0];
         ramp.protocol.wall_travel *= 0.01;

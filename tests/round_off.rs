@@ -8,13 +8,8 @@ use tristack::trace::YieldEstimates;
 fn slip(engine: &dyn Engine, stack: &Stack) -> Extrapolation {
     let cases = plan(engine.name(), stack, engine.name().convention()).cases;
     let directory = tempfile::tempdir().expect("a directory");
-    let workplace = Workplace {
-        directory: directory.path(),
-        advanced: &|_, _| (),
-        checkpoints: None,
-        time_limit: None,
-        interrupt: &Interrupt::new(),
-    };
+    let interrupt = Interrupt::new();
+    let workplace = Workplace::new(directory.path(), &interrupt);
     let mut estimates = vec![None; cases.len()];
     engine.run(&cases, &workplace, &mut |index, result| {
         let run = result.expect("it delivers");

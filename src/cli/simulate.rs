@@ -113,11 +113,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         .as_deref()
         .or(scratch.as_ref().map(tempfile::TempDir::path));
     let workplace = Workplace {
-        directory: directory.unwrap_or(Path::new(".")),
-        advanced: &|_, _| (),
-        checkpoints: None,
         time_limit: limit,
-        interrupt: &INTERRUPT,
+        ..Workplace::new(directory.unwrap_or(Path::new(".")), &INTERRUPT)
     };
     let run = match execute(engine.as_ref(), &case, &workplace) {
         Ok(run) => run,

@@ -140,11 +140,8 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
         round += 1;
         let place = directory.path().join(format!("round-{round}"));
         let workplace = Workplace {
-            directory: &place,
-            advanced: &|_, _| (),
-            checkpoints: None,
             time_limit: settings.time_limit,
-            interrupt: settings.interrupt,
+            ..Workplace::new(&place, settings.interrupt)
         };
         let motions = engine.probe(tests, &workplace)?;
         answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {

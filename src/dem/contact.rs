@@ -47,6 +47,15 @@ lane_wise!(ContactForce {
 });
 
 impl<R: Real> ContactForce<R> {
+    /// As a vector, the normal of the contact being `normal`.
+    #[inline(always)]
+    pub(super) fn in_the_plane(&self, normal: [R; 2]) -> [R; 2] {
+        [
+            self.normal * normal[0] - self.tangential * normal[1],
+            self.normal * normal[1] + self.tangential * normal[0],
+        ]
+    }
+
     /// No force, in numbers like `number`.
     #[inline(always)]
     pub fn none(number: R) -> Self {

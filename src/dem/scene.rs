@@ -253,7 +253,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         };
         let state = &mut self.pair_contacts[first][second];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
-        let force = in_the_plane(normal, &exerted);
+        let force = exerted.in_the_plane(normal);
         let torque = exerted.radius * exerted.tangential;
         loads[first].add(touches, force, -torque);
         loads[second].add(touches, [-force[0], -force[1]], -torque);
@@ -326,14 +326,6 @@ impl<R: Real> Load<R> {
         };
         *self = touches.choose(sum, *self);
     }
-}
-
-#[inline(always)]
-fn in_the_plane<R: Real>(normal: [R; 2], force: &ContactForce<R>) -> [R; 2] {
-    [
-        force.normal * normal[0] - force.tangential * normal[1],
-        force.normal * normal[1] + force.tangential * normal[0],
-    ]
 }
 
 impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R> + Composite<R>>

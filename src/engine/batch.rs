@@ -121,6 +121,9 @@ impl<'a, T: Task> Batch<'a, T> {
                 &directory.join(file.name()),
                 &file.content(&task.parameters()),
             )?;
+            for (name, content) in task.files() {
+                write(&directory.join(name), &content)?;
+            }
             // What an earlier run left behind must not pass for the result of this one.
             for stale in self.deck.completion_file.iter().chain(adapter.logs) {
                 remove(&directory.join(stale))?;
@@ -155,7 +158,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let longest = self
             .tasks
             .iter()
-            .map(|task| time_limit(task.steps()))
+            .map(Task::time_limit)
             .max()
             .unwrap_or(LONGEST_START);
         workplace.time_limit.unwrap_or(longest)

@@ -1,6 +1,6 @@
 //! What a deck has to be told, under the same names in every code.
 
-use crate::stack::{Case, ContactTest, Convention, Launch, PreparationSteps};
+use crate::stack::{Case, ContactTest, Convention, Launch, PreparationSteps, Pyramid};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -183,4 +183,64 @@ impl ProbeParameters {
             launches: launches.collect(),
         }
     }
+}
+
+/// The parameters of a pyramid as the decks of the external codes read them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PyramidParameters {
+    #[serde(flatten)]
+    contact: ContactParameters,
+    /// Friction of the floor.
+    pub floor_friction: f64,
+    /// Friction between cylinders.
+    pub cylinder_friction: f64,
+    /// ε.
+    pub gravity: f64,
+    /// Time step.
+    pub time_step: f64,
+    /// Distance of the side walls from the middle.
+    pub half_width: f64,
+    /// Steps during which gravity rises.
+    pub ramp_steps: u64,
+    /// Steps at rest.
+    pub rest_steps: u64,
+    /// Steps the time for which is measured.
+    pub timed_steps: u64,
+}
+
+impl PyramidParameters {
+    /// The parameters of `pyramid`.
+    pub fn new(pyramid: &Pyramid) -> Self {
+        let groups = &pyramid.groups;
+        Self {
+            contact: ContactParameters::new(&pyramid.convention, groups.tangential_stiffness()),
+            floor_friction: groups.floor_friction,
+            cylinder_friction: groups.cylinder_friction,
+            gravity: groups.epsilon(),
+            time_step: pyramid.time_step,
+            half_width: pyramid.half_width(),
+            ramp_steps: pyramid.ramp_steps,
+            rest_steps: pyramid.rest_steps,
+            timed_steps: pyramid.timed_steps,
+        }
+    }
+}
+
+/// Name and content of the file with the cylinders of `pyramid` in its box, in the format that `read_data` of
+/// LAMMPS and LIGGGHTS understands: atom, type, diameter, density, centre. Three types, as the contacts of
+/// LIGGGHTS have them; the mass is set by the deck.
+pub fn placed_cylinders(pyramid: &Pyramid) -> (&'static str, String) {
+    let (x, y) = (
+        pyramid.half_width() + 1.0,
+        2.0 * f64::from(pyramid.rows) + 1.0,
+    );
+    let mut text = format!(
+        "{pyramid}\n\n{} atoms\n3 atom types\n{} {x} xlo xhi\n-1 {y} ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms\n\n",
+        pyramid.cylinder_count(),
+        -x,
+    );
+    for (atom, [x, y]) in (1..).zip(pyramid.centres()) {
+        text += &format!("{atom} 1 2 1 {x} {y} 0\n");
+    }
+    ("cylinders.data", text)
 }

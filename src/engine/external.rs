@@ -3,10 +3,10 @@
 use super::batch::Batch;
 use super::installation::{self, Installation, VersionQuestion};
 use super::task::{Deck, ParameterFile, Task};
-use super::{Batching, Engine, EngineName, Environment, Failure, FailureKind, Finished, Workplace};
+use super::{Batching, Engine, EngineName, Environment, Failure, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::stack::{Case, ContactTest, Preparation, sha256_hex};
-use crate::trace::Motion;
+use crate::stack::{Case, ContactTest, InvalidValue, Preparation, Pyramid, sha256_hex};
+use crate::trace::{Motion, PyramidRun};
 use std::ops::Range;
 
 /// What has to be known about an external code.
@@ -27,6 +27,8 @@ pub struct Adapter {
     pub(super) side_walls: Option<Deck<Case>>,
     /// How it carries out a micro-test.
     pub(super) probe: Deck<ContactTest>,
+    /// How it carries out the run of a pyramid, if it can.
+    pub(super) pyramid: Option<Deck<Pyramid>>,
     /// A build of the same code that computes with more digits.
     pub(super) precise_program: Option<&'static str>,
 }
@@ -175,16 +177,43 @@ impl ExternalEngine {
         );
     }
 
+    /// The outcomes of `tasks`, in order, or the first failure.
+    fn outcomes<T: Task>(
+        &self,
+        deck: &Deck<T>,
+        tasks: &[T],
+        workplace: &Workplace,
+    ) -> Result<Vec<T::Outcome>, Box<Failure>> {
+        let mut outcomes: Vec<Option<T::Outcome>> = tasks.iter().map(|_| None).collect();
+        let mut failure = None;
+        self.carry_out(
+            deck,
+            tasks,
+            0..tasks.len(),
+            workplace,
+            true,
+            &mut |index, result| match result {
+                Ok((outcome, _)) => outcomes[index] = Some(outcome),
+                Err(error) => failure = failure.take().or(Some(error)),
+            },
+        );
+        match failure {
+            Some(failure) => Err(Box::new(failure)),
+            None => Ok(outcomes.into_iter().flatten().collect()),
+        }
+    }
+
+    fn deck_for(&self, pyramid: &Pyramid) -> Result<&Deck<Pyramid>, InvalidValue> {
+        pyramid.validate()?;
+        let deck = self.adapter.pyramid.as_ref();
+        deck.ok_or_else(|| self.adapter.name.unknown_pyramid())
+    }
+
     /// What becomes of a case for which the code has no deck.
     fn refusal(&self, case: &Case) -> Failure {
-        let preparation = &case.protocol.preparation;
-        Failure {
-            engine: self.adapter.name,
-            subject: case.to_string(),
-            kind: FailureKind::Unsupported(self.adapter.name.unknown_preparation(preparation)),
-            run_directory: None,
-            last_lines: Vec::new(),
-        }
+        let name = self.adapter.name;
+        let refusal = name.unknown_preparation(&case.protocol.preparation);
+        Failure::unsupported(name, case, refusal)
     }
 }
 
@@ -221,22 +250,21 @@ impl Engine for ExternalEngine {
         tests: &[ContactTest],
         workplace: &Workplace,
     ) -> Result<Vec<Motion>, Box<Failure>> {
-        let mut motions: Vec<Option<Motion>> = vec![None; tests.len()];
-        let mut failure = None;
-        self.carry_out(
-            &self.adapter.probe,
-            tests,
-            0..tests.len(),
-            workplace,
-            true,
-            &mut |index, result| match result {
-                Ok((motion, _)) => motions[index] = Some(motion),
-                Err(error) => failure = failure.take().or(Some(error)),
-            },
-        );
-        match failure {
-            Some(failure) => Err(Box::new(failure)),
-            None => Ok(motions.into_iter().flatten().collect()),
-        }
+        self.outcomes(&self.adapter.probe, tests, workplace)
+    }
+
+    fn pyramid(
+        &self,
+        pyramid: &Pyramid,
+        workplace: &Workplace,
+    ) -> Result<PyramidRun, Box<Failure>> {
+        let deck = self.deck_for(pyramid).map_err(|refusal| {
+            Box::new(Failure::unsupported(self.adapter.name, pyramid, refusal))
+        })?;
+        let outcomes = self.outcomes(deck, std::slice::from_ref(pyramid), workplace)?;
+        let mut outcomes = outcomes.into_iter();
+        Ok(outcomes
+            .next()
+            .expect("a task without failure has an outcome"))
     }
 }

@@ -58,6 +58,21 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// `engine` cannot do what `subject` asks for.
+    pub(super) fn unsupported(
+        engine: EngineName,
+        subject: &impl ToString,
+        reason: InvalidValue,
+    ) -> Self {
+        Self {
+            engine,
+            subject: subject.to_string(),
+            kind: FailureKind::Unsupported(reason),
+            run_directory: None,
+            last_lines: Vec::new(),
+        }
+    }
+
     /// Whether the run directory holds what the program wrote before it failed.
     pub fn left_evidence(&self) -> bool {
         self.run_directory.is_some() && !self.is_interrupted()

@@ -3,6 +3,7 @@
 use super::EngineName;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
+use super::pyramid_log::read_pyramid;
 use super::task::{Deck, ParameterFile};
 use super::thermo_log;
 use crate::stack::{Convention, SlidingSpring, SpringTransport};
@@ -50,6 +51,12 @@ pub static LAMMPS: Adapter = Adapter {
         completion_file: None,
         read: |directory, test| thermo_log::read_motion(directory, LOG, ["v_step", "v_x1"], test),
     },
+    pyramid: Some(Deck {
+        files: &[("pyramid.in", include_str!("../../lammps_inputs/pyramid.in"))],
+        arguments: |_| arguments("pyramid.in"),
+        completion_file: None,
+        read: |directory, pyramid| read_pyramid(directory, LOG, pyramid),
+    }),
     precise_program: None,
 };
 

@@ -3,6 +3,7 @@
 use super::EngineName;
 use super::external::Adapter;
 use super::installation::VersionQuestion;
+use super::pyramid_log::read_pyramid;
 use super::task::{Deck, ParameterFile};
 use super::thermo_log;
 use crate::stack::{Case, Convention, CoulombOperand, SlidingSpring, SpringTransport};
@@ -69,6 +70,18 @@ pub static LIGGGHTS: Adapter = Adapter {
         completion_file: None,
         read: |directory, test| thermo_log::read_motion(directory, LOG, ["step", "x1"], test),
     },
+    pyramid: Some(Deck {
+        files: &[
+            (
+                "pyramid.in",
+                include_str!("../../liggghts_inputs/pyramid.in"),
+            ),
+            CONTACTS,
+        ],
+        arguments: |_| arguments("pyramid.in"),
+        completion_file: None,
+        read: |directory, pyramid| read_pyramid(directory, LOG, pyramid),
+    }),
     precise_program: None,
 };
 

@@ -9,19 +9,22 @@ mod lammps;
 mod liggghts;
 mod native;
 mod process;
+mod pyramid_log;
 mod task;
 mod thermo_log;
 mod yade;
 
 pub use batch::time_limit;
-pub use deck::{DeckParameters, PreparationParameters, ProbeParameters};
+pub use deck::{
+    DeckParameters, PreparationParameters, ProbeParameters, PyramidParameters, placed_cylinders,
+};
 pub use failure::{Failure, FailureKind};
 pub use process::Interrupt;
 pub use task::{ParameterFile, Task};
 
 use crate::archive::{Identity, Run};
-use crate::stack::{Case, ContactTest, Convention, InvalidValue, Preparation, sha256_hex};
-use crate::trace::Motion;
+use crate::stack::{Case, ContactTest, Convention, InvalidValue, Preparation, Pyramid, sha256_hex};
+use crate::trace::{Motion, PyramidRun};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -167,6 +170,22 @@ impl EngineName {
         Err(self.unknown_preparation(asked))
     }
 
+    /// Whether it has a deck for pyramids.
+    pub fn builds_pyramids(self) -> bool {
+        let adapter = self.adapter();
+        adapter.is_none_or(|adapter| adapter.pyramid.is_some())
+    }
+
+    fn unknown_pyramid(self) -> InvalidValue {
+        let builders = Self::ALL.into_iter().filter(|name| name.builds_pyramids());
+        let builders: Vec<&str> = builders.map(Self::as_str).collect();
+        InvalidValue {
+            key: "engine".to_owned(),
+            value: self.as_str().to_owned(),
+            accepted: format!("one of {} for a pyramid", builders.join(", ")),
+        }
+    }
+
     fn unknown_preparation(self, asked: &Preparation) -> InvalidValue {
         InvalidValue {
             key: "protocol.preparation.kind".to_owned(),
@@ -294,6 +313,19 @@ pub struct Workplace<'a> {
     pub advanced: Advanced<'a>,
 }
 
+impl<'a> Workplace<'a> {
+    /// Runs in `directory` until they end or the user wants to stop; nothing is kept, and nobody is told.
+    pub fn new(directory: &'a Path, interrupt: &'a Interrupt) -> Self {
+        Self {
+            directory,
+            checkpoints: None,
+            time_limit: None,
+            interrupt,
+            advanced: &|_, _| (),
+        }
+    }
+}
+
 /// How an engine is fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Batching {
@@ -331,4 +363,21 @@ pub trait Engine: Send + Sync {
         tests: &[ContactTest],
         workplace: &Workplace,
     ) -> Result<Vec<Motion>, Box<Failure>>;
+
+    /// Carries out the run of a pyramid, if the engine can build one.
+    ///
+    /// # Errors
+    /// If it cannot, if it does not take the pyramid's convention, or if the run fails.
+    fn pyramid(
+        &self,
+        pyramid: &Pyramid,
+        _workplace: &Workplace,
+    ) -> Result<PyramidRun, Box<Failure>> {
+        let refusal = self.name().unknown_pyramid();
+        Err(Box::new(Failure::unsupported(
+            self.name(),
+            pyramid,
+            refusal,
+        )))
+    }
 }

@@ -1,11 +1,13 @@
 //! What an engine can be asked to do, and the files in which an external code is told.
 
-use crate::stack::{Case, ContactTest, Convention};
-use crate::trace::{Motion, SeriesError, Trace};
+use crate::stack::{Case, ContactTest, Convention, Pyramid};
+use crate::trace::{Motion, PyramidRun, SeriesError, Trace};
 use serde::Serialize;
 use std::path::Path;
+use std::time::Duration;
 
-use super::deck::{DeckParameters, ProbeParameters};
+use super::batch::time_limit;
+use super::deck::{DeckParameters, ProbeParameters, PyramidParameters, placed_cylinders};
 
 /// Something that an engine turns into an outcome: a case into a series, a micro-test into a motion.
 pub trait Task: Copy + std::fmt::Display + Sync {
@@ -20,6 +22,16 @@ pub trait Task: Copy + std::fmt::Display + Sync {
 
     /// What a deck has to be told, as an object of named numbers.
     fn parameters(&self) -> serde_json::Value;
+
+    /// What a deck has to be told beyond that: files by name and content.
+    fn files(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
+    /// Time after which it counts as hanging.
+    fn time_limit(&self) -> Duration {
+        time_limit(self.steps())
+    }
 }
 
 impl Task for Case {
@@ -51,6 +63,32 @@ impl Task for ContactTest {
 
     fn parameters(&self) -> serde_json::Value {
         named(&ProbeParameters::new(self))
+    }
+}
+
+impl Task for Pyramid {
+    type Outcome = PyramidRun;
+
+    fn convention(&self) -> &Convention {
+        &self.convention
+    }
+
+    fn steps(&self) -> u64 {
+        self.total_steps()
+    }
+
+    fn parameters(&self) -> serde_json::Value {
+        named(&PyramidParameters::new(self))
+    }
+
+    fn files(&self) -> Vec<(&'static str, String)> {
+        vec![placed_cylinders(self)]
+    }
+
+    /// As if every cylinder took as long as a whole stack.
+    fn time_limit(&self) -> Duration {
+        let cylinders = self.cylinder_count() as u64;
+        time_limit(self.steps().saturating_mul(cylinders))
     }
 }
 

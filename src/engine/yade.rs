@@ -99,6 +99,7 @@ const fn adapter(
             completion_file: Some(MOTION),
             read: read_motion,
         },
+        pyramid: None,
         precise_program: Some("yade-longdouble"),
     }
 }

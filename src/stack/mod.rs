@@ -10,6 +10,7 @@ mod convention;
 mod digest;
 mod groups;
 mod protocol;
+mod pyramid;
 mod side_walls;
 mod validity;
 
@@ -24,5 +25,6 @@ pub use groups::{
     CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,
 };
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
+pub use pyramid::Pyramid;
 pub use side_walls::{SideWallSteps, SideWalls};
 pub use validity::InvalidValue;

@@ -4,10 +4,12 @@ mod estimate;
 mod frame;
 mod motion;
 mod polynomial;
+mod pyramid_run;
 mod series;
 
 pub use estimate::{Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub use polynomial::{value_at_zero, weights_at_zero};
+pub use pyramid_run::PyramidRun;
 pub use series::{Sample, SeriesError, Trace};

@@ -4,10 +4,12 @@
 pub mod replay;
 
 use assert_cmd::Command;
+use clap::ValueEnum;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
+use tristack::engine::EngineName;
 
 /// A place of its own for a test: store, programs in the search path, results.
 pub struct Bench {
@@ -74,6 +76,25 @@ impl Bench {
             .current_dir(self.root.path());
         command
     }
+}
+
+/// Those of `engines` that are installed; fails if one that TRISTACK_REQUIRE_ENGINES names is not.
+pub fn installed(engines: &[EngineName]) -> Vec<EngineName> {
+    let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
+    for name in required.split(',').filter(|name| !name.is_empty()) {
+        let engine =
+            EngineName::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names engines");
+        assert!(
+            engine.find().is_some(),
+            "{engine} is required, but not installed"
+        );
+    }
+    let (installed, missing): (Vec<_>, Vec<_>) =
+        engines.iter().partition(|engine| engine.find().is_some());
+    for engine in missing {
+        eprintln!("{engine} is not installed: its live tests are skipped");
+    }
+    installed
 }
 
 pub fn standard_output(command: &mut Command) -> String {

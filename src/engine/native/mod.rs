@@ -5,9 +5,9 @@ mod lanes;
 
 use super::{Batching, Engine, EngineName, Failure, FailureKind, Finished, Workplace};
 use crate::archive::{Identity, Provenance, Run};
-use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test};
-use crate::stack::{Case, ContactTest};
-use crate::trace::{Motion, SeriesError, Trace};
+use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
+use crate::stack::{Case, ContactTest, Pyramid};
+use crate::trace::{Motion, PyramidRun, SeriesError, Trace};
 use lanes::Lanes;
 use std::time::{Duration, Instant};
 
@@ -62,13 +62,7 @@ impl Native {
 
     fn run_precisely(&self, case: &Case, workplace: &Workplace) -> Result<Run, FailureKind> {
         let start = Instant::now();
-        let late = || {
-            let limit = workplace.time_limit;
-            limit.filter(|&limit| start.elapsed() > limit)
-        };
-        let wanted = || !workplace.interrupt.requested() && late().is_none();
-        let series = compress_stack_precisely(case, wanted);
-        let trace = series.map_err(|error| why(error, workplace, late()))?;
+        let trace = while_wanted(workplace, |wanted| compress_stack_precisely(case, wanted))?;
         Ok(self.run_of(case, trace, start.elapsed()))
     }
 
@@ -101,6 +95,20 @@ fn kinds(cases: &[Case]) -> Vec<LaneKind> {
         }
     }
     kinds
+}
+
+/// Hands `run` the question whether it is still wanted, and says why if it was not.
+fn while_wanted<T>(
+    workplace: &Workplace,
+    run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
+) -> Result<T, FailureKind> {
+    let start = Instant::now();
+    let late = || {
+        let limit = workplace.time_limit;
+        limit.filter(|&limit| start.elapsed() > limit)
+    };
+    let wanted = || !workplace.interrupt.requested() && late().is_none();
+    run(&wanted).map_err(|error| why(error, workplace, late()))
 }
 
 /// Why a series is not what it should be: `late` if a run took longer than that.
@@ -159,5 +167,17 @@ impl Engine for Native {
             run_contact_test(test).map_err(|error| Box::new(failure(test, error.into())))
         });
         motions.collect()
+    }
+
+    fn pyramid(
+        &self,
+        pyramid: &Pyramid,
+        workplace: &Workplace,
+    ) -> Result<PyramidRun, Box<Failure>> {
+        let valid = pyramid.validate().map_err(FailureKind::Unsupported);
+        let run = || while_wanted(workplace, |wanted| run_pyramid(pyramid, wanted));
+        valid
+            .and_then(|()| run())
+            .map_err(|kind| Box::new(failure(pyramid, kind)))
     }
 }

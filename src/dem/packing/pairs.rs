@@ -1,0 +1,143 @@
+//! Verlet list: the pairs of cylinders that may touch, with what their contacts remember.
+
+use super::cells::CellList;
+use crate::dem::{Cylinder, Spring};
+
+/// A contact without a past.
+pub(super) const FORGOTTEN: Spring<f64> = Spring {
+    length: 0.0,
+    normal: [0.0; 2],
+};
+
+/// All pairs up to some distance, each named once. Those of one first cylinder stand together, and the
+/// second one has the lower index; both indices ascend, so that sums over pairs are taken in an order that
+/// depends on the indices alone.
+#[derive(Debug, Clone)]
+pub(super) struct PairList {
+    /// Where the pairs of each first cylinder end, which is where those of the next one begin.
+    pub ends: Vec<u32>,
+    /// Second cylinder of each pair.
+    pub seconds: Vec<u32>,
+    /// What each contact remembers.
+    pub memories: Vec<Spring<f64>>,
+}
+
+impl PairList {
+    /// A list for `count` cylinders, without pairs.
+    pub fn empty(count: usize) -> Self {
+        Self {
+            ends: vec![0; count],
+            seconds: Vec::new(),
+            memories: Vec::new(),
+        }
+    }
+
+    /// The pairs whose centres are less than `reach` apart. A pair of `self` keeps its memory.
+    pub fn renewed(&self, cylinders: &[Cylinder], reach: f64) -> Self {
+        let cells = CellList::new(cylinders.iter().map(|cylinder| cylinder.position), reach);
+        let mut list = Self {
+            ends: Vec::with_capacity(cylinders.len()),
+            seconds: Vec::with_capacity(self.seconds.len()),
+            memories: Vec::with_capacity(self.memories.len()),
+        };
+        for (first, cylinder) in cylinders.iter().enumerate() {
+            let begin = list.seconds.len();
+            cells.visit_around(cylinder.position, |second| {
+                let other = &cylinders[second as usize];
+                if (second as usize) < first && square_distance(cylinder, other) < reach * reach {
+                    list.seconds.push(second);
+                }
+            });
+            list.seconds[begin..].sort_unstable();
+            let memories = list.seconds[begin..]
+                .iter()
+                .map(|&second| self.memory(first, second));
+            list.memories.extend(memories);
+            list.ends.push(list.seconds.len() as u32);
+        }
+        list
+    }
+
+    fn memory(&self, first: usize, second: u32) -> Spring<f64> {
+        let start = first.checked_sub(1).map_or(0, |before| self.ends[before]);
+        let range = start as usize..self.ends[first] as usize;
+        let found = self.seconds[range.clone()].binary_search(&second);
+        found.map_or(FORGOTTEN, |place| self.memories[range.start + place])
+    }
+}
+
+pub(super) fn square_distance(one: &Cylinder, other: &Cylinder) -> f64 {
+    let dx = one.position[0] - other.position[0];
+    let dy = one.position[1] - other.position[1];
+    dx * dx + dy * dy
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scattered(count: u32) -> Vec<Cylinder> {
+        let place = |index: u32, prime: u32| f64::from(index * prime % 97) / 97.0;
+        let near = (0..count).map(|index| {
+            Cylinder::at(
+                20.0 * place(index, 31) - 10.0,
+                12.0 * place(index, 57) - 3.0,
+            )
+        });
+        near.chain([Cylinder::at(-1e12, 1e12), Cylinder::at(f64::MAX, -1e300)])
+            .collect()
+    }
+
+    fn pairs(list: &PairList) -> Vec<(usize, u32)> {
+        let mut start = 0;
+        let mut pairs = Vec::new();
+        for (first, &end) in list.ends.iter().enumerate() {
+            let seconds = &list.seconds[start..end as usize];
+            pairs.extend(seconds.iter().map(|&second| (first, second)));
+            start = end as usize;
+        }
+        pairs
+    }
+
+    #[test]
+    fn a_list_holds_every_close_pair_once_and_in_order() {
+        let cylinders = scattered(90);
+        let list = PairList::empty(cylinders.len()).renewed(&cylinders, 2.5);
+        let mut close = Vec::new();
+        for (first, one) in cylinders.iter().enumerate() {
+            for (second, other) in (0..).zip(&cylinders[..first]) {
+                if square_distance(one, other) < 2.5 * 2.5 {
+                    close.push((first, second));
+                }
+            }
+        }
+        assert!(close.len() > 100);
+        assert_eq!(pairs(&list), close);
+        assert_eq!(list.memories.len(), close.len());
+    }
+
+    #[test]
+    fn a_new_list_remembers_what_the_old_one_knew() {
+        let mut cylinders = scattered(90);
+        let mut old = PairList::empty(cylinders.len()).renewed(&cylinders, 2.5);
+        for (length, memory) in (1..).zip(&mut old.memories) {
+            memory.length = f64::from(length);
+        }
+        for cylinder in &mut cylinders {
+            cylinder.position[0] *= 0.9;
+        }
+        let new = old.renewed(&cylinders, 2.5);
+        let known = pairs(&old);
+        let mut remembered = 0;
+        for (pair, memory) in pairs(&new).iter().zip(&new.memories) {
+            match known.binary_search(pair) {
+                Ok(place) => {
+                    assert_eq!(*memory, old.memories[place]);
+                    remembered += 1;
+                }
+                Err(_) => assert_eq!(*memory, FORGOTTEN),
+            }
+        }
+        assert!(remembered > 100 && remembered < new.memories.len());
+    }
+}

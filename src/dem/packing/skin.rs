@@ -1,0 +1,102 @@
+//! How long a neighbour list stays complete.
+
+use super::pairs::square_distance;
+use crate::dem::{Cylinder, PlaneWall};
+
+/// A list of everything within a skin is complete until some body has moved by half of the skin since it was
+/// made.
+///
+/// Speeds are summed up step by step, which costs no memory access of its own, and only when their sum
+/// reaches the limit is the distance to where the cylinders were looked at: what merely trembles needs no
+/// new list.
+#[derive(Debug, Clone)]
+pub(super) struct Skin {
+    /// Half of the skin, less what rounding may hide.
+    limit: f64,
+    /// No body can have moved farther.
+    travelled: f64,
+    /// The part of it that walls have moved.
+    wall_travel: f64,
+    /// Where the cylinders were.
+    anchors: Vec<Cylinder>,
+}
+
+impl Skin {
+    /// For lists that are made now, of everything closer than `width`.
+    pub fn new(width: f64, cylinders: &[Cylinder]) -> Self {
+        Self {
+            limit: 0.499 * width,
+            travelled: 0.0,
+            wall_travel: 0.0,
+            anchors: cylinders.to_vec(),
+        }
+    }
+
+    /// Takes note of a step at the end of which the cylinders have at most the square speed
+    /// `fastest_square`. Says whether lists must be made anew, and if so takes it for done.
+    pub fn is_used_up(
+        &mut self,
+        fastest_square: f64,
+        walls: &[PlaneWall],
+        time_step: f64,
+        cylinders: &[Cylinder],
+    ) -> bool {
+        let wall_speed = walls.iter().map(|wall| wall.speed.abs());
+        self.wall_travel += wall_speed.fold(0.0, f64::max) * time_step;
+        self.travelled += fastest_square.sqrt() * time_step;
+        if self.travelled.max(self.wall_travel) < self.limit {
+            return false;
+        }
+        let moved = self.anchors.iter().zip(cylinders);
+        let farthest = moved
+            .map(|(anchor, cylinder)| square_distance(anchor, cylinder))
+            .fold(0.0, f64::max);
+        self.travelled = farthest.sqrt();
+        if self.travelled.max(self.wall_travel) < 0.5 * self.limit {
+            return false;
+        }
+        *self = Self {
+            limit: self.limit,
+            ..Self::new(0.0, cylinders)
+        };
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::Facing;
+
+    #[test]
+    fn what_trembles_needs_no_new_list_and_what_travels_does() {
+        let mut cylinders = vec![Cylinder::at(0.0, 0.0), Cylinder::at(5.0, 0.0)];
+        let mut skin = Skin::new(0.5, &cylinders);
+        let (speed, time_step) = (0.1, 0.1);
+        for step in 0..1000 {
+            cylinders[1].position[0] = 5.0 + f64::from(step % 2) * speed * time_step;
+            assert!(!skin.is_used_up(speed * speed, &[], time_step, &cylinders));
+        }
+        // Half of the skin is 25 steps.
+        let start = cylinders[1].position[0];
+        let steps = (1..).find(|step| {
+            cylinders[1].position[0] = start + f64::from(*step) * speed * time_step;
+            skin.is_used_up(speed * speed, &[], time_step, &cylinders)
+        });
+        assert!((12..=25).contains(&steps.expect("at some time")));
+    }
+
+    #[test]
+    fn a_wall_that_moves_uses_up_the_skin_as_well() {
+        let cylinders = [Cylinder::at(0.0, 0.0)];
+        let wall = PlaneWall {
+            facing: Facing::Down,
+            offset: -9.0,
+            speed: -0.1,
+            friction: 0.0,
+        };
+        let mut skin = Skin::new(0.5, &cylinders);
+        let steps = (1..).find(|_: &u32| skin.is_used_up(0.0, &[wall], 0.1, &cylinders));
+        assert_eq!(steps, Some(25));
+    }
+}

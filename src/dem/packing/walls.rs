@@ -1,0 +1,46 @@
+//! The cylinders that may touch a wall, with what these contacts remember and exert.
+
+use super::pairs::FORGOTTEN;
+use crate::dem::{ContactForce, Cylinder, PlaneWall, Spring};
+
+/// A cylinder beside a wall.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WallContact {
+    pub cylinder: u32,
+    pub memory: Spring<f64>,
+    pub force: ContactForce<f64>,
+}
+
+pub(super) const NO_FORCE: ContactForce<f64> = ContactForce {
+    normal: 0.0,
+    tangential: 0.0,
+    radius: 0.0,
+};
+
+/// The cylinders whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
+/// keep memory and force.
+pub(super) fn beside_wall(
+    wall: &PlaneWall,
+    cylinders: &[Cylinder],
+    gap: f64,
+    known: &[WallContact],
+) -> Vec<WallContact> {
+    let mut known = known.iter().copied().peekable();
+    let mut contacts = Vec::new();
+    for (cylinder, body) in (0..).zip(cylinders) {
+        let old = known.next_if(|contact| contact.cylinder == cylinder);
+        if -overlap(wall, body) < gap {
+            contacts.push(old.unwrap_or(WallContact {
+                cylinder,
+                memory: FORGOTTEN,
+                force: NO_FORCE,
+            }));
+        }
+    }
+    contacts
+}
+
+/// How deep `body` is in `wall`.
+pub(super) fn overlap(wall: &PlaneWall, body: &Cylinder) -> f64 {
+    1.0 - (wall.facing.along(body.position) - wall.offset)
+}

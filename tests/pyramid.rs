@@ -1,0 +1,299 @@
+//! Many cylinders: the same bits as the small scene, a pyramid that stands, and the same one in other codes.
+
+mod common;
+
+use common::installed;
+use std::path::Path;
+use tristack::bench::PyramidBench;
+use tristack::dem::{
+    Cylinder, Facing, Material, PYRAMID_FLOOR, Packing, PlaneWall, Scene, run_pyramid,
+};
+use tristack::engine::{EngineName, FailureKind, Interrupt, ParameterFile, Task, Workplace};
+use tristack::stack::{Convention, Pyramid, Stack};
+
+const FLOOR: PlaneWall = PlaneWall {
+    facing: Facing::Up,
+    offset: 0.0,
+    speed: 0.0,
+    friction: 0.3,
+};
+
+/// The same cylinders and walls in both.
+fn twins<const N: usize, const W: usize>(
+    cylinders: [Cylinder; N],
+    walls: [PlaneWall; W],
+    convention: &Convention,
+) -> (Scene<N, W>, Packing) {
+    let (time_step, stack) = (0.1, Stack::paper(0.3, 1e3));
+    let material = Material::new(&stack, convention);
+    let mut scene = Scene::new(cylinders, walls, material.law, time_step);
+    scene.cylinder_friction = material.cylinder_friction;
+    scene.pair_arm = material.pair_arm;
+    scene.wall_arm = material.wall_arm;
+    scene.moment_of_inertia = material.moment_of_inertia;
+    let packing = Packing::new(cylinders.to_vec(), walls.to_vec(), material, time_step);
+    (scene, packing)
+}
+
+/// Steps both and compares every bit of every cylinder and of every force of a wall.
+fn assert_same_bits<const N: usize, const W: usize>(
+    scene: &mut Scene<N, W>,
+    packing: &mut Packing,
+    gravity: f64,
+    steps: u64,
+) {
+    for step in 0..steps {
+        let risen = gravity * (step as f64 / 1000.0).min(1.0);
+        (scene.gravity, packing.gravity) = (risen, risen);
+        scene.evaluate_forces();
+        packing.evaluate_forces();
+        for wall in 0..scene.walls.len() {
+            for (cylinder, force) in packing.wall_forces(wall) {
+                assert_eq!(force, scene.wall_force(wall, cylinder), "step {step}");
+            }
+        }
+        scene.advance();
+        packing.advance();
+        assert_eq!(scene.cylinders, packing.cylinders(), "step {step}");
+    }
+}
+
+#[test]
+fn three_cylinders_have_the_same_bits_as_in_the_small_scene() {
+    let height = 1.0 + 3_f64.sqrt();
+    let stack = [(0.0, height), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Cylinder::at(x, y));
+    let lid = PlaneWall {
+        facing: Facing::Down,
+        offset: -(height + 1.2),
+        speed: 1e-3,
+        friction: 0.0,
+    };
+    for engine in [EngineName::Native, EngineName::Liggghts, EngineName::Lammps] {
+        let convention = engine.convention();
+        let (mut scene, mut packing) = twins(stack, [FLOOR, lid], &convention);
+        assert_same_bits(&mut scene, &mut packing, 1e-3, 8000);
+        // It has yielded: cylinders slid on the floor and lost each other.
+        assert!(packing.cylinders()[1].position[0] > 2.0);
+    }
+}
+
+/// A heap without any order, dropped between walls: contacts come and go, and lists are made anew.
+#[test]
+fn a_tumbling_heap_has_the_same_bits_as_in_the_small_scene() {
+    let scatter = |index: u32, prime: u32| f64::from(index * prime % 101) / 101.0;
+    let cylinders: [Cylinder; 60] = std::array::from_fn(|from_the_end| {
+        let index = 59 - from_the_end as u32;
+        let (column, row) = (f64::from(index % 6), f64::from(index / 6));
+        let x = 2.3 * column + 0.2 * scatter(index, 37);
+        let mut cylinder = Cylinder::at(x, 1.0 + 2.3 * row + 0.2 * scatter(index, 53));
+        cylinder.velocity = [0.1 * (scatter(index, 71) - 0.5), 0.0];
+        cylinder
+    });
+    let side = |facing, offset| PlaneWall {
+        facing,
+        offset,
+        ..FLOOR
+    };
+    let walls = [FLOOR, side(Facing::Right, -1.0), side(Facing::Left, -13.0)];
+    let (mut scene, mut packing) = twins(cylinders, walls, &Convention::PAPER);
+    assert_same_bits(&mut scene, &mut packing, 1e-3, 4000);
+    let top = |cylinders: &[Cylinder]| {
+        let heights = cylinders.iter().map(|cylinder| cylinder.position[1]);
+        heights.fold(0.0, f64::max)
+    };
+    assert!(top(packing.cylinders()) < top(&cylinders) - 1.0);
+}
+
+/// Steps `packing` through the whole of `pyramid`.
+fn settle(packing: &mut Packing, pyramid: &Pyramid) {
+    for step in 0..pyramid.total_steps() {
+        packing.gravity = pyramid.gravity_at(step);
+        packing.evaluate_forces();
+        packing.advance();
+    }
+}
+
+#[test]
+fn a_pyramid_stands_on_its_floor_in_equilibrium_and_symmetric() {
+    let pyramid = Pyramid {
+        rest_steps: 20_000,
+        ..Pyramid::touching(20, 1e4, Convention::PAPER)
+    };
+    let mut packing = Packing::pyramid(&pyramid);
+    settle(&mut packing, &pyramid);
+    packing.evaluate_forces();
+    let one_weight = pyramid.groups.epsilon();
+    let weight = one_weight * pyramid.cylinder_count() as f64;
+    let floor: f64 = packing
+        .wall_forces(PYRAMID_FLOOR)
+        .map(|(_, force)| force.normal)
+        .sum();
+    let unbalanced = packing.loads().iter().flat_map(|load| {
+        let [x, y] = load.force;
+        [x, y, load.torque]
+    });
+    let unbalanced = unbalanced.map(f64::abs).fold(0.0, f64::max);
+    println!(
+        "floor {:e} of the weight, unbalanced {:e}",
+        floor / weight - 1.0,
+        unbalanced / one_weight
+    );
+    // What is left of the slowest oscillation, which has a period of some 60 time units and is hardly damped.
+    assert!((floor / weight - 1.0).abs() < 1e-6);
+    assert!(unbalanced < 1e-6 * one_weight);
+    let farthest = asymmetry(&pyramid, packing.cylinders());
+    println!("asymmetry {farthest:e}");
+    assert!(farthest < 1e-12);
+}
+
+/// Why a pyramid has side walls.
+#[test]
+fn on_the_floor_alone_four_rows_stand_and_five_roll_apart() {
+    for (rows, stands) in [(4, true), (5, false)] {
+        let pyramid = Pyramid {
+            rest_steps: 20_000,
+            ..Pyramid::touching(rows, 1e4, Convention::PAPER)
+        };
+        let cylinders = pyramid.centres().into_iter();
+        let floor = PlaneWall {
+            friction: pyramid.groups.floor_friction,
+            ..FLOOR
+        };
+        let mut packing = Packing::new(
+            cylinders.map(|[x, y]| Cylinder::at(x, y)).collect(),
+            vec![floor],
+            Material::new(&pyramid.groups, &pyramid.convention),
+            pyramid.time_step,
+        );
+        settle(&mut packing, &pyramid);
+        let top = packing.cylinders().last().expect("a top");
+        let fallen = pyramid.centres().last().expect("a top")[1] - top.position[1];
+        assert_eq!(fallen < 0.01, stands, "{rows} rows: {fallen}");
+    }
+}
+
+/// Largest distance of a cylinder to the mirror image of its counterpart on the other side.
+fn asymmetry(pyramid: &Pyramid, cylinders: &[Cylinder]) -> f64 {
+    let mut rest = cylinders;
+    let mut farthest: f64 = 0.0;
+    for length in (1..=pyramid.rows as usize).rev() {
+        let (row, above) = rest.split_at(length);
+        for (left, right) in row.iter().zip(row.iter().rev()) {
+            let dx = left.position[0] + right.position[0];
+            let dy = left.position[1] - right.position[1];
+            farthest = farthest.max(dx.abs()).max(dy.abs());
+        }
+        rest = above;
+    }
+    farthest
+}
+
+const BUILDERS: [EngineName; 2] = [EngineName::Lammps, EngineName::Liggghts];
+
+/// Leapfrog and velocity Verlet are the same positions at the same times as long as everything starts from rest
+/// without forces, and the convention of each code is that of its twin: what is left is rounding.
+#[test]
+fn other_codes_move_every_cylinder_of_a_pyramid_to_the_same_place() {
+    let interrupt = Interrupt::new();
+    for name in installed(&BUILDERS) {
+        let pyramid = Pyramid {
+            rest_steps: 1000,
+            ..Pyramid::touching(10, 1e3, name.convention())
+        };
+        let directory = tempfile::tempdir().expect("a directory");
+        let engine = name.find().expect("it is installed");
+        let run = engine.pyramid(&pyramid, &Workplace::new(directory.path(), &interrupt));
+        let run = run.expect("a run");
+        let twin = run_pyramid(&pyramid, || true).expect("a run");
+        let centres = run.centres().iter().zip(twin.centres());
+        let distance =
+            |one: &[f64; 2], other: &[f64; 2]| f64::hypot(one[0] - other[0], one[1] - other[1]);
+        let largest = centres.clone().map(|(one, other)| distance(one, other));
+        let largest = largest.fold(0.0, f64::max);
+        let start = pyramid.centres();
+        let moved = start.iter().zip(run.centres());
+        let moved = moved
+            .map(|(one, other)| distance(one, other))
+            .fold(0.0, f64::max);
+        println!("{name}: {largest:e} from native after a way of {moved:e}");
+        assert!(moved > 1e-3);
+        // Half a unit in the last place of a coordinate of 20 is 2e-15; were all of 4000 steps rounded to the same
+        // side, it would be 7e-12.
+        assert!(largest < 7e-12, "{name}: {largest:e}");
+        assert!(run.timed_seconds() > 0.0);
+    }
+}
+
+#[test]
+fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
+    let interrupt = Interrupt::new();
+    let directory = tempfile::tempdir().expect("a directory");
+    let workplace = Workplace::new(directory.path(), &interrupt);
+    assert!(!EngineName::Yade.builds_pyramids());
+    for name in installed(&[EngineName::Yade]) {
+        let pyramid = Pyramid::touching(2, 1e3, name.convention());
+        let failure = name
+            .find()
+            .expect("installed")
+            .pyramid(&pyramid, &workplace);
+        let kind = failure.expect_err("no deck").kind;
+        assert!(matches!(kind, FailureKind::Unsupported(_)));
+    }
+    let none = Pyramid::touching(0, 1e3, Convention::PAPER);
+    let native = EngineName::Native.find().expect("always there");
+    let failure = native.pyramid(&none, &workplace).expect_err("no rows");
+    assert!(
+        failure.to_string().contains("`pyramid.rows` is 0"),
+        "{failure}"
+    );
+}
+
+#[test]
+fn the_cost_of_a_step_is_measured_for_every_engine_and_pyramid() {
+    let interrupt = Interrupt::new();
+    let directory = tempfile::tempdir().expect("a directory");
+    let mut engines = vec![EngineName::Native];
+    engines.extend(installed(&BUILDERS));
+    let bench = PyramidBench {
+        rows: vec![3, 5],
+        engines: engines.clone(),
+        cylinder_steps: 3000,
+        repeats: 2,
+    };
+    let costs = bench.measure(&Workplace::new(directory.path(), &interrupt));
+    let costs = costs.expect("measurements");
+    assert_eq!(costs.len(), 2 * engines.len());
+    for (index, cost) in costs.iter().enumerate() {
+        assert_eq!(cost.engine, engines[index % engines.len()]);
+        assert_eq!(cost.rows, bench.rows[index / engines.len()]);
+        assert_eq!(cost.nanoseconds.len(), 2);
+        assert!(cost.fastest() > 0.0 && cost.fastest() <= cost.median());
+    }
+}
+
+/// The examples beside the decks are what the program would give for the pyramid that they say.
+#[test]
+fn examples_for_running_a_pyramid_by_hand_are_up_to_date() {
+    for (engine, folder) in [
+        (EngineName::Lammps, "lammps_inputs"),
+        (EngineName::Liggghts, "liggghts_inputs"),
+    ] {
+        let pyramid = Pyramid::touching(4, 1e3, engine.convention());
+        let beside = |name: &str| {
+            let path = format!("{}/{folder}/{name}", env!("CARGO_MANIFEST_DIR"));
+            std::fs::read_to_string(path).expect("an example")
+        };
+        let parameters = beside("pyramid_parameters.in");
+        let (comment, variables) = parameters.split_once('\n').expect("a line of comment");
+        assert!(comment.starts_with("# Four rows"));
+        assert_eq!(
+            variables,
+            ParameterFile::Lammps.content(&pyramid.parameters())
+        );
+        let files = pyramid.files();
+        let [(name, content)] = files.as_slice() else {
+            panic!("one file: {files:?}");
+        };
+        assert_eq!(&beside(&format!("pyramid_{name}")), content);
+    }
+}

@@ -2,8 +2,8 @@
 
 use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue, compress_stack};
 use tristack::stack::{
-    Case, Convention, CoulombOperand, Preparation, Protocol, Sampling, SeparatingForce, SideWalls,
-    SlidingSpring, SpringTransport, Stack,
+    Case, Convention, CoulombOperand, Preparation, Protocol, Sampling, SeparatingForce, Shortcuts,
+    SideWalls, SlidingSpring, SpringTransport, Stack,
 };
 use tristack::trace::{SeriesError, Trace};
 
@@ -97,6 +97,7 @@ fn case(floor_friction: f64, stiffness: f64, time_step: f64) -> Case {
                 fine_from_travel: 9.0 / stiffness,
                 fine_interval: 1.0,
             },
+            shortcuts: None,
         },
     }
 }
@@ -195,4 +196,28 @@ fn a_kind_is_what_lanes_cannot_differ_in() {
     let mut capped = one;
     capped.convention.sliding_spring = SlidingSpring::FollowsLimit;
     assert_ne!(LaneKind::of(&one), LaneKind::of(&capped));
+}
+
+#[test]
+fn runs_with_shortcuts_are_shorter_and_have_the_same_bits_in_lanes() {
+    let cases: Vec<Case> = [0.2, 0.25, 0.3]
+        .map(|friction| {
+            let mut case = case(friction, 200.0, 0.05);
+            case.protocol.shortcuts =
+                Shortcuts::towards(9.0 / 200.0, case.protocol.wall_speed, f64::INFINITY);
+            case.validate().expect("a valid case");
+            case
+        })
+        .into();
+    let short = in_lanes(&cases, &[LaneWidth::widest()], usize::MAX);
+    assert!(short == alone(&cases));
+    for (case, series) in cases.iter().zip(&short) {
+        let mut plain = *case;
+        plain.protocol.shortcuts = None;
+        assert!(case.total_steps() < plain.total_steps() * 3 / 4);
+        let series = series.as_ref().expect("a series").to_csv();
+        let protocol = &case.protocol;
+        let read = Trace::read(series.as_slice(), &protocol.schedule(), protocol.time_step);
+        assert!(read.is_ok(), "what ends with the drop can be read again");
+    }
 }

@@ -62,7 +62,7 @@ impl Default for PyramidBench {
             rows: vec![44, 62, 99, 140],
             engines: vec![EngineName::Native, EngineName::Lammps, EngineName::Liggghts],
             cylinder_steps: 10_000_000,
-            repeats: 3,
+            repeats: 5,
         }
     }
 }

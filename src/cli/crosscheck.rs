@@ -5,7 +5,7 @@ use super::options::{Format, RunOptions, participants, writable};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{Judgement, Participant, Profile, Source, measure};
+use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure};
 use crate::engine::EngineName;
 use crate::report::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
@@ -37,6 +37,10 @@ pub struct Arguments {
     /// Explain one row, ENGINE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
     #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["engines", "out", "format", "profile"])]
     explain: Option<RowName>,
+    /// Let native walls approach the yield up to ten times faster and stop after it; a run without, for each
+    /// row, says what this changes
+    #[arg(long, conflicts_with = "explain")]
+    shortcuts: bool,
     #[command(flatten)]
     run: RunOptions,
     /// How to print the rows
@@ -54,7 +58,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         writable(directory)?;
     }
     let engines: Vec<EngineName> = participants.iter().map(|who| who.name).collect();
-    let measurements = arguments.profile.measurements(&engines);
+    let mut measurements = arguments.profile.measurements(&engines);
+    if arguments.shortcuts {
+        measurements = measurements
+            .into_iter()
+            .map(Measurement::shortened)
+            .collect();
+    }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
     let judgements = measure(&measurements, &participants, &settings, &reporter);

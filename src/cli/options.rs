@@ -217,6 +217,7 @@ pub fn as_flag(error: InvalidValue) -> InvalidValue {
         "protocol.time_step" => "--dt",
         "protocol.preparation.kind" => "--preparation",
         "protocol.preparation.push" => "--push",
+        "protocol.shortcuts" => "--shortcuts",
         other => other,
     };
     InvalidValue {

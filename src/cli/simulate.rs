@@ -3,14 +3,14 @@
 use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_limit, writable};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, Run, write_atomically};
-use crate::crosscheck::{no_yield, planned_protocol, protocol_at_speed};
+use crate::crosscheck::{gentle_speed, no_yield, planned_protocol, protocol_at_speed};
 use crate::dem::compress_stack_into_frames;
 use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace};
 use crate::report::{
     Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
 };
 use crate::reproduction::between_side_walls;
-use crate::stack::{Case, InvalidValue, Protocol, SideWalls, Stack};
+use crate::stack::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
 use crate::theory::quasistatic_limit;
 use crate::trace::{Frames, YieldEstimates};
 use clap::{Args, ValueEnum};
@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     engine: EngineName,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "preparation", "push", "speed", "dt"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
     case: Option<PathBuf>,
     /// Floor friction; a number or the word `critical`
     #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
@@ -69,6 +69,9 @@ pub struct Arguments {
     /// Time step
     #[arg(long, default_value_t = DEFAULT_TIME_STEP, allow_negative_numbers = true)]
     dt: f64,
+    /// Approach the predicted yield up to ten times faster, and stop after it; native alone takes shortcuts
+    #[arg(long)]
+    shortcuts: bool,
     /// Directory for case, series, summary, deck and captured output
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -198,6 +201,8 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         arguments.engine.check_convention(&case.convention)?;
         let preparation = &case.protocol.preparation;
         arguments.engine.check_preparation(preparation)?;
+        let shortcuts = case.protocol.shortcuts.is_some();
+        arguments.engine.check_shortcuts(shortcuts)?;
         return Ok(case);
     }
     let (mu, stiffness) = (
@@ -211,7 +216,13 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
         None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),
     };
-    let protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
+    let mut protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
+    let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
+    accepted.map_err(as_flag)?;
+    if let Some(travel) = limit.wall_travel.filter(|_| arguments.shortcuts) {
+        let gentle = gentle_speed(&stack, &convention);
+        protocol.shortcuts = Shortcuts::towards(travel, protocol.wall_speed, gentle);
+    }
     let case = Case {
         stack,
         convention,

@@ -1,6 +1,6 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
-use super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
+use super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
 use crate::trace::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
 use serde::Serialize;
 
@@ -24,11 +24,14 @@ pub struct Budget {
     pub round_off: f64,
     /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
     pub print_precision: f64,
+    /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
+    /// What they cost is linear in the wall speed first of all, and goes with it.
+    pub shortcuts: f64,
 }
 
 impl Budget {
     /// The parts by name, in order.
-    pub fn parts(&self) -> [(&'static str, f64); 6] {
+    pub fn parts(&self) -> [(&'static str, f64); 7] {
         [
             ("wall speed", self.wall_speed),
             ("time step", self.time_step),
@@ -36,6 +39,7 @@ impl Budget {
             ("sampling", self.sampling),
             ("round-off", self.round_off),
             ("print precision", self.print_precision),
+            ("shortcuts", self.shortcuts),
         ]
     }
 
@@ -118,6 +122,13 @@ pub fn extrapolate(
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
     let by_speed = all.get(..SPEEDS.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
+    let straight_line = |runs: [usize; 2]| {
+        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
+        Some(2.0 * middle? - fast?)
+    };
+    let change_without_shortcuts = straight_line(PLAIN_RUNS)
+        .zip(straight_line([0, MIDDLE_RUN]))
+        .map(|(plain, short)| (plain - short).abs());
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
     let force = value_at_zero(&SPEEDS, &forces);
     let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
@@ -142,6 +153,7 @@ pub fn extrapolate(
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
+        shortcuts: change_without_shortcuts.unwrap_or(0.0),
     };
     let noise =
         |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);

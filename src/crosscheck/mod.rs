@@ -37,6 +37,7 @@ pub use regimes::{
 };
 pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use store::Store;
+pub use touch::gentle_speed;
 pub use trajectory::{
     Branch, Comparison, DEVIATIONS, Distance, Documented, DocumentedOrder, FORCE_BAR, Milestones,
     ORDER_TOLERANCE, Quantity, TIME_STEPS, Trajectory, TrajectoryJudgement, TrajectoryRow, Twin,

@@ -2,7 +2,7 @@
 
 use super::touch::gentle_speed;
 use crate::engine::EngineName;
-use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
+use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -15,6 +15,9 @@ pub const MIDDLE_RUN: usize = 1;
 pub const COARSE_TIME_STEP_RUN: usize = SPEEDS.len();
 /// Position of the run with half the gravity ramp.
 pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
+
+/// Positions of the runs without shortcuts, where the others take some: at the fastest and the middle speed.
+pub const PLAIN_RUNS: [usize; 2] = [SPEEDS.len() + 2, SPEEDS.len() + 3];
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
@@ -103,6 +106,39 @@ pub fn plan(engine: EngineName, stack: &Stack, convention: Convention) -> Measur
 /// Plans the measurement of `stack` as the paper made it.
 pub fn plan_literal(engine: EngineName, stack: &Stack, convention: Convention) -> Measurement {
     planned(engine, stack, convention, Method::Literal)
+}
+
+impl Measurement {
+    /// The same with shortcuts in every run, and the two faster runs once more without, which say what the
+    /// shortcuts change. The wall still touches gently, and is faster by the same factor in every run, so that
+    /// what this costs vanishes with the speed like the rest.
+    ///
+    /// Measurements that are literal, or by an engine that knows no shortcuts, are left as they are.
+    #[must_use]
+    pub fn shortened(mut self) -> Self {
+        let fastest = self.cases.first().map(|case| case.protocol.wall_speed);
+        let (Some(fastest), Some(travel)) = (fastest, self.limit.wall_travel) else {
+            return self;
+        };
+        if !self.engine.takes_shortcuts() || self.method == Method::Literal {
+            return self;
+        }
+        let gentle = gentle_speed(&self.stack, &self.convention);
+        let Some(shortcuts) = Shortcuts::towards(travel, fastest, gentle) else {
+            return self;
+        };
+        let shortcuts = Shortcuts {
+            speed_factor: rounded(shortcuts.speed_factor),
+            fast_until_travel: rounded(shortcuts.fast_until_travel),
+            ..shortcuts
+        };
+        let plain = self.cases[..=MIDDLE_RUN].to_vec();
+        for case in &mut self.cases {
+            case.protocol.shortcuts = Some(shortcuts);
+        }
+        self.cases.extend(plain);
+        self
+    }
 }
 
 fn planned(
@@ -222,6 +258,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
             fine_from_travel: rounded(fine_from_travel),
             fine_interval: FINE_INTERVAL,
         },
+        shortcuts: None,
     })
 }
 
@@ -351,6 +388,28 @@ mod tests {
     fn a_plan_does_not_see_the_last_digits_of_the_limit() {
         assert_eq!(rounded(1.642_259_585e-4), 1.64226e-4);
         assert_eq!(rounded(0.7), 0.7);
+    }
+
+    #[test]
+    fn shortcuts_save_most_of_the_steps_and_two_runs_go_without_them() {
+        let stack = Stack::paper(0.3, 1e2);
+        let measurement = plan(EngineName::Native, &stack, Convention::PAPER);
+        let shortened = measurement.clone().shortened();
+        for (position, plain) in PLAIN_RUNS.into_iter().zip(&measurement.cases) {
+            assert_eq!(shortened.cases[position], *plain);
+        }
+        for (short, plain) in shortened.cases.iter().zip(&measurement.cases) {
+            short.validate().unwrap();
+            let [short, plain] = [short, plain].map(|case| {
+                let schedule = case.protocol.schedule();
+                schedule.compression_steps as f64
+            });
+            assert!(short < 0.5 * plain, "{short} {plain}");
+        }
+        let literal = plan_literal(EngineName::Native, &stack, Convention::PAPER);
+        assert_eq!(literal.clone().shortened(), literal);
+        let yade = plan(EngineName::Yade, &stack, EngineName::Yade.convention());
+        assert_eq!(yade.clone().shortened(), yade);
     }
 
     #[test]

@@ -77,6 +77,7 @@ fn trial(stack: &Stack, convention: &Convention) -> Case {
                 fine_from_travel: 0.0,
                 fine_interval: TRIAL_INTERVAL,
             },
+            shortcuts: None,
         },
     }
 }

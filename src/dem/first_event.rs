@@ -251,6 +251,7 @@ fn case(stack: &Stack, loading: &Loading) -> Case {
                 fine_from_travel: 0.0,
                 fine_interval: loading.time_step,
             },
+            shortcuts: None,
         },
     }
 }

@@ -5,7 +5,7 @@ use super::loading::LoadingProgram;
 use super::real::{Real, Work};
 use super::stack_scene::StackScene;
 use crate::stack::Case;
-use crate::trace::Sample;
+use crate::trace::{DropWatch, Sample};
 
 /// Some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
@@ -22,20 +22,36 @@ pub(super) struct Lane {
     pub(super) samples: Vec<Sample>,
     program: LoadingProgram,
     next_event: Option<u64>,
+    /// What ends the run early, and the step of the compression from which it counts.
+    drop: (DropWatch, u64),
+    is_over: bool,
 }
 
 impl Lane {
     /// A run of `case` of which `step` steps are done and `samples` taken.
     pub(super) fn new(index: usize, case: Case, step: u64, samples: Vec<Sample>) -> Self {
         let program = LoadingProgram::new(&case);
-        Self {
+        let mut lane = Self {
             index,
             case,
             step,
-            samples,
+            samples: Vec::new(),
             program,
             next_event: program.event_from(step),
+            drop: program.drop_watch(),
+            is_over: false,
+        };
+        samples.into_iter().for_each(|sample| lane.take(sample));
+        lane
+    }
+
+    /// Takes in a row; nothing happens any more after the last one.
+    fn take(&mut self, sample: Sample) {
+        let (watch, from) = &mut self.drop;
+        if sample.step >= *from && watch.has_dropped(sample.wall_force) {
+            self.is_over = true;
         }
+        self.samples.push(sample);
     }
 
     fn has_event(&self) -> bool {
@@ -43,7 +59,7 @@ impl Lane {
     }
 
     fn is_complete(&self) -> bool {
-        self.next_event.is_none()
+        self.is_over || self.next_event.is_none()
     }
 }
 
@@ -122,14 +138,14 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     /// One step in which something happens.
     fn eventful_step(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
         for (index, lane) in eventful(&mut self.lanes) {
-            let mut act = |action| self.stack.act(index, &lane.case, action);
+            let mut act = |action| self.stack.act(index, action);
             lane.program.actions_at(lane.step, &mut act);
         }
         self.carry_out(Part::Forces);
         for (index, lane) in eventful(&mut self.lanes) {
             if let Some(row) = lane.program.row_at(lane.step) {
                 let time = row as f64 * lane.case.protocol.time_step;
-                lane.samples.push(self.stack.sample(index, row, time));
+                lane.take(self.stack.sample(index, row, time));
                 supervisor.sampled(&self.stack);
             }
         }

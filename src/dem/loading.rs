@@ -1,6 +1,7 @@
 //! What is done to a stack, and at which step.
 
 use crate::stack::{Case, PreparationSteps, Schedule, SideWallSteps};
+use crate::trace::DropWatch;
 
 /// Something that is done before the forces of a step are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +19,10 @@ pub(super) enum Action {
         /// Its velocity, upwards.
         velocity: f64,
     },
-    /// The top wall touches the top cylinder and starts to move.
-    StartTopWall,
+    /// The top wall touches the top cylinder and starts to move at this speed.
+    StartTopWall(f64),
+    /// The top wall moves on at this speed.
+    MoveTopWall(f64),
 }
 
 /// The preparation and compression of one case.
@@ -27,6 +30,8 @@ pub(super) enum Action {
 pub(super) struct LoadingProgram {
     schedule: Schedule,
     gravity: f64,
+    /// Of the wall, at first and later.
+    speeds: [f64; 2],
 }
 
 impl LoadingProgram {
@@ -35,6 +40,7 @@ impl LoadingProgram {
         Self {
             schedule: case.protocol.schedule(),
             gravity: case.stack.epsilon(),
+            speeds: [case.protocol.fast_speed(), case.protocol.wall_speed],
         }
     }
 
@@ -49,12 +55,21 @@ impl LoadingProgram {
         (self.schedule.row_from(step) == Some(step)).then_some(step)
     }
 
+    /// The drop of the wall force that ends the run, to be looked for in the rows from this step of the
+    /// compression on.
+    pub(super) fn drop_watch(&self) -> (DropWatch, u64) {
+        let watch = DropWatch::new(self.schedule.stop_at_drop);
+        (watch, self.schedule.fine_from_step)
+    }
+
     /// The first step from `step` on at which something is done or a row is taken; none after the last row.
     pub(super) fn event_from(&self, step: u64) -> Option<u64> {
         let compression = self.preparation();
         if step >= compression {
-            let row = self.schedule.row_from(step - compression)?;
-            return Some(compression + row);
+            let done = step - compression;
+            let row = self.schedule.row_from(done)?;
+            let slower = self.slower_from(done);
+            return Some(compression + slower.map_or(row, |slower| row.min(slower)));
         }
         let next = match &self.schedule.preparation {
             PreparationSteps::GravityRamp { ramp, .. } => Some(step).filter(|step| step <= ramp),
@@ -63,14 +78,30 @@ impl LoadingProgram {
         Some(next.unwrap_or(compression))
     }
 
+    /// The first step of the compression from `step` on at which the wall becomes slower.
+    fn slower_from(&self, step: u64) -> Option<u64> {
+        let (start, steps) = (self.schedule.fast_steps, self.schedule.slowing_steps);
+        Some(step.max(start)).filter(|&next| steps > 0 && next <= start + steps)
+    }
+
+    fn slower_speed(&self, step: u64) -> f64 {
+        let slowed = smooth_step(step - self.schedule.fast_steps, self.schedule.slowing_steps);
+        let [fast, slow] = self.speeds;
+        fast + (slow - fast) * slowed
+    }
+
     /// Tells `act` everything that is done at `step`, in order.
     pub(super) fn actions_at(&self, step: u64, act: &mut impl FnMut(Action)) {
         let compression = self.preparation();
         if step == compression {
             act(Action::SetGravity(self.gravity));
-            act(Action::StartTopWall);
+            act(Action::StartTopWall(self.speeds[0]));
         }
         if step >= compression {
+            let done = step - compression;
+            if self.slower_from(done) == Some(done) {
+                act(Action::MoveTopWall(self.slower_speed(done)));
+            }
             return;
         }
         match &self.schedule.preparation {

@@ -85,8 +85,8 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
         wall.speed.set_lane(lane, speed);
     }
 
-    /// Does `action` to one lane of the stack of `case`.
-    pub(super) fn act(&mut self, lane: usize, case: &Case, action: Action) {
+    /// Does `action` to one lane.
+    pub(super) fn act(&mut self, lane: usize, action: Action) {
         let number = self.time_step;
         match action {
             Action::SetGravity(gravity) => self.gravity.set_lane(lane, number.like(gravity)),
@@ -109,8 +109,11 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
                 top.position.take_lane(lane, &[zero, height]);
                 top.velocity.take_lane(lane, &[zero, velocity]);
             }
-            Action::StartTopWall => {
-                self.lower_top_wall(lane, number.like(case.protocol.wall_speed));
+            Action::StartTopWall(speed) => self.lower_top_wall(lane, number.like(speed)),
+            Action::MoveTopWall(speed) => {
+                self.walls[TOP_WALL]
+                    .speed
+                    .set_lane(lane, number.like(speed));
             }
         }
     }

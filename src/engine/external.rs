@@ -140,7 +140,8 @@ impl ExternalEngine {
 /// Whether two cases are run with the same deck.
 fn same_deck(left: &Case, right: &Case) -> bool {
     let kind = |case: &Case| std::mem::discriminant(&case.protocol.preparation);
-    kind(left) == kind(right)
+    let short = |case: &Case| case.protocol.shortcuts.is_some();
+    kind(left) == kind(right) && short(left) == short(right)
 }
 
 impl ExternalEngine {
@@ -209,11 +210,15 @@ impl ExternalEngine {
         deck.ok_or_else(|| self.adapter.name.unknown_pyramid())
     }
 
-    /// What becomes of a case for which the code has no deck.
-    fn refusal(&self, case: &Case) -> Failure {
+    /// The deck for `case`, or what becomes of a case that the code cannot run.
+    fn deck_of(&self, case: &Case) -> Result<&Deck<Case>, Failure> {
         let name = self.adapter.name;
-        let refusal = name.unknown_preparation(&case.protocol.preparation);
-        Failure::unsupported(name, case, refusal)
+        let preparation = &case.protocol.preparation;
+        let deck = self.adapter.deck(preparation);
+        let accepted = name.check_shortcuts(case.protocol.shortcuts.is_some());
+        accepted
+            .and_then(|()| deck.ok_or_else(|| name.unknown_preparation(preparation)))
+            .map_err(|refusal| Failure::unsupported(name, case, refusal))
     }
 }
 
@@ -238,9 +243,15 @@ impl Engine for ExternalEngine {
         for same in cases.chunk_by(same_deck) {
             let range = start..start + same.len();
             start = range.end;
-            match self.adapter.deck(&same[0].protocol.preparation) {
-                Some(deck) => self.run_with(deck, cases, range, workplace, finished),
-                None => range.for_each(|index| finished(index, Err(self.refusal(&cases[index])))),
+            match self.deck_of(&same[0]) {
+                Ok(deck) => self.run_with(deck, cases, range, workplace, finished),
+                Err(_) => {
+                    for index in range {
+                        if let Err(refusal) = self.deck_of(&cases[index]) {
+                            finished(index, Err(refusal));
+                        }
+                    }
+                }
             }
         }
     }

@@ -186,6 +186,26 @@ impl EngineName {
         }
     }
 
+    /// Whether it can make a run shorter.
+    pub fn takes_shortcuts(self) -> bool {
+        self == Self::Native
+    }
+
+    /// Refuses shortcuts, if they are `asked` for, where the engine knows none.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the engine can do.
+    pub fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
+        if !asked || self.takes_shortcuts() {
+            return Ok(());
+        }
+        Err(InvalidValue {
+            key: "protocol.shortcuts".to_owned(),
+            value: "given".to_owned(),
+            accepted: format!("none for {self}; native takes them"),
+        })
+    }
+
     fn unknown_preparation(self, asked: &Preparation) -> InvalidValue {
         InvalidValue {
             key: "protocol.preparation.kind".to_owned(),

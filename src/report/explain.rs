@@ -121,6 +121,7 @@ fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
         "distance between interpolations, weighted",
         "random walk of rounding, amplified, weighted",
         "half a unit of the 17th digit, amplified, weighted",
+        "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
     ];
     let mut table = Table::new(&["part of u_num", "how", "m g>", "of F + 3>"]);
     let mut line = |name: &str, how: &str, value: f64| {

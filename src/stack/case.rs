@@ -159,6 +159,7 @@ mod tests {
                     fine_from_travel: 0.6,
                     fine_interval: 2.0,
                 },
+                shortcuts: None,
             },
         }
     }

@@ -11,6 +11,7 @@ mod digest;
 mod groups;
 mod protocol;
 mod pyramid;
+mod shortcuts;
 mod side_walls;
 mod validity;
 
@@ -26,5 +27,6 @@ pub use groups::{
 };
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;
+pub use shortcuts::Shortcuts;
 pub use side_walls::{SideWallSteps, SideWalls};
 pub use validity::InvalidValue;

@@ -1,5 +1,6 @@
 //! How the stack is prepared, compressed and sampled.
 
+use super::shortcuts::Shortcuts;
 use super::side_walls::{SideWallSteps, SideWalls};
 use super::validity::{InvalidValue, positive, within};
 use serde::{Deserialize, Serialize};
@@ -118,6 +119,9 @@ pub struct Protocol {
     pub wall_travel: f64,
     /// When rows are taken.
     pub sampling: Sampling,
+    /// How the run is made shorter, if it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shortcuts: Option<Shortcuts>,
 }
 
 /// The protocol counted in time steps, as every code runs it.
@@ -133,6 +137,12 @@ pub struct Schedule {
     pub fine_from_step: u64,
     /// Steps between fine rows.
     pub fine_every: u64,
+    /// Steps at the beginning of the compression during which the wall is faster.
+    pub fast_steps: u64,
+    /// Steps after them during which it slows down.
+    pub slowing_steps: u64,
+    /// Drop of the wall force that ends the run; 0 for none.
+    pub stop_at_drop: f64,
 }
 
 impl Schedule {
@@ -174,16 +184,46 @@ impl Protocol {
         let fine_time = fine_every as f64 * self.time_step;
         let rounded = |time: f64| ((time / fine_time).round() as u64).max(1) * fine_every;
         let coarse_every = rounded(self.sampling.coarse_interval);
-        let until_fine = rounded(self.sampling.fine_from_travel / self.wall_speed);
-        let fine_from_step = until_fine / coarse_every * coarse_every;
-        let all = rounded(self.wall_travel / self.wall_speed);
+        let slowing = self
+            .shortcuts
+            .map_or(0, |_| rounded(Shortcuts::SLOWING_TIME));
+        let slowing_travel = slowing as f64 * self.time_step * self.mean_slowing_speed();
+        let fast_steps = self.shortcuts.map_or(0, |shortcuts| {
+            let fast_travel = (shortcuts.fast_until_travel - slowing_travel).max(0.0);
+            rounded(fast_travel / self.fast_speed())
+        });
+        let fast_travel = fast_steps as f64 * self.time_step * self.fast_speed();
+        let steps_until = |travel: f64| {
+            let slow = (travel - fast_travel - slowing_travel).max(0.0) / self.wall_speed;
+            fast_steps + slowing + rounded(slow)
+        };
+        let fine_from_step =
+            steps_until(self.sampling.fine_from_travel) / coarse_every * coarse_every;
+        let all = steps_until(self.wall_travel);
         Schedule {
             preparation: self.preparation.steps(self.time_step, rounded),
             compression_steps: all.max(fine_from_step + fine_every),
             coarse_every,
             fine_from_step,
             fine_every,
+            fast_steps,
+            slowing_steps: slowing,
+            stop_at_drop: self
+                .shortcuts
+                .map_or(0.0, |shortcuts| shortcuts.stop_at_drop),
         }
+    }
+
+    /// Speed of the wall in the first [`Schedule::fast_steps`].
+    pub fn fast_speed(&self) -> f64 {
+        let factor = self
+            .shortcuts
+            .map_or(1.0, |shortcuts| shortcuts.speed_factor);
+        factor * self.wall_speed
+    }
+
+    fn mean_slowing_speed(&self) -> f64 {
+        0.5 * (self.fast_speed() + self.wall_speed)
     }
 
     /// Every value in its range, or the first one that is not.
@@ -195,7 +235,7 @@ impl Protocol {
             SMALLEST_TIME_STEP,
             1.0,
         )?;
-        positive("protocol.wall_speed", self.wall_speed, FASTEST_WALL)?;
+        positive("protocol.wall_speed", self.fast_speed(), FASTEST_WALL)?;
         positive("protocol.wall_travel", self.wall_travel, LONGEST_TRAVEL)?;
         positive(
             "protocol.sampling.coarse_interval",
@@ -213,6 +253,10 @@ impl Protocol {
             0.0,
             self.wall_travel,
         )?;
+        if let Some(shortcuts) = &self.shortcuts {
+            let shortest = Shortcuts::SLOWING_TIME * self.mean_slowing_speed();
+            shortcuts.validate(shortest, self.wall_travel)?;
+        }
         self.validate_length()
     }
 
@@ -268,6 +312,7 @@ mod tests {
                 fine_from_travel: 0.008,
                 fine_interval: 0.7,
             },
+            shortcuts: None,
         }
     }
 

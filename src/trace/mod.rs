@@ -1,5 +1,6 @@
 //! A time series with named columns, and the yield force read off it.
 
+mod drop;
 mod estimate;
 mod frame;
 mod motion;
@@ -7,6 +8,7 @@ mod polynomial;
 mod pyramid_run;
 mod series;
 
+pub use drop::DropWatch;
 pub use estimate::{Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};

@@ -1,5 +1,6 @@
 //! The time series that every code delivers.
 
+use super::drop::DropWatch;
 use crate::stack::Schedule;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
@@ -159,6 +160,16 @@ pub enum SeriesError {
     },
 }
 
+/// Whether the last row, and none before, is the one that ends the run.
+fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
+    let mut watch = DropWatch::new(schedule.stop_at_drop);
+    let mut fine = samples
+        .iter()
+        .filter(|row| row.step >= schedule.fine_from_step);
+    let ends = fine.position(|row| watch.has_dropped(row.wall_force));
+    ends.is_some() && fine.next().is_none()
+}
+
 /// A checked time series of one compression.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
@@ -188,7 +199,7 @@ impl Trace {
             }
             check_time(row, sample, time_step)?;
         }
-        if samples.len() != planned.len() {
+        if samples.len() != planned.len() && !ends_with_the_drop(&samples, schedule) {
             return Err(SeriesError::Truncated {
                 found: samples.len(),
                 expected: planned.len(),

@@ -157,6 +157,7 @@ fn protocols(stack: &Stack, convention: &Convention) -> Vec<Protocol> {
             fine_from_travel: 0.0,
             fine_interval: INTERVAL,
         },
+        shortcuts: None,
     };
     TIME_STEPS.map(protocol).to_vec()
 }

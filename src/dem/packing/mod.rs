@@ -3,7 +3,7 @@
 //! The contact law, the leapfrog and the order of every sum are those of [`Scene`](super::Scene), which
 //! looks at every pair of cylinders: for the same cylinders the two give the same bits. What is added is a
 //! Verlet list of the pairs that may touch, made from a cell list whenever something has moved by half of
-//! its skin. A new list costs as much as five to ten steps.
+//! its skin. A new list costs as much as some ten steps.
 
 mod cells;
 mod forces;

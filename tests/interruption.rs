@@ -1,0 +1,89 @@
+//! A long native run that is interrupted goes on from there, and ends with the same bits.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tristack::archive::Run;
+use tristack::crosscheck::plan;
+use tristack::engine::{EngineName, Failure, Interrupt, Workplace};
+use tristack::stack::{Case, Convention, Stack};
+
+/// Some 1e7 steps each.
+fn long_cases(count: usize) -> Vec<Case> {
+    let frictions = [0.2, 0.22, 0.24];
+    let cases = frictions.into_iter().take(count).map(|friction| {
+        let stack = Stack::paper(friction, 1e2);
+        let mut case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+        case.protocol.time_step = 1e-3;
+        case.protocol.sampling.coarse_interval *= 0.1;
+        case
+    });
+    cases.collect()
+}
+
+/// What becomes of `cases`, if the user interrupts as soon as one of them has done so many steps.
+fn outcomes(cases: &[Case], checkpoints: &Path, stop_at: u64) -> (Vec<Result<Run, Failure>>, u64) {
+    let (interrupt, first) = (Interrupt::new(), AtomicU64::new(u64::MAX));
+    let advanced = |_: usize, steps: u64| {
+        first.fetch_min(steps, Ordering::Relaxed);
+        if steps > stop_at {
+            interrupt.request();
+        }
+    };
+    let workplace = Workplace {
+        checkpoints: Some(checkpoints),
+        advanced: &advanced,
+        ..Workplace::new(checkpoints, &interrupt)
+    };
+    let outcomes: Mutex<Vec<Option<Result<Run, Failure>>>> =
+        Mutex::new(cases.iter().map(|_| None).collect());
+    let engine = EngineName::Native.find().expect("it is always there");
+    engine.run(cases, &workplace, &mut |index, result| {
+        outcomes.lock().expect("nobody panics")[index] = Some(result);
+    });
+    let outcomes = outcomes.into_inner().expect("nobody panics").into_iter();
+    let outcomes = outcomes.map(|outcome| outcome.expect("every case is reported"));
+    (outcomes.collect(), first.into_inner())
+}
+
+#[test]
+fn an_interrupted_run_is_taken_up_where_it_was_and_ends_with_the_same_bits() {
+    for count in [1, 3] {
+        let cases = long_cases(count);
+        let [one, other] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));
+        let (undisturbed, _) = outcomes(&cases, one.path(), u64::MAX);
+        let half = cases[0].total_steps() / 2;
+        let (interrupted, _) = outcomes(&cases, other.path(), half);
+        for outcome in interrupted {
+            assert!(outcome.is_err_and(|failure| failure.is_interrupted()));
+        }
+        let kept = fs::read_dir(other.path()).expect("a directory").count();
+        assert_eq!(kept, count, "a checkpoint for each run");
+        let (resumed, first) = outcomes(&cases, other.path(), u64::MAX);
+        assert!(first >= half, "it went on at step {first}, not at {half}");
+        for (resumed, undisturbed) in resumed.iter().zip(&undisturbed) {
+            let [resumed, undisturbed] =
+                [resumed, undisturbed].map(|outcome| &outcome.as_ref().expect("a run").trace);
+            assert!(resumed == undisturbed);
+        }
+        let left = fs::read_dir(other.path()).expect("a directory").count();
+        assert_eq!(left, 0, "a finished run needs no checkpoint");
+    }
+}
+
+#[test]
+fn a_damaged_checkpoint_is_not_believed() {
+    let cases = long_cases(1);
+    let directory = tempfile::tempdir().expect("a directory");
+    let (interrupted, _) = outcomes(&cases, directory.path(), 100_000);
+    assert!(interrupted[0].is_err());
+    for entry in fs::read_dir(directory.path()).expect("a directory") {
+        let path = entry.expect("an entry").path();
+        let text = fs::read_to_string(&path).expect("a checkpoint");
+        fs::write(&path, &text[..text.len() / 2]).expect("it can be written");
+    }
+    let (again, first) = outcomes(&cases, directory.path(), u64::MAX);
+    assert!(again[0].is_ok());
+    assert!(first < 100_000, "from the start");
+}

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
     engines: Vec<EngineName>,
-    /// Also run all of figure 2(a) at the paper's literal wall speed and time step: half an hour
+    /// Also run all of figure 2(a) at the paper's literal wall speed and time step: some ten minutes
     #[arg(long)]
     literal: bool,
     /// Directory of the report

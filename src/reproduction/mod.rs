@@ -88,7 +88,7 @@ pub struct Scope<'a> {
     pub settings: &'a Settings<'a>,
     /// The recorded runs that stand in for trajectories.
     pub trajectories: Recorded,
-    /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes half an hour.
+    /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
     pub literal: bool,
 }
 

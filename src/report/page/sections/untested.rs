@@ -23,7 +23,7 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &
     if !origin.literal {
         items.push(
             "Fig. 2(a) at the paper’s literal wall speed and time step, except at μ = 0.2, stiffness 10⁴: \
-             `tristack report --literal` runs all of it, half an hour."
+             `tristack report --literal` runs all of it, some ten minutes."
                 .to_owned(),
         );
     }

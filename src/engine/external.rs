@@ -211,14 +211,14 @@ impl ExternalEngine {
     }
 
     /// The deck for `case`, or what becomes of a case that the code cannot run.
-    fn deck_of(&self, case: &Case) -> Result<&Deck<Case>, Failure> {
+    fn deck_of(&self, case: &Case) -> Result<&Deck<Case>, Box<Failure>> {
         let name = self.adapter.name;
         let preparation = &case.protocol.preparation;
         let deck = self.adapter.deck(preparation);
         let accepted = name.check_shortcuts(case.protocol.shortcuts.is_some());
         accepted
             .and_then(|()| deck.ok_or_else(|| name.unknown_preparation(preparation)))
-            .map_err(|refusal| Failure::unsupported(name, case, refusal))
+            .map_err(|refusal| Box::new(Failure::unsupported(name, case, refusal)))
     }
 }
 
@@ -248,7 +248,7 @@ impl Engine for ExternalEngine {
                 Err(_) => {
                     for index in range {
                         if let Err(refusal) = self.deck_of(&cases[index]) {
-                            finished(index, Err(refusal));
+                            finished(index, Err(*refusal));
                         }
                     }
                 }

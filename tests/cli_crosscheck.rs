@@ -203,3 +203,22 @@ fn the_recorded_probe_of_another_engine_does_not_stand_in() {
         "{message}"
     );
 }
+
+#[test]
+fn shortcuts_are_measured_and_refused_where_nobody_knows_them() {
+    let bench = Bench::without_engines();
+    let sweep = "sweep --engine native --mu 0.2:0.4:0.1 --stiffness 1e3";
+    let text = standard_output(&mut bench.tristack(&format!("{sweep} --shortcuts --format json")));
+    for row in json(&text).as_array().expect("rows") {
+        assert_eq!(row["verdict"], "agrees", "{row}");
+        assert!(row["error"].as_f64().expect("a number").abs() < 1e-5);
+    }
+    let plain = standard_output(&mut bench.tristack(&format!("{sweep} --format json")));
+    assert_ne!(plain, text, "shortcuts change the last digits");
+    let simulated = "simulate --engine yade --mu 0.2 --stiffness 1e3 --shortcuts";
+    let refusal = standard_error(&mut bench.tristack(simulated));
+    assert!(
+        refusal.contains("--shortcuts") && refusal.contains("native takes them"),
+        "{refusal}"
+    );
+}

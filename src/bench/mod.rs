@@ -1,5 +1,15 @@
 //! What a step costs: native beside the external codes, in one call.
 
+mod contestant;
+mod machine;
+mod memory;
 mod pyramid;
+mod scaling;
+mod stack;
+mod statistics;
 
-pub use pyramid::{BenchError, PyramidBench, PyramidCost};
+pub use contestant::{BenchError, Contestant};
+pub use machine::Machine;
+pub use pyramid::{PyramidBench, PyramidCost};
+pub use scaling::{Scaling, ScalingBench, ScalingRow};
+pub use stack::{StackBench, StackCost};

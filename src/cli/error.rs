@@ -1,8 +1,9 @@
 //! How a command ends.
 
 use crate::archive::ArchiveError;
+use crate::bench::BenchError;
 use crate::claims::RegisterError;
-use crate::crosscheck::{Judgement, NoYield};
+use crate::crosscheck::{Judgement, NoYield, RunError};
 use crate::engine::{EngineName, Failure, FailureKind};
 use crate::report::PdfError;
 use crate::reproduction::ReproductionError;
@@ -91,9 +92,23 @@ pub enum CliError {
     /// A figure cannot be written as PDF.
     #[error(transparent)]
     Pdf(#[from] PdfError),
+    /// A run among many failed.
+    #[error(transparent)]
+    Run(RunError),
     /// An engine failed.
     #[error(transparent)]
     Engine(#[from] Box<Failure>),
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Missing { engine } => Self::MissingEngine(engine),
+            BenchError::Failed(failure) => Self::Engine(failure),
+            BenchError::Scheduled(error) => Self::Run(error),
+            BenchError::Files(error) => Self::Files(error),
+        }
+    }
 }
 
 impl CliError {
@@ -105,7 +120,9 @@ impl CliError {
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
                 _ => ExitStatus::EngineFailed,
             },
-            Self::Reproduction(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
+            Self::Reproduction(_) | Self::MissingEngine(_) | Self::Run(_) => {
+                ExitStatus::EngineFailed
+            }
             _ => ExitStatus::WrongInput,
         }
     }

@@ -2,7 +2,6 @@
 
 use super::memory::{Processes, with_peak};
 use crate::archive::{ArchiveError, Run};
-use crate::crosscheck::RunError;
 use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::stack::{Case, Convention};
 use std::time::{Duration, Instant};
@@ -31,9 +30,6 @@ pub enum BenchError {
     /// A run failed.
     #[error(transparent)]
     Failed(#[from] Box<Failure>),
-    /// A run among many failed.
-    #[error(transparent)]
-    Scheduled(#[from] RunError),
     /// There is no place for the files of the runs.
     #[error(transparent)]
     Files(#[from] ArchiveError),

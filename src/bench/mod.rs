@@ -1,7 +1,6 @@
 //! What a step costs: native beside the external codes, in one call.
 
 mod contestant;
-mod machine;
 mod memory;
 mod pyramid;
 mod scaling;
@@ -9,7 +8,6 @@ mod stack;
 mod statistics;
 
 pub use contestant::{BenchError, Contestant};
-pub use machine::Machine;
 pub use pyramid::{PyramidBench, PyramidCost};
 pub use scaling::{Scaling, ScalingBench, ScalingRow};
 pub use stack::{StackBench, StackCost};

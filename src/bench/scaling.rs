@@ -3,9 +3,7 @@
 use super::contestant::{BenchError, Competitor, Contestant};
 use super::stack::{LENGTHS, StackBench, timed_cases};
 use super::statistics::median;
-use crate::archive::{ArchiveError, Run};
-use crate::crosscheck::{Load, Participant, Progress, Recorded, Settings, Store, run_all};
-use crate::engine::{EngineName, Failure, Workplace};
+use crate::engine::{EngineName, Workplace};
 use crate::stack::Case;
 use serde::Serialize;
 use std::time::Instant;
@@ -21,7 +19,7 @@ pub struct ScalingBench {
     pub least_cases: usize,
     /// Numbers of cores.
     pub cores: Vec<usize>,
-    /// Stacks whose yield force is measured on these cores, store included.
+    /// Stacks whose planned runs are dealt out to these cores.
     pub stacks: usize,
     /// How often everything is measured, one after the other.
     pub repeats: usize,
@@ -58,10 +56,10 @@ impl Default for ScalingBench {
         numbers.push(cores);
         Self {
             cases: vec![1, 2, 4, 8, 16, 64, 256],
-            steps: 100_000,
+            steps: 50_000,
             least_cases: 64,
             cores: numbers,
-            stacks: 128,
+            stacks: 32,
             repeats: 5,
         }
     }
@@ -81,7 +79,7 @@ impl ScalingBench {
     /// If a run is interrupted, or there is no place for files.
     pub fn measure(&self, workplace: &Workplace) -> Result<Scaling, BenchError> {
         let lanes = Competitor::find(Contestant::NativeLanes)?;
-        let load = self.load();
+        let planned = self.planned_cases();
         let nothing = |cases, cores| Size {
             cases,
             cores,
@@ -90,7 +88,7 @@ impl ScalingBench {
         let over_cases = self.cases.iter().map(|&cases| nothing(cases, 1));
         let mut over_cases: Vec<Size> = over_cases.collect();
         let over_cores = self.cores.iter();
-        let over_cores = over_cores.map(|&cores| nothing(load.cases.len(), cores));
+        let over_cores = over_cores.map(|&cores| nothing(planned.len(), cores));
         let mut over_cores: Vec<Size> = over_cores.collect();
         for _ in 0..self.repeats {
             for size in &mut over_cases {
@@ -99,7 +97,7 @@ impl ScalingBench {
             }
             for size in &mut over_cores {
                 size.nanoseconds
-                    .push(on_cores(&load, size.cores, workplace)?);
+                    .push(on_cores(&lanes, &planned, size.cores, workplace)?);
             }
         }
         Ok(Scaling {
@@ -109,17 +107,14 @@ impl ScalingBench {
     }
 
     /// The planned runs of all stacks.
-    fn load(&self) -> Load {
+    fn planned_cases(&self) -> Vec<Case> {
         let bench = StackBench {
             contestants: Vec::new(),
             stacks: self.stacks,
             ..StackBench::default()
         };
-        let plans = bench.plans(EngineName::Native);
-        Load {
-            engine: EngineName::Native,
-            cases: plans.into_iter().flat_map(|plan| plan.cases).collect(),
-        }
+        let plans = bench.plans(EngineName::Native).into_iter();
+        plans.flat_map(|plan| plan.cases).collect()
     }
 
     /// Nanoseconds per step and case of `count` cases in one call.
@@ -140,28 +135,29 @@ impl ScalingBench {
     }
 }
 
-/// Nanoseconds per step and case of `load` on so many cores: scheduled, carried out and kept in a store, as by
-/// `tristack sweep`.
-fn on_cores(load: &Load, cores: usize, workplace: &Workplace) -> Result<f64, BenchError> {
-    let directory = tempfile::tempdir_in(workplace.directory)
-        .map_err(ArchiveError::writing(workplace.directory))?;
-    let settings = Settings {
-        store: Store::open(directory.path())?,
-        recorded: Recorded::new(directory.path()),
-        fresh: true,
-        threads: cores,
-        time_limit: workplace.time_limit,
-        interrupt: workplace.interrupt,
-    };
-    let participants = [Participant::find(EngineName::Native)];
-    let loads = std::slice::from_ref(load);
+/// Nanoseconds per step and case of `cases`, dealt out to so many cores.
+fn on_cores(
+    lanes: &Competitor,
+    cases: &[Case],
+    cores: usize,
+    workplace: &Workplace,
+) -> Result<f64, BenchError> {
+    let hand = |core| cases.iter().copied().skip(core).step_by(cores).collect();
+    let hands: Vec<Vec<Case>> = (0..cores).map(hand).collect();
     let start = Instant::now();
-    let results = run_all(loads, &participants, &settings, &Silence, |_| ());
+    let results: Vec<_> = std::thread::scope(|scope| {
+        let start = |hand: Vec<Case>| scope.spawn(move || lanes.time(&hand, workplace));
+        let threads: Vec<_> = hands.into_iter().map(start).collect();
+        let joined = threads.into_iter().map(|thread| thread.join());
+        joined
+            .map(|result| result.expect("a run does not panic"))
+            .collect()
+    });
     let seconds = start.elapsed().as_secs_f64();
-    for result in results.into_iter().flatten() {
+    for result in results {
         result?;
     }
-    let steps: u64 = load.cases.iter().map(Case::total_steps).sum();
+    let steps: u64 = cases.iter().map(Case::total_steps).sum();
     Ok(1e9 * seconds / steps as f64)
 }
 
@@ -176,14 +172,4 @@ fn rows(sizes: &[Size]) -> Vec<ScalingRow> {
         speedup: first / median(&size.nanoseconds),
     };
     sizes.iter().map(row).collect()
-}
-
-/// Nobody wants to know how far it is.
-struct Silence;
-
-impl Progress for Silence {
-    fn planned(&self, _total: usize, _reused: usize, _seconds: f64) {}
-    fn advanced(&self, _seconds: f64) {}
-    fn finished(&self, _engine: EngineName, _case: &Case, _result: Result<&Run, &Failure>) {}
-    fn warn(&self, _message: &str) {}
 }

@@ -99,6 +99,11 @@ impl StackBench {
         let competitors = self.contestants.iter().map(|&who| Competitor::find(who));
         let competitors: Vec<Competitor> = competitors.collect::<Result<_, _>>()?;
         let mut costs: Vec<StackCost> = competitors.iter().map(StackCost::nothing_yet).collect();
+        for competitor in &competitors {
+            // The first start reads a program from disk.
+            let short = timed_cases(competitor.engine.name(), 1, self.steps, 1);
+            competitor.time(&short, workplace)?;
+        }
         for _ in 0..self.repeats {
             for (competitor, cost) in competitors.iter().zip(&mut costs) {
                 self.time_steps(competitor, cost, workplace)?;

@@ -3,11 +3,11 @@
 use super::options::{Format, participants, writable};
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::archive::{ArchiveError, write_atomically};
-use crate::bench::{Contestant, Machine, PyramidBench, ScalingBench, StackBench};
+use crate::bench::{Contestant, PyramidBench, ScalingBench, StackBench};
 use crate::engine::{EngineName, Workplace};
 use crate::report::{
-    BenchRow, bench_csv, bench_json, bench_markdown, bench_rows, bench_table, performance_svg,
-    pyramid_rows, pyramid_table, scaling_table,
+    BenchRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows, bench_table,
+    performance_svg, pyramid_rows, pyramid_table, scaling_table,
 };
 use clap::Args;
 use serde::Serialize;
@@ -109,7 +109,7 @@ fn measure_scaling(
     let scaling = bench.measure(workplace)?;
     if let Some(directory) = &arguments.out {
         let all = [scaling.cases.as_slice(), &scaling.cores].concat();
-        let markdown = bench_markdown(&Machine::this(), rows, &scaling);
+        let markdown = bench_markdown(rows, &scaling);
         let svg = performance_svg(rows, &scaling);
         write(directory, "bench.csv", &bench_csv(rows))?;
         write(directory, "bench.json", bench_json(rows).as_bytes())?;
@@ -119,7 +119,7 @@ fn measure_scaling(
     }
     let (cases, cores) = (scaling_table(&scaling.cases), scaling_table(&scaling.cores));
     Ok(format!(
-        "native lanes on one core:\n{}native lanes, scheduled and stored:\n{}",
+        "native lanes on one core:\n{}native lanes, planned runs:\n{}",
         cases.terminal(),
         cores.terminal()
     ))
@@ -152,7 +152,7 @@ fn measure_pyramids(
 
 fn printed<R: Serialize>(format: Format, rows: &[R], table: impl Fn() -> String) -> Vec<u8> {
     match format {
-        Format::Table => format!("{}\n{}", Machine::this(), table()).into_bytes(),
+        Format::Table => format!("{}\n{}", bench_machine(), table()).into_bytes(),
         Format::Json => bench_json(rows).into_bytes(),
         Format::Csv => bench_csv(rows),
     }

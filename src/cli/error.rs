@@ -3,7 +3,7 @@
 use crate::archive::ArchiveError;
 use crate::bench::BenchError;
 use crate::claims::RegisterError;
-use crate::crosscheck::{Judgement, NoYield, RunError};
+use crate::crosscheck::{Judgement, NoYield};
 use crate::engine::{EngineName, Failure, FailureKind};
 use crate::report::PdfError;
 use crate::reproduction::ReproductionError;
@@ -92,9 +92,6 @@ pub enum CliError {
     /// A figure cannot be written as PDF.
     #[error(transparent)]
     Pdf(#[from] PdfError),
-    /// A run among many failed.
-    #[error(transparent)]
-    Run(RunError),
     /// An engine failed.
     #[error(transparent)]
     Engine(#[from] Box<Failure>),
@@ -105,7 +102,6 @@ impl From<BenchError> for CliError {
         match error {
             BenchError::Missing { engine } => Self::MissingEngine(engine),
             BenchError::Failed(failure) => Self::Engine(failure),
-            BenchError::Scheduled(error) => Self::Run(error),
             BenchError::Files(error) => Self::Files(error),
         }
     }
@@ -120,9 +116,7 @@ impl CliError {
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
                 _ => ExitStatus::EngineFailed,
             },
-            Self::Reproduction(_) | Self::MissingEngine(_) | Self::Run(_) => {
-                ExitStatus::EngineFailed
-            }
+            Self::Reproduction(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
             _ => ExitStatus::WrongInput,
         }
     }

@@ -2,7 +2,9 @@
 
 use super::number::{optional, rounded, significant};
 use super::table::Table;
-use crate::bench::{Contestant, Machine, PyramidCost, Scaling, ScalingRow, StackCost};
+use crate::archive::machine;
+use crate::bench::{Contestant, PyramidCost, Scaling, ScalingRow, StackCost};
+use crate::dem::LaneWidth;
 use crate::engine::EngineName;
 use serde::Serialize;
 
@@ -77,6 +79,12 @@ pub fn bench_json<R: Serialize>(rows: &[R]) -> String {
     serde_json::to_string_pretty(rows).expect("plain rows have a JSON form") + "\n"
 }
 
+/// The machine that everything is measured on, and how many cases its vectors hold.
+pub fn bench_machine() -> String {
+    let lanes = LaneWidth::widest().lanes();
+    format!("{}, {lanes} lanes a vector", machine())
+}
+
 /// For people, ratios first.
 pub fn bench_table(rows: &[BenchRow]) -> Table {
     let mut table = Table::new(&[
@@ -128,10 +136,11 @@ pub fn scaling_table(rows: &[ScalingRow]) -> Table {
 }
 
 /// Both tables with the machine and what they are, as Markdown.
-pub fn bench_markdown(machine: &Machine, rows: &[BenchRow], scaling: &Scaling) -> String {
+pub fn bench_markdown(rows: &[BenchRow], scaling: &Scaling) -> String {
     format!(
-        "Machine: {machine}.\n\n{}\nNumber of cases on one core, in lanes:\n\n{}\n\
-         Number of cores, by the scheduler and with a store:\n\n{}",
+        "Machine: {}.\n\n{}\nNumber of cases on one core, in lanes:\n\n{}\n\
+         Number of cores, planned runs in lanes:\n\n{}",
+        bench_machine(),
         bench_table(rows).markdown(),
         scaling_table(&scaling.cases).markdown(),
         scaling_table(&scaling.cores).markdown()

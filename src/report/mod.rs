@@ -19,8 +19,8 @@ mod trajectory;
 mod vtk;
 
 pub use bench::{
-    BenchRow, PyramidRow, bench_csv, bench_json, bench_markdown, bench_rows, bench_table,
-    pyramid_rows, pyramid_table, scaling_table,
+    BenchRow, PyramidRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows,
+    bench_table, pyramid_rows, pyramid_table, scaling_table,
 };
 pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_rows,

@@ -11,5 +11,5 @@ mod reading;
 
 pub use entry::{Archive, ArchiveError, Run, write_atomically};
 pub use probe_record::{Answer, ProbeRecord};
-pub use provenance::{Identity, Provenance};
+pub use provenance::{Identity, Provenance, machine};
 pub use reading::Reading;

@@ -2,6 +2,7 @@
 
 use crate::stack::{Case, sha256_hex};
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// The program that computes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,7 +71,7 @@ impl Provenance {
                     |_| jiff::Timestamp::now().to_string(),
                     |rounded| rounded.to_string(),
                 ),
-            machine: machine(),
+            machine: machine().to_owned(),
             steps,
             seconds,
         }
@@ -84,7 +85,13 @@ impl Provenance {
     }
 }
 
-fn machine() -> String {
+/// This machine: processor, number of cores and operating system.
+pub fn machine() -> &'static str {
+    static MACHINE: LazyLock<String> = LazyLock::new(read_machine);
+    &MACHINE
+}
+
+fn read_machine() -> String {
     let cpu_info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = cpu_info
         .lines()

@@ -1,8 +1,9 @@
 //! The cost of a step of a pyramid, per cylinder.
 
-use crate::engine::{Engine, EngineName, Failure, Workplace};
-use crate::stack::{Convention, Pyramid};
-use thiserror::Error;
+use super::contestant::{BenchError, convention};
+use super::statistics::{fastest, median};
+use crate::engine::{Engine, EngineName, Workplace};
+use crate::stack::Pyramid;
 
 /// Softer than this the lowest row of a hundred would be pressed flat.
 const STIFFNESS: f64 = 1e5;
@@ -39,20 +40,6 @@ pub struct PyramidCost {
     pub timed_steps: u64,
     /// Wall time per step and cylinder in nanoseconds, of each repeat in order.
     pub nanoseconds: Vec<f64>,
-}
-
-/// Why nothing was measured.
-#[derive(Debug, Error)]
-pub enum BenchError {
-    /// An engine is not installed.
-    #[error("{engine} is not installed; to install it: {}", engine.installation_hint())]
-    Missing {
-        /// Which one.
-        engine: EngineName,
-    },
-    /// A run failed.
-    #[error(transparent)]
-    Failed(#[from] Box<Failure>),
 }
 
 impl Default for PyramidBench {
@@ -125,40 +112,24 @@ impl PyramidBench {
     }
 }
 
-fn convention(engine: EngineName) -> Convention {
-    match engine {
-        EngineName::Native => EngineName::Lammps.convention(),
-        other => other.convention(),
-    }
-}
-
 impl PyramidCost {
     /// The median of the repeats, in nanoseconds per step and cylinder; not a number if there is none.
     pub fn median(&self) -> f64 {
-        median(self.nanoseconds.clone())
+        median(&self.nanoseconds)
     }
 
     /// The fastest of the repeats, which a busy machine disturbs least, in nanoseconds per step and cylinder.
     pub fn fastest(&self) -> f64 {
-        self.nanoseconds.iter().copied().fold(f64::NAN, f64::min)
+        fastest(&self.nanoseconds)
     }
 
     /// How many times the cost of `other` this is: the median of the ratios of those runs that were made one
     /// after the other.
     pub fn ratio_to(&self, other: &Self) -> f64 {
         let pairs = self.nanoseconds.iter().zip(&other.nanoseconds);
-        median(pairs.map(|(own, other)| own / other).collect())
+        let ratios: Vec<f64> = pairs.map(|(own, other)| own / other).collect();
+        median(&ratios)
     }
-}
-
-/// The value in the middle, or the mean of the two there.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let count = values.len();
-    if count == 0 {
-        return f64::NAN;
-    }
-    0.5 * (values[(count - 1) / 2] + values[count / 2])
 }
 
 #[cfg(test)]
@@ -183,7 +154,6 @@ mod tests {
         assert_eq!(other.ratio_to(&one), 3.0);
         assert_eq!(one.median(), 41.0);
         assert_eq!(one.fastest(), 40.0);
-        assert_eq!(cost(&[1.0, 2.0]).median(), 1.5);
     }
 
     #[test]

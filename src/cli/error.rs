@@ -1,6 +1,7 @@
 //! How a command ends.
 
 use crate::archive::ArchiveError;
+use crate::bench::BenchError;
 use crate::claims::RegisterError;
 use crate::crosscheck::{Judgement, NoYield};
 use crate::engine::{EngineName, Failure, FailureKind};
@@ -94,6 +95,16 @@ pub enum CliError {
     /// An engine failed.
     #[error(transparent)]
     Engine(#[from] Box<Failure>),
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Missing { engine } => Self::MissingEngine(engine),
+            BenchError::Failed(failure) => Self::Engine(failure),
+            BenchError::Files(error) => Self::Files(error),
+        }
+    }
 }
 
 impl CliError {

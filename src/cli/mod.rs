@@ -1,5 +1,6 @@
 //! The command line: arguments in, library call, exit status out.
 
+mod bench;
 mod crosscheck;
 mod engines;
 mod error;
@@ -54,6 +55,7 @@ enum Command {
     Regimes(regimes::Arguments),
     Report(report::Arguments),
     Predict(predict::Arguments),
+    Bench(bench::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -78,6 +80,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Regimes(arguments) => regimes::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Predict(arguments) => predict::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
     }
 }
 

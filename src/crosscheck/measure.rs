@@ -113,7 +113,7 @@ fn judge_measurement(
         judgement.row.version = versions.join(", ");
     }
     if readings.len() == measurement.cases.len() {
-        judge_readings(measurement, &readings, &mut judgement);
+        judge_readings(measurement, readings, &mut judgement);
     }
     judgement
 }
@@ -139,8 +139,8 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
     }
 }
 
-fn judge_readings(measurement: &Measurement, readings: &[Reading], judgement: &mut Judgement) {
-    judgement.runs = readings.to_vec();
+fn judge_readings(measurement: &Measurement, readings: Vec<Reading>, judgement: &mut Judgement) {
+    judgement.runs = readings;
     let Some(reference) = measurement.limit.yield_force else {
         return;
     };

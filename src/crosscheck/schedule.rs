@@ -179,12 +179,25 @@ pub fn run_all<W: Workload, T: Clone + Send>(
         let result = slot.into_inner().unwrap_or(None);
         result.expect("every order is reported")
     });
-    let results: Vec<Result<T, RunError>> = results.collect();
-    let of_workload = |wanted: Vec<usize>| {
-        let results = wanted.into_iter().map(|order| results[order].clone());
-        results.collect()
+    hand_out(results.map(Some).collect(), wanted)
+}
+
+/// The results of the orders that every workload wanted; copies only where several wanted the same.
+fn hand_out<R: Clone>(mut results: Vec<Option<R>>, wanted: Vec<Vec<usize>>) -> Vec<Vec<R>> {
+    let mut uses = vec![0; results.len()];
+    for &order in wanted.iter().flatten() {
+        uses[order] += 1;
+    }
+    let mut result = |order: usize| {
+        uses[order] -= 1;
+        let result = match uses[order] {
+            0 => results[order].take(),
+            _ => results[order].clone(),
+        };
+        result.expect("nobody takes a result that somebody else still wants")
     };
-    wanted.into_iter().map(of_workload).collect()
+    let mut of_workload = |wanted: Vec<usize>| wanted.into_iter().map(&mut result).collect();
+    wanted.into_iter().map(&mut of_workload).collect()
 }
 
 /// Orders for one call of one engine.
@@ -374,6 +387,13 @@ mod tests {
     use super::super::{Load, plan};
     use super::*;
     use crate::stack::{Convention, Stack};
+
+    #[test]
+    fn what_two_workloads_want_both_get() {
+        let results = ["a", "b", "c"].map(|name| Some(name.to_owned()));
+        let handed = hand_out(results.to_vec(), vec![vec![0, 1], vec![], vec![1, 2, 1]]);
+        assert_eq!(handed, [vec!["a", "b"], vec![], vec!["b", "c", "b"]]);
+    }
 
     #[test]
     fn a_run_that_several_workloads_want_is_made_once() {

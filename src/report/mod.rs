@@ -1,5 +1,6 @@
 //! What people see: tables of rows, in every format.
 
+mod bench;
 mod crosscheck;
 mod explain;
 mod figures;
@@ -17,12 +18,16 @@ mod theory;
 mod trajectory;
 mod vtk;
 
+pub use bench::{
+    BenchRow, PyramidRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows,
+    bench_table, pyramid_rows, pyramid_table, scaling_table,
+};
 pub use crosscheck::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_rows,
     crosscheck_table,
 };
 pub use explain::explanation;
-pub use figures::{Figure, PdfError, figures, regimes_svg};
+pub use figures::{Figure, PdfError, figures, performance_svg, regimes_svg};
 pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};

@@ -24,6 +24,8 @@ pub(super) enum Scale {
     Linear(f64, usize),
     /// At powers of ten.
     Log,
+    /// Nowhere.
+    Bare,
 }
 
 impl Axis {
@@ -57,6 +59,15 @@ impl Axis {
         }
     }
 
+    /// An axis of things that are named elsewhere, one at each whole number.
+    pub fn bare(range: (f64, f64)) -> Self {
+        Self {
+            label: String::new(),
+            range,
+            scale: Scale::Bare,
+        }
+    }
+
     /// The floor friction, over the range of Fig. 2(a).
     pub fn friction() -> Self {
         Self::linear("floor friction μ", (0.08, 0.52), 0.1, 1)
@@ -66,7 +77,7 @@ impl Axis {
     pub fn part(&self, value: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
-            Scale::Linear(..) => (value - low) / (high - low),
+            Scale::Linear(..) | Scale::Bare => (value - low) / (high - low),
             Scale::Log => libm::log(value / low) / libm::log(high / low),
         }
     }
@@ -75,7 +86,7 @@ impl Axis {
     pub fn at(&self, part: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
-            Scale::Linear(..) => low + part * (high - low),
+            Scale::Linear(..) | Scale::Bare => low + part * (high - low),
             Scale::Log => low * libm::exp(part * libm::log(high / low)),
         }
     }
@@ -93,6 +104,7 @@ impl Axis {
                 TickFormat::Custom(Arc::new(print))
             }
             Scale::Log => TickFormat::Custom(Arc::new(power_of_ten)),
+            Scale::Bare => TickFormat::Custom(Arc::new(|_| String::new())),
         }
     }
 }

@@ -7,6 +7,7 @@ mod force_series;
 mod model_form;
 mod panel;
 mod pdf;
+mod performance;
 mod preparation;
 mod regimes;
 mod scaling;
@@ -18,6 +19,7 @@ mod theory_error;
 mod yield_curves;
 
 pub use pdf::PdfError;
+pub use performance::performance_svg;
 pub use regimes::regimes_svg;
 
 use crate::reproduction::Reproduction;

@@ -19,6 +19,8 @@ const TEXT_SIZE: u32 = 11;
 const HALF_LETTER: f64 = 3.8;
 /// Around the axes of a panel: left, right, top, bottom.
 const MARGINS: (f64, f64, f64, f64) = (62.0, 12.0, 24.0, 44.0);
+/// A distance of ticks so large that none is on the axis.
+const TICKLESS: f64 = 1e9;
 const SPACING: f64 = 10.0;
 const PADDING: f64 = 4.0;
 pub(super) const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
@@ -156,10 +158,12 @@ impl Panel {
         let layout = match self.x.scale {
             Scale::Linear(step, _) => layout.with_x_tick_step(step),
             Scale::Log => layout.with_log_x(),
+            Scale::Bare => layout.with_x_tick_step(TICKLESS),
         };
         match self.y.scale {
             Scale::Linear(step, _) => layout.with_y_tick_step(step),
             Scale::Log => layout.with_log_y(),
+            Scale::Bare => layout.with_y_tick_step(TICKLESS),
         }
     }
 }

@@ -1,0 +1,87 @@
+//! Largest resident memory of processes while something is done, as Linux tells it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+const BETWEEN_LOOKS: Duration = Duration::from_millis(5);
+
+/// Whose memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Processes {
+    /// Of this process, as it is at every look.
+    Own,
+    /// Of its children and theirs together, each at its own peak so far.
+    Children,
+}
+
+/// Does `work`, and looks at the memory of `processes` every few milliseconds meanwhile. The peak is in bytes;
+/// `None` where there is no `/proc`, or no look met a process.
+pub(super) fn with_peak<T>(processes: Processes, work: impl FnOnce() -> T) -> (T, Option<u64>) {
+    let done = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let watch = scope.spawn(|| {
+            let mut peak = look(processes);
+            while !done.load(Ordering::Relaxed) {
+                std::thread::sleep(BETWEEN_LOOKS);
+                peak = peak.max(look(processes));
+            }
+            peak
+        });
+        let result = work();
+        done.store(true, Ordering::Relaxed);
+        (result, watch.join().unwrap_or(None))
+    })
+}
+
+fn look(processes: Processes) -> Option<u64> {
+    let own = Path::new("/proc/self");
+    match processes {
+        Processes::Own => status_bytes(own, "VmRSS:"),
+        Processes::Children => descendants(own)
+            .iter()
+            .filter_map(|process| status_bytes(process, "VmHWM:"))
+            .reduce(|sum, bytes| sum + bytes),
+    }
+}
+
+/// A size in the `status` of the process at `directory`.
+fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
+    let status = fs::read_to_string(directory.join("status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix(key))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kibibytes)
+}
+
+/// The children of the process at `directory`, and theirs.
+fn descendants(directory: &Path) -> Vec<PathBuf> {
+    let threads = fs::read_dir(directory.join("task")).into_iter().flatten();
+    let lists = threads.flatten();
+    let lists = lists.filter_map(|thread| fs::read_to_string(thread.path().join("children")).ok());
+    let mut found = Vec::new();
+    for list in lists {
+        for process in list.split_whitespace() {
+            let child = Path::new("/proc").join(process);
+            found.extend(descendants(&child));
+            found.push(child);
+        }
+    }
+    found
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn own_memory_that_is_held_for_a_while_is_seen() {
+        const BYTES: usize = 64 << 20;
+        let ((), peak) = with_peak(Processes::Own, || {
+            let held = vec![1_u8; BYTES];
+            std::thread::sleep(4 * BETWEEN_LOOKS);
+            drop(std::hint::black_box(held));
+        });
+        assert!(peak.is_some_and(|peak| peak > BYTES as u64));
+    }
+}

@@ -1,0 +1,52 @@
+//! `tristack bench`: what is printed, never how fast.
+
+mod common;
+
+use common::{Bench, json, standard_error, standard_output};
+
+#[test]
+fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
+    let bench = Bench::without_engines();
+    let line = "bench --engines native --repeats 1 --format json --out results";
+    let output = standard_output(&mut bench.tristack(line));
+    assert_rows(&json(&output));
+    let read = |name: &str| {
+        let path = bench.path("results").join(name);
+        std::fs::read_to_string(path).expect(name)
+    };
+    assert_eq!(read("bench.json"), output);
+    assert!(read("bench.md").starts_with("Machine: "));
+    assert!(read("bench.csv").contains("\nnative-lanes,"));
+    assert!(read("scaling.csv").starts_with("cases,cores,ns_per_step,speedup\n1,1,"));
+    assert!(read("performance.svg").contains("native-lanes: "));
+}
+
+/// A row for each way of native, in the form that others rely on; the lanes are the measure.
+fn assert_rows(rows: &serde_json::Value) {
+    let rows = rows.as_array().expect("a list");
+    let engines: Vec<_> = rows.iter().map(|row| row["engine"].as_str()).collect();
+    assert_eq!(engines, [Some("native-scalar"), Some("native-lanes")]);
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().expect(key);
+        assert!(row["steps"].as_u64().expect("a count") > 1_000_000);
+        assert_eq!(row["runs"], 1);
+        assert!(number("ns_per_step").is_finite() && number("ratio").is_finite());
+        // The accuracy to which yield forces are counted.
+        assert!(number("largest_error") < 1e-5);
+    }
+    assert_eq!(rows[1]["ratio"], 1.0);
+}
+
+#[test]
+fn an_engine_that_is_not_installed_is_an_error() {
+    let bench = Bench::without_engines();
+    let mut command = bench.tristack("bench --engines liggghts --repeats 1");
+    command.assert().code(3);
+    assert!(standard_error(&mut command).contains("liggghts is not installed"));
+}
+
+#[test]
+fn no_repeat_at_all_is_refused() {
+    let bench = Bench::without_engines();
+    bench.tristack("bench --repeats 0").assert().code(1);
+}

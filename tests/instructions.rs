@@ -9,8 +9,11 @@ use tristack::dem::{LaneWidth, OpenRun, OpenRuns, RunQueue};
 use tristack::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
 use tristack::trace::{SeriesError, Trace};
 
-/// Lanes, and instructions per step and case when the loop was last looked at.
-const PINNED: [(usize, f64); 3] = [(1, 730.0), (2, 776.5), (4, 200.0)];
+/// Lanes, and instructions per step and case when the loop was last looked at: of a release, which is what users
+/// run, …
+const PINNED: [(usize, f64); 3] = [(1, 698.0), (2, 463.5), (4, 170.0)];
+/// … and of the tests, in which the operations on vectors are calls.
+const PINNED_IN_TESTS: [(usize, f64); 3] = [(1, 730.0), (2, 776.5), (4, 762.8)];
 
 /// Another compiler orders a loop a little differently; a call that is no longer inlined, a branch in every
 /// contact, or a number that goes through memory costs more than this.
@@ -26,13 +29,11 @@ const STEPS_VARIABLE: &str = "TRISTACK_COUNTED_STEPS";
 
 #[test]
 fn a_step_takes_as_many_instructions_as_it_did() {
-    if !cfg!(debug_assertions) {
-        return eprintln!("instructions are pinned for the profile of `cargo test` alone");
-    }
     if !valgrind_is_installed() {
         return;
     }
-    for (lanes, pinned) in PINNED {
+    let is_release = !cfg!(debug_assertions);
+    for (lanes, pinned) in if is_release { PINNED } else { PINNED_IN_TESTS } {
         let [short, long] = STEPS.map(|steps| instructions(lanes, steps));
         let steps = (STEPS[1] - STEPS[0]) as f64 * CASES as f64;
         let counted = (long - short) / steps;

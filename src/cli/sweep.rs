@@ -7,13 +7,17 @@ use super::options::{
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::write_atomically;
-use crate::crosscheck::{measure, plan};
+use crate::crosscheck::{Judgement, Measurement, measure, plan};
 use crate::engine::EngineName;
 use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_table};
+use crate::stack::{InvalidValue, Stack};
 use clap::Args;
 use std::path::PathBuf;
 
 const MOST_FRICTIONS: f64 = 1e4;
+/// Stacks that are planned and measured together. What their runs take of memory, some 10 kB a stack, is free
+/// again before the next.
+const STACKS_AT_ONCE: usize = 2000;
 
 /// A yield curve: yield force against floor friction
 ///
@@ -87,12 +91,33 @@ fn rounded(value: f64) -> f64 {
     (value * 1e12).round() / 1e12
 }
 
+impl Arguments {
+    /// Every stack of the sweep, its values checked.
+    fn stacks(&self) -> Result<Vec<Stack>, InvalidValue> {
+        let stiffnesses = self.stiffness.iter();
+        let stacks = stiffnesses.flat_map(|&stiffness| {
+            let frictions = self.mu.0.iter();
+            frictions.map(move |&mu| self.stack.stack(mu, stiffness))
+        });
+        stacks.collect()
+    }
+}
+
+/// Its row and notes alone are printed.
+fn without_runs(judgement: Judgement) -> Judgement {
+    Judgement {
+        runs: Vec::new(),
+        ..judgement
+    }
+}
+
 /// Measures the curve, prints and writes its rows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(arguments.engine)?;
     let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let participants = participants(&[arguments.engine])?;
+<<<<<<< HEAD
     let mut measurements = Vec::new();
     for &stiffness in &arguments.stiffness {
         for &mu in &arguments.mu.0 {
@@ -105,12 +130,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             });
         }
     }
+=======
+    let stacks = arguments.stacks()?;
+>>>>>>> bench
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let judgements = measure(&measurements, &participants, &settings, &reporter);
+    let mut judgements = Vec::new();
+    for stacks in stacks.chunks(STACKS_AT_ONCE) {
+        let planned = stacks.iter();
+        let planned = planned.map(|stack| plan(arguments.engine, stack, convention));
+        let planned: Vec<Measurement> = planned.collect();
+        let judged = measure(&planned, &participants, &settings, &reporter);
+        judgements.extend(judged.into_iter().map(without_runs));
+        if INTERRUPT.requested() {
+            break;
+        }
+    }
     drop(reporter);
     let (csv, json) = (
         crosscheck_csv(&judgements),
@@ -126,7 +164,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => json,
         Format::Csv => csv,
     })?;
-    Ok(conclude(&judgements, measurements.len(), &participants))
+    Ok(conclude(&judgements, stacks.len(), &participants))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What steps and yield forces cost, in every format.
 
-use super::number::{optional, rounded, significant};
+use super::number::{optional, plain};
 use super::table::Table;
 use crate::archive::machine;
 use crate::bench::{Contestant, PyramidCost, Scaling, ScalingRow, StackCost};
@@ -103,12 +103,12 @@ pub fn bench_table(rows: &[BenchRow]) -> Table {
         table.push(vec![
             row.engine.to_owned(),
             row.version.clone(),
-            optional(row.ratio, |ratio| significant(ratio, 3)),
-            significant(row.ns_per_step, 3),
-            significant(row.fastest_ns_per_step, 3),
-            significant(row.start_up_seconds, 2),
-            significant(row.yield_forces_per_second, 3),
-            optional(row.yield_force_ratio, |ratio| significant(ratio, 3)),
+            optional(row.ratio, plain),
+            plain(row.ns_per_step),
+            plain(row.fastest_ns_per_step),
+            plain(row.start_up_seconds),
+            plain(row.yield_forces_per_second),
+            optional(row.yield_force_ratio, plain),
             format!("{:.0e}", row.largest_error),
             optional(row.peak_megabytes, |megabytes| format!("{megabytes:.0}")),
         ]);
@@ -128,8 +128,8 @@ pub fn scaling_table(rows: &[ScalingRow]) -> Table {
         table.push(vec![
             row.cases.to_string(),
             row.cores.to_string(),
-            significant(row.ns_per_step, 3),
-            significant(row.speedup, 3),
+            plain(row.ns_per_step),
+            plain(row.speedup),
         ]);
     }
     table
@@ -201,9 +201,9 @@ pub fn pyramid_table(rows: &[PyramidRow]) -> Table {
         table.push(vec![
             row.cylinders.to_string(),
             row.engine.to_string(),
-            optional(row.ratio, rounded),
-            significant(row.ns_per_step, 3),
-            significant(row.fastest_ns_per_step, 3),
+            optional(row.ratio, plain),
+            plain(row.ns_per_step),
+            plain(row.fastest_ns_per_step),
         ]);
     }
     table

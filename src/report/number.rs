@@ -27,6 +27,12 @@ pub fn rounded(value: f64) -> String {
     }
 }
 
+/// `value` rounded to three significant digits, in plain notation without trailing zeros.
+pub fn plain(value: f64) -> String {
+    let value: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    value.to_string()
+}
+
 /// A relative deviation: sign, two digits, exponent.
 pub fn relative(value: f64) -> String {
     if value == 0.0 {
@@ -62,5 +68,7 @@ mod tests {
         assert_eq!(rounded(1e6), "1e6");
         assert_eq!(rounded(0.020_000_1), "0.02");
         assert_eq!(rounded(435.6891), "435.7");
+        assert_eq!(plain(2283.4), "2280");
+        assert_eq!(plain(8.6399), "8.64");
     }
 }

@@ -59,7 +59,7 @@ impl Axis {
         }
     }
 
-    /// An axis of things that are named elsewhere, one at each whole number.
+    /// An axis of things that are named elsewhere, one at each whole number from 1 on.
     pub fn bare(range: (f64, f64)) -> Self {
         Self {
             label: String::new(),

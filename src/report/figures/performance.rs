@@ -5,7 +5,8 @@ use super::panel::{Anchor, Panel, draw};
 use super::style::{EXACT, GUIDE, INK, Mark, Stroke};
 use crate::bench::{Scaling, ScalingRow};
 use crate::engine::EngineName;
-use crate::report::{BenchRow, significant};
+use crate::report::BenchRow;
+use crate::report::number::plain;
 
 const BAR: Stroke = Stroke::new(INK, 9.0, "");
 /// Distance of the words of a bar from the bar, in bars.
@@ -20,18 +21,14 @@ pub fn performance_svg(rows: &[BenchRow], scaling: &Scaling) -> String {
 fn costs(rows: &[BenchRow]) -> Panel {
     let largest = rows.iter().map(|row| row.ns_per_step).fold(1e3, f64::max);
     let time = Axis::log("ns per step and case", (1.0, 2.0 * largest));
-    let mut panel = Panel::new(time, Axis::bare((-0.6, rows.len() as f64 - 0.2)));
+    let mut panel = Panel::new(time, Axis::bare((0.4, rows.len() as f64 + 0.8)));
     for (place, row) in rows.iter().rev().enumerate() {
-        let y = place as f64;
+        let y = place as f64 + 1.0;
         panel.line(BAR, [(1.0, Some(y)), (row.ns_per_step, Some(y))]);
         let ratio = row.ratio.map_or_else(String::new, |ratio| {
-            format!(", {} times native-lanes", significant(ratio, 2))
+            format!(", {} times native-lanes", plain(ratio))
         });
-        let words = format!(
-            "{}: {} ns{ratio}",
-            row.engine,
-            significant(row.ns_per_step, 2)
-        );
+        let words = format!("{}: {} ns{ratio}", row.engine, plain(row.ns_per_step));
         panel.words(words, (1.2, y + ABOVE), Anchor::Start);
     }
     panel

@@ -117,22 +117,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let participants = participants(&[arguments.engine])?;
-<<<<<<< HEAD
-    let mut measurements = Vec::new();
-    for &stiffness in &arguments.stiffness {
-        for &mu in &arguments.mu.0 {
-            let stack = arguments.stack.stack(mu, stiffness)?;
-            let measurement = plan(arguments.engine, &stack, convention);
-            measurements.push(if arguments.shortcuts {
-                measurement.shortened()
-            } else {
-                measurement
-            });
-        }
-    }
-=======
     let stacks = arguments.stacks()?;
->>>>>>> bench
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
@@ -141,7 +126,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut judgements = Vec::new();
     for stacks in stacks.chunks(STACKS_AT_ONCE) {
         let planned = stacks.iter();
-        let planned = planned.map(|stack| plan(arguments.engine, stack, convention));
+        let planned = planned.map(|stack| {
+            let measurement = plan(arguments.engine, stack, convention);
+            match arguments.shortcuts {
+                true => measurement.shortened(),
+                false => measurement,
+            }
+        });
         let planned: Vec<Measurement> = planned.collect();
         let judged = measure(&planned, &participants, &settings, &reporter);
         judgements.extend(judged.into_iter().map(without_runs));

@@ -1,7 +1,7 @@
 //! What the stack of three costs: a step, a start, and a yield force.
 
 use super::contestant::{BenchError, Competitor, Contestant, TimedRuns, convention};
-use super::statistics::{fastest, median};
+use super::statistics::median;
 use crate::archive::Reading;
 use crate::crosscheck::{Measurement, extrapolate, plan};
 use crate::engine::{EngineName, Workplace};
@@ -228,11 +228,6 @@ impl StackCost {
     /// Wall time per step and case in nanoseconds: the median of the repeats.
     pub fn median(&self) -> f64 {
         median(&self.nanoseconds)
-    }
-
-    /// The same of the fastest repeat.
-    pub fn fastest(&self) -> f64 {
-        fastest(&self.nanoseconds)
     }
 
     /// Start and end in seconds: the median of the repeats.

@@ -19,8 +19,6 @@ pub struct BenchRow {
     pub version: String,
     /// Wall time per step and case in nanoseconds, the median of the runs.
     pub ns_per_step: f64,
-    /// The same of the fastest run.
-    pub fastest_ns_per_step: f64,
     /// Steps that were timed in each run, of all its cases together.
     pub steps: u64,
     /// How often it was measured.
@@ -47,7 +45,6 @@ pub fn bench_rows(costs: &[StackCost]) -> Vec<BenchRow> {
         engine: cost.contestant.as_str(),
         version: cost.version.clone(),
         ns_per_step: cost.median(),
-        fastest_ns_per_step: cost.fastest(),
         steps: cost.steps,
         runs: cost.nanoseconds.len(),
         ratio: lanes.map(|lanes| cost.median() / lanes.median()),
@@ -92,7 +89,6 @@ pub fn bench_table(rows: &[BenchRow]) -> Table {
         "version",
         "times native-lanes>",
         "ns per step and case>",
-        "fastest>",
         "start s>",
         "yield forces per s>",
         "times fewer>",
@@ -105,7 +101,6 @@ pub fn bench_table(rows: &[BenchRow]) -> Table {
             row.version.clone(),
             optional(row.ratio, plain),
             plain(row.ns_per_step),
-            plain(row.fastest_ns_per_step),
             plain(row.start_up_seconds),
             plain(row.yield_forces_per_second),
             optional(row.yield_force_ratio, plain),

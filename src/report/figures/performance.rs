@@ -61,7 +61,6 @@ mod tests {
             engine,
             version: String::new(),
             ns_per_step,
-            fastest_ns_per_step: ns_per_step,
             steps: 1,
             runs: 1,
             ratio: Some(ns_per_step / 10.0),

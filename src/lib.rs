@@ -12,6 +12,7 @@ pub mod probe;
 pub mod report;
 pub mod reproduction;
 pub mod stack;
+pub mod store;
 pub mod theory;
 pub mod trace;
 pub mod verdict;

@@ -9,15 +9,14 @@ use tristack::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
     judge_theory,
 };
-use tristack::crosscheck::{
-    Participant, Progress, Recorded, Settings, Store, Survey, measure, plan,
-};
+use tristack::crosscheck::{Participant, Progress, Recorded, Settings, Survey, measure, plan};
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::reproduction::{
     Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
     study_preparation,
 };
 use tristack::stack::{CRITICAL_FRICTION, Case, Convention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::store::Store;
 use tristack::theory::RegimeMap;
 
 /// How many displayed equations the paper numbers: in the text, in the End Matter, in the supplement.

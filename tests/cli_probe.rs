@@ -8,6 +8,7 @@ use insta::assert_snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tristack::archive::ProbeRecord;
+use tristack::archive::{seal, unseal};
 use tristack::engine::EngineName;
 use tristack::stack::ContactTest;
 use tristack::trace::MotionRow;
@@ -143,11 +144,17 @@ fn stored_probe(bench: &Bench) -> PathBuf {
 }
 
 /// As if the code had been told something else, say another damping, when it was probed.
-fn told_otherwise(probe: &Path) {
-    let text = fs::read_to_string(probe).expect("a probe");
+fn told_otherwise(probe: String) -> String {
     let hash = "\"told_hash\":\"";
-    assert!(text.contains(hash));
-    fs::write(probe, text.replacen(hash, &format!("{hash}0"), 1)).expect("a file");
+    assert!(probe.contains(hash));
+    probe.replacen(hash, &format!("{hash}0"), 1)
+}
+
+/// What the store keeps behind its digest.
+fn unsealed(path: &Path) -> String {
+    let sealed = fs::read(path).expect("a probe");
+    let content = unseal(path, &sealed).expect("its digest");
+    String::from_utf8(content.to_vec()).expect("text")
 }
 
 #[test]
@@ -157,10 +164,11 @@ fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
     let line = "probe --engines yade --format csv";
     let first = standard_output(&mut bench.tristack(line));
     let stored = stored_probe(&bench);
-    let kept = fs::read_to_string(&stored).expect("a probe");
-    told_otherwise(&stored);
+    let kept = unsealed(&stored);
+    let other = seal(told_otherwise(kept.clone()).as_bytes());
+    fs::write(&stored, other).expect("a file");
     assert_eq!(standard_output(&mut bench.tristack(line)), first);
-    let anew = fs::read_to_string(&stored).expect("a probe");
+    let anew = unsealed(&stored);
     let answers = |text: &str| json(text)["answers"].clone();
     assert_eq!(answers(&anew), answers(&kept));
 }
@@ -171,8 +179,8 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
     let probes = bench.path("reference/probes");
     fs::create_dir_all(&probes).expect("a directory");
     let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
-    fs::copy(recorded, probes.join("lammps.json")).expect("a copy");
-    told_otherwise(&probes.join("lammps.json"));
+    let recorded = fs::read_to_string(recorded).expect("a probe");
+    fs::write(probes.join("lammps.json"), told_otherwise(recorded)).expect("a copy");
     let mut command = bench.tristack("probe");
     let output = command
         .env("TRISTACK_REFERENCE", bench.path("reference"))

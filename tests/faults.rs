@@ -548,7 +548,7 @@ fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
     let pid_file = bench.path("pid");
     replay::install(&bench, |case| {
         if is_victim(case) {
-            Disturbance::Instead(". ../../../../hang.sh")
+            Disturbance::Instead(". ../../../../../hang.sh")
         } else {
             Disturbance::None
         }

@@ -8,6 +8,7 @@ use tristack::archive::Run;
 use tristack::crosscheck::plan;
 use tristack::engine::{EngineName, Failure, Interrupt, Workplace};
 use tristack::stack::{Case, Convention, Stack};
+use tristack::store::Store;
 
 /// Some 1e7 steps each.
 fn long_cases(count: usize) -> Vec<Case> {
@@ -67,9 +68,41 @@ fn an_interrupted_run_is_taken_up_where_it_was_and_ends_with_the_same_bits() {
                 [resumed, undisturbed].map(|outcome| &outcome.as_ref().expect("a run").trace);
             assert!(resumed == undisturbed);
         }
-        let left = fs::read_dir(other.path()).expect("a directory").count();
-        assert_eq!(left, 0, "a finished run needs no checkpoint");
     }
+}
+
+#[test]
+fn a_finished_run_needs_no_checkpoint_once_it_is_kept() {
+    let root = tempfile::tempdir().expect("a directory");
+    let store = Store::open(root.path()).expect("a store");
+    let cases = long_cases(1);
+    let checkpoints = store.checkpoint_directory();
+    let kept = || fs::read_dir(&checkpoints).expect("a directory").count();
+    fs::create_dir_all(&checkpoints).expect("a directory");
+    outcomes(&cases, &checkpoints, 100_000);
+    let (finished, _) = outcomes(&cases, &checkpoints, u64::MAX);
+    assert_eq!(kept(), 1, "it may be lost until it is kept");
+    store
+        .put(finished[0].as_ref().expect("a run"))
+        .expect("it is kept");
+    assert_eq!(kept(), 0);
+}
+
+#[test]
+fn a_single_flipped_bit_in_a_checkpoint_is_noticed() {
+    let cases = long_cases(1);
+    let directory = tempfile::tempdir().expect("a directory");
+    outcomes(&cases, directory.path(), 100_000);
+    for entry in fs::read_dir(directory.path()).expect("a directory") {
+        let path = entry.expect("an entry").path();
+        let mut content = fs::read(&path).expect("a checkpoint");
+        let digit = content.iter().rposition(u8::is_ascii_digit);
+        content[digit.expect("a number")] ^= 1;
+        fs::write(&path, content).expect("it can be written");
+    }
+    let (again, first) = outcomes(&cases, directory.path(), u64::MAX);
+    assert!(again[0].is_ok());
+    assert!(first < 100_000, "from the start");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 use tristack::archive::{Identity, Provenance, Run};
 use tristack::crosscheck::{
-    FLOOR, Judgement, Participant, Progress, Recorded, Settings, Store, measure, plan, probe_all,
+    FLOOR, Judgement, Participant, Progress, Recorded, Settings, measure, plan, probe_all,
 };
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
@@ -11,6 +11,7 @@ use tristack::dem::{
 };
 use tristack::engine::{Batching, Engine, EngineName, Failure, Finished, Interrupt, Workplace};
 use tristack::stack::{Case, ContactTest, Convention, Stack};
+use tristack::store::Store;
 use tristack::trace::{Motion, Trace};
 use tristack::verdict::Verdict;
 

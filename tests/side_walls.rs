@@ -5,13 +5,14 @@ mod common;
 
 use common::{Bench, json, standard_error, standard_output};
 use tristack::archive::Run;
-use tristack::crosscheck::{Progress, Recorded, Settings, Store, Workload};
+use tristack::crosscheck::{Progress, Recorded, Settings, Workload};
 use tristack::dem::compress_stack;
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::reproduction::{
     Estimator, PreparationStudy, critical_pushes, plan_preparation, study_preparation,
 };
 use tristack::stack::{Case, Preparation, Stack};
+use tristack::store::Store;
 use tristack::theory::{critical_push, pushed_slip_force};
 
 static INTERRUPT: Interrupt = Interrupt::new();

@@ -3,13 +3,14 @@
 use std::path::Path;
 use tristack::archive::Run;
 use tristack::crosscheck::{
-    Branch, Participant, Progress, Recorded, Settings, Store, TIME_STEPS, TrajectoryJudgement,
-    Twin, measure_trajectories, plan_trajectory, trajectory_stack,
+    Branch, Participant, Progress, Recorded, Settings, TIME_STEPS, TrajectoryJudgement, Twin,
+    measure_trajectories, plan_trajectory, trajectory_stack,
 };
 use tristack::engine::{EngineName, Failure, Interrupt};
 use tristack::stack::{
     Case, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
 };
+use tristack::store::Store;
 use tristack::verdict::Verdict;
 
 static INTERRUPT: Interrupt = Interrupt::new();

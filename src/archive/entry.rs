@@ -1,13 +1,18 @@
 //! Reading and writing of entries; every write is a rename of something complete.
 
 use super::Provenance;
+use super::checksums::{CHECKSUMS, check, checksums};
+use super::draft::{parent, sync_directory, write_synced};
 use crate::stack::{Case, CaseError};
 use crate::trace::{SeriesError, Trace};
-use std::fs::{self, File};
-use std::io::{BufReader, Write};
-use std::os::unix::fs::PermissionsExt;
+use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
+use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+const CASE: &str = "case.json";
+const SERIES: &str = "series.csv";
+const PROVENANCE: &str = "provenance.json";
 
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +37,16 @@ pub enum ArchiveError {
         path: PathBuf,
         /// What the system says.
         source: std::io::Error,
+    },
+    /// A file is not the one that was written.
+    #[error("{}: its SHA-256 is {found}, but was {expected} when it was written", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Digest of what is there.
+        found: String,
+        /// Digest of what was written.
+        expected: String,
     },
     /// `case.json` is not a case.
     #[error(transparent)]
@@ -78,12 +93,21 @@ impl ArchiveError {
 #[derive(Debug, Clone)]
 pub struct Archive {
     root: PathBuf,
+    drafts: PathBuf,
 }
 
 impl Archive {
     /// An archive at `root`, which need not exist yet.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into() }
+        let root = root.into();
+        let drafts = root.clone();
+        Self { root, drafts }
+    }
+
+    /// The same archive with its drafts in `drafts`, a directory in the same file system.
+    pub fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
+        let drafts = drafts.into();
+        Self { drafts, ..self }
     }
 
     /// Where the archive is.
@@ -100,9 +124,16 @@ impl Archive {
         if !directory.is_dir() {
             return Ok(None);
         }
-        let case = Case::read(&directory.join("case.json"))?;
-        let trace = read_series(&directory.join("series.csv"), &case)?;
-        let provenance = read_provenance(&directory.join("provenance.json"))?;
+        let checksums = read(&directory.join(CHECKSUMS))?;
+        let checksums = String::from_utf8_lossy(&checksums);
+        let checked = |file: &str| {
+            let content = read(&directory.join(file))?;
+            check(&checksums, &directory, file, &content)?;
+            Ok::<_, ArchiveError>(content)
+        };
+        let case = Case::parse(&directory.join(CASE), &checked(CASE)?)?;
+        let trace = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
+        let provenance = parse_provenance(&directory.join(PROVENANCE), &checked(PROVENANCE)?)?;
         Ok(Some(Run {
             case,
             trace,
@@ -113,42 +144,82 @@ impl Archive {
     /// Writes `run` as the entry `name`, in place of an older one.
     ///
     /// # Errors
-    /// If the file system refuses; nothing partial is left under `name`.
+    /// If the file system refuses; what is under `name` is then what was there before.
     pub fn save(&self, name: &Path, run: &Run) -> Result<(), ArchiveError> {
         let target = self.root.join(name);
-        let parent = target.parent().unwrap_or(&self.root);
-        fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
+        let parent = parent(&target);
+        fs::create_dir_all(&parent).map_err(ArchiveError::writing(&parent))?;
         let draft = tempfile::Builder::new()
             .prefix(".draft-")
-            .tempdir_in(parent)
-            .map_err(ArchiveError::writing(parent))?;
-        let files = [
-            ("case.json", run.case.to_json().into_bytes()),
-            ("series.csv", run.trace.to_csv()),
-            ("provenance.json", run.provenance.to_json().into_bytes()),
-        ];
-        for (file, content) in files {
-            let path = draft.path().join(file);
-            fs::write(&path, content).map_err(ArchiveError::writing(&path))?;
+            .tempdir_in(&self.drafts)
+            .map_err(ArchiveError::writing(&self.drafts))?;
+        write_entry(draft.path(), run)?;
+        put_in_place(draft.path(), &target)?;
+        // Removes what was there before, if anything was.
+        drop(draft);
+        sync_directory(&parent)
+    }
+
+    /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn move_away(&self, name: &Path, target: &Path) -> Result<(), ArchiveError> {
+        let parent = parent(target);
+        fs::create_dir_all(&parent).map_err(ArchiveError::writing(&parent))?;
+        match fs::rename(self.root.join(name), target) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            renamed => renamed.map_err(ArchiveError::writing(target)),
         }
-        let old = draft.path().with_extension("old");
-        if target.exists() {
-            fs::rename(&target, &old).map_err(ArchiveError::writing(&target))?;
-        }
-        fs::rename(draft.path(), &target).map_err(ArchiveError::writing(&target))?;
-        // The draft is now the entry; there is nothing left to clean up.
-        let _ = draft.keep();
-        if old.exists() {
-            fs::remove_dir_all(&old).map_err(ArchiveError::writing(&old))?;
-        }
-        Ok(())
     }
 }
 
-fn read_series(path: &Path, case: &Case) -> Result<Trace, ArchiveError> {
-    let file = File::open(path).map_err(ArchiveError::reading(path))?;
+fn write_entry(directory: &Path, run: &Run) -> Result<(), ArchiveError> {
+    let files = [
+        (CASE, run.case.to_json().into_bytes()),
+        (SERIES, run.trace.to_csv()),
+        (PROVENANCE, run.provenance.to_json().into_bytes()),
+    ];
+    for (name, content) in &files {
+        write_synced(&directory.join(name), content)?;
+    }
+    let sums = checksums(&files);
+    write_synced(&directory.join(CHECKSUMS), sums.as_bytes())?;
+    sync_directory(directory)
+}
+
+/// Renames `draft` to `target`; an older `target` takes the place of the draft in the same instant.
+fn put_in_place(draft: &Path, target: &Path) -> Result<(), ArchiveError> {
+    let rename = |flags| renameat2(AT_FDCWD, draft, AT_FDCWD, target, flags);
+    let renamed = match rename(RenameFlags::RENAME_NOREPLACE) {
+        Err(nix::Error::EEXIST) => rename(RenameFlags::RENAME_EXCHANGE).map_err(Into::into),
+        // Network file systems know plain renames only.
+        Err(nix::Error::EINVAL) => put_in_place_by_steps(draft, target),
+        renamed => renamed.map_err(Into::into),
+    };
+    renamed.map_err(ArchiveError::writing(target))
+}
+
+/// Renames `draft` to `target` once an older `target` is out of the way.
+fn put_in_place_by_steps(draft: &Path, target: &Path) -> std::io::Result<()> {
+    let old = draft.with_extension("old");
+    if target.exists() {
+        fs::rename(target, &old)?;
+    }
+    fs::rename(draft, target)?;
+    if old.exists() {
+        fs::remove_dir_all(&old)?;
+    }
+    Ok(())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, ArchiveError> {
+    fs::read(path).map_err(ArchiveError::reading(path))
+}
+
+fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Trace, ArchiveError> {
     let schedule = case.protocol.schedule();
-    Trace::read(BufReader::new(file), &schedule, case.protocol.time_step).map_err(|source| {
+    Trace::read(content, &schedule, case.protocol.time_step).map_err(|source| {
         ArchiveError::Series {
             path: path.to_owned(),
             source,
@@ -156,34 +227,42 @@ fn read_series(path: &Path, case: &Case) -> Result<Trace, ArchiveError> {
     })
 }
 
-fn read_provenance(path: &Path) -> Result<Provenance, ArchiveError> {
-    let text = fs::read_to_string(path).map_err(ArchiveError::reading(path))?;
-    serde_json::from_str(&text).map_err(|error| ArchiveError::Provenance {
+fn parse_provenance(path: &Path, content: &[u8]) -> Result<Provenance, ArchiveError> {
+    serde_json::from_slice(content).map_err(|error| ArchiveError::Provenance {
         path: path.to_owned(),
         message: error.to_string(),
     })
 }
 
-/// Writes `content` to `path` such that a reader sees the old file or the new one, never a part.
-///
-/// # Errors
-/// If the file system refuses; `path` is then as it was.
-pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), ArchiveError> {
-    let parent = path
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty());
-    let parent = parent.unwrap_or(Path::new("."));
-    // As readable as any other file of this user, not as a temporary one.
-    let mut draft = tempfile::Builder::new()
-        .permissions(fs::Permissions::from_mode(0o666))
-        .tempfile_in(parent)
-        .map_err(ArchiveError::writing(path))?;
-    draft
-        .write_all(content)
-        .and_then(|()| draft.as_file().sync_all())
-        .map_err(ArchiveError::writing(path))?;
-    draft
-        .persist(path)
-        .map_err(|error| ArchiveError::writing(path)(error.error))?;
-    Ok(())
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn directory_with(root: &Path, name: &str, content: &str) -> PathBuf {
+        let directory = root.join(name);
+        fs::create_dir(&directory).unwrap();
+        fs::write(directory.join("file"), content).unwrap();
+        directory
+    }
+
+    fn content(directory: &Path) -> String {
+        fs::read_to_string(directory.join("file")).unwrap()
+    }
+
+    #[test]
+    fn an_older_entry_is_replaced_where_renames_can_exchange_and_where_they_cannot() {
+        let root = tempfile::tempdir().unwrap();
+        let target = root.path().join("entry");
+        let first = directory_with(root.path(), "first", "first");
+        put_in_place(&first, &target).unwrap();
+        let second = directory_with(root.path(), "second", "second");
+        put_in_place(&second, &target).unwrap();
+        assert_eq!(content(&target), "second");
+        assert_eq!(content(&second), "first");
+        fs::remove_dir_all(&second).unwrap();
+        let third = directory_with(root.path(), "third", "third");
+        put_in_place_by_steps(&third, &target).unwrap();
+        assert_eq!(content(&target), "third");
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+    }
 }

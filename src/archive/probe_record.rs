@@ -56,8 +56,16 @@ impl ProbeRecord {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(ArchiveError::reading(path))?,
         };
+        Self::parse(path, &text).map(Some)
+    }
+
+    /// Reads a record from the content of the file at `path`.
+    ///
+    /// # Errors
+    /// If it is damaged.
+    pub fn parse(path: &Path, content: &[u8]) -> Result<Self, ArchiveError> {
         let record: Self =
-            serde_json::from_slice(&text).map_err(|error| ArchiveError::Provenance {
+            serde_json::from_slice(content).map_err(|error| ArchiveError::Provenance {
                 path: path.to_owned(),
                 message: error.to_string(),
             })?;
@@ -69,7 +77,12 @@ impl ProbeRecord {
                 }
             })?;
         }
-        Ok(Some(record))
+        Ok(record)
+    }
+
+    /// JSON on one line.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("plain data has a JSON form") + "\n"
     }
 
     /// Writes the record to `path`.
@@ -80,8 +93,7 @@ impl ProbeRecord {
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
         }
-        let json = serde_json::to_string(self).expect("plain data has a JSON form");
-        write_atomically(path, (json + "\n").as_bytes())
+        write_atomically(path, self.to_json().as_bytes())
     }
 
     /// The outcomes of `tests`, in their order, if every one of them is there.

@@ -8,6 +8,7 @@ use crate::engine::{EngineName, Failure, FailureKind};
 use crate::report::PdfError;
 use crate::reproduction::ReproductionError;
 use crate::stack::{CaseError, InvalidValue};
+use crate::store::StoreError;
 use crate::verdict::Verdict;
 use thiserror::Error;
 
@@ -80,6 +81,9 @@ pub enum CliError {
     /// Something cannot be written or read.
     #[error(transparent)]
     Files(#[from] ArchiveError),
+    /// The store cannot be used.
+    #[error(transparent)]
+    Store(#[from] StoreError),
     /// An engine was asked for by name, but is not installed.
     #[error("{0} is not installed: its program is not in the search path; install it with: {hint}", hint = .0.installation_hint())]
     MissingEngine(EngineName),

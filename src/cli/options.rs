@@ -2,12 +2,13 @@
 
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::ArchiveError;
-use crate::crosscheck::{Participant, Recorded, Settings, Store};
+use crate::crosscheck::{Participant, Recorded, Settings};
 use crate::engine::EngineName;
 use crate::stack::{
     CRITICAL_FRICTION, Convention, InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO,
     Stack,
 };
+use crate::store::Store;
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -11,7 +11,6 @@ mod reading;
 mod recorded;
 mod regimes;
 mod schedule;
-mod store;
 mod touch;
 mod trajectory;
 mod twin;
@@ -36,7 +35,6 @@ pub use regimes::{
     survey,
 };
 pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
-pub use store::Store;
 pub use touch::gentle_speed;
 pub use trajectory::{
     Branch, Comparison, DEVIATIONS, Distance, Documented, DocumentedOrder, FORCE_BAR, Milestones,

@@ -99,7 +99,11 @@ pub fn record_probe(
             Ok(Some(record)) if is_current(&record, who.name) => return Ok(record),
             Ok(_) => {}
             Err(error) => {
-                progress.warn(&format!("damaged probe in the store, made anew: {error}"));
+                let aside = settings.store.put_probe_aside(&address)?;
+                progress.warn(&format!(
+                    "damaged probe in the store, made anew: {error}; it is now {}",
+                    aside.display()
+                ));
             }
         }
     }
@@ -131,8 +135,8 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
     let prefix = format!("{}-probe-", engine.name());
     let directory = tempfile::Builder::new()
         .prefix(&prefix)
-        .tempdir_in(&work)
-        .map_err(ArchiveError::writing(&work))?;
+        .tempdir_in(work)
+        .map_err(ArchiveError::writing(work))?;
     let name = engine.name();
     let mut answers: Vec<Answer> = Vec::new();
     let mut round = 0;

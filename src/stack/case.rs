@@ -95,13 +95,18 @@ impl Case {
 
     /// Reads and validates a case from a `.toml` or `.json` file.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Unreadable {
+        let content = std::fs::read(path).map_err(|source| CaseError::Unreadable {
             path: path.to_owned(),
             source,
         })?;
+        Self::parse(path, &content)
+    }
+
+    /// Reads and validates a case from the content of the file at `path`, whose name says how it is written.
+    pub fn parse(path: &Path, content: &[u8]) -> Result<Self, CaseError> {
         let parsed = match path.extension().and_then(|extension| extension.to_str()) {
-            Some("toml") => toml::from_str(&text).map_err(|error| error.to_string()),
-            Some("json") => serde_json::from_str(&text).map_err(|error| error.to_string()),
+            Some("toml") => toml::from_slice(content).map_err(|error| error.to_string()),
+            Some("json") => serde_json::from_slice(content).map_err(|error| error.to_string()),
             _ => {
                 return Err(CaseError::UnknownFormat {
                     path: path.to_owned(),

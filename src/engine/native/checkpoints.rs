@@ -1,6 +1,6 @@
 //! Native runs that are under way, on disk, so that an interruption loses little.
 
-use crate::archive::write_atomically;
+use crate::archive::{seal, unseal, write_atomically_via};
 use crate::dem::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -20,31 +20,32 @@ pub(super) struct Unfinished {
 }
 
 /// The unfinished runs below a directory, by the address that each will have when it is finished.
+///
+/// Whoever keeps the finished run removes them.
 pub(super) struct Checkpoints<'a> {
     directory: &'a Path,
+    drafts: &'a Path,
 }
 
 impl<'a> Checkpoints<'a> {
-    pub(super) fn new(directory: &'a Path) -> Self {
-        Self { directory }
+    /// In `directory`, with drafts in another of the same file system.
+    pub(super) fn new(directory: &'a Path, drafts: &'a Path) -> Self {
+        Self { directory, drafts }
     }
 
     /// A run that cannot be kept goes on all the same: it only has more to lose.
     pub(super) fn keep(&self, address: &str, run: &Unfinished) {
         let content = serde_json::to_vec(run).expect("plain data has a JSON form");
-        let _ = std::fs::create_dir_all(self.directory)
-            .map_err(|_| ())
-            .and_then(|()| write_atomically(&self.path(address), &content).map_err(|_| ()));
+        let _ = std::fs::create_dir_all(self.directory);
+        let _ = write_atomically_via(self.drafts, &self.path(address), &seal(&content));
     }
 
     /// The run under `address`, if it was kept; one that cannot be read starts anew.
     pub(super) fn take_up(&self, address: &str) -> Option<Unfinished> {
-        let content = std::fs::read(self.path(address)).ok()?;
-        serde_json::from_slice(&content).ok()
-    }
-
-    pub(super) fn drop(&self, address: &str) {
-        let _ = std::fs::remove_file(self.path(address));
+        let path = self.path(address);
+        let sealed = std::fs::read(&path).ok()?;
+        let content = unseal(&path, &sealed).ok()?;
+        serde_json::from_slice(content).ok()
     }
 
     fn path(&self, address: &str) -> PathBuf {

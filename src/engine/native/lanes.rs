@@ -44,7 +44,9 @@ impl<'a, 'f> Lanes<'a, 'f> {
             waiting: indices.into(),
             workplace,
             finished,
-            checkpoints: workplace.checkpoints.map(Checkpoints::new),
+            checkpoints: workplace
+                .checkpoints
+                .map(|directory| Checkpoints::new(directory, workplace.directory)),
             open: BTreeMap::new(),
             shared: now,
             last_finished: now,
@@ -129,9 +131,6 @@ impl RunQueue for Lanes<'_, '_> {
         (self.finished)(index, run);
         if complete {
             self.last_finished = Instant::now();
-            if let Some(checkpoints) = &self.checkpoints {
-                checkpoints.drop(&self.address(index));
-            }
         }
     }
 }

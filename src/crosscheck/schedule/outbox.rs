@@ -1,0 +1,75 @@
+//! Keeps finished runs in the store while others are still being made: writing waits for the disk, not for a core.
+
+use super::Progress;
+use crate::archive::Run;
+use crate::engine::EngineName;
+use crate::store::Store;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Several, because the disk syncs many files in hardly more time than one.
+const WRITERS: usize = 8;
+/// More finished runs than this are not held in memory.
+const CAPACITY: usize = 64;
+
+/// Runs that this program has said it will make; it takes that back when the last of them is settled.
+pub(super) struct Claim<'a> {
+    pub(super) store: &'a Store,
+    pub(super) progress: &'a dyn Progress,
+    pub(super) addresses: Vec<String>,
+}
+
+impl Drop for Claim<'_> {
+    fn drop(&mut self) {
+        if let Err(error) = self.store.release(&self.addresses) {
+            let message = format!("other programs may wait for this one to end: {error}");
+            self.progress.warn(&message);
+        }
+    }
+}
+
+/// A finished run on its way into the store.
+pub(super) struct Outgoing<'a> {
+    pub(super) engine: EngineName,
+    pub(super) order: usize,
+    pub(super) run: Run,
+    pub(super) claim: Arc<Claim<'a>>,
+}
+
+/// Where finished runs are handed in.
+pub(super) type Outbox<'a> = SyncSender<Outgoing<'a>>;
+
+/// Calls `work` with an outbox. Every run handed in is kept and then given to `kept`, before this returns.
+pub(super) fn with_outbox<'a>(
+    kept: impl Fn(Outgoing<'a>) + Sync,
+    work: impl FnOnce(&Outbox<'a>) + Send,
+) {
+    let (outbox, inbox) = sync_channel(CAPACITY);
+    let inbox = Mutex::new(inbox);
+    std::thread::scope(|threads| {
+        for _ in 0..WRITERS {
+            threads.spawn(|| {
+                while let Some(outgoing) = next(&inbox) {
+                    keep(&outgoing);
+                    kept(outgoing);
+                }
+            });
+        }
+        work(&outbox);
+        drop(outbox);
+    });
+}
+
+fn next<'a>(inbox: &Mutex<Receiver<Outgoing<'a>>>) -> Option<Outgoing<'a>> {
+    let inbox = inbox.lock().unwrap_or_else(PoisonError::into_inner);
+    inbox.recv().ok()
+}
+
+fn keep(outgoing: &Outgoing) {
+    let Claim {
+        store, progress, ..
+    } = outgoing.claim.as_ref();
+    if let Err(error) = store.put(&outgoing.run) {
+        progress.warn(&format!("a finished run could not be kept: {error}"));
+    }
+}

@@ -5,6 +5,7 @@ mod crosscheck;
 mod engines;
 mod error;
 mod explain;
+mod guard;
 mod options;
 mod predict;
 mod probe;
@@ -20,7 +21,7 @@ mod trajectories;
 pub use error::{CliError, ExitStatus};
 
 use crate::archive::ArchiveError;
-use crate::engine::Interrupt;
+use crate::engine::{GUARD_COMMAND, Interrupt};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
@@ -56,6 +57,8 @@ enum Command {
     Report(report::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
+    #[command(name = GUARD_COMMAND, hide = true)]
+    Guard(guard::Arguments),
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -67,7 +70,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Ok(cli) => cli,
         Err(error) => return options::report_usage(&error),
     };
-    listen_for_interrupts();
+    if !matches!(cli.command, Command::Guard(_)) {
+        listen_for_interrupts();
+    }
     match cli.command {
         Command::Theory(arguments) => theory::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
@@ -81,12 +86,22 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Report(arguments) => report::run(&arguments),
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
+        Command::Guard(arguments) => guard::run(&arguments),
     }
 }
 
-/// An interrupt stops the engines; what is done is printed, and kept in the store.
+/// An interrupt stops the engines; what is done is printed, and kept in the store. A second one ends the program
+/// at once, and the guards of the engines with it.
 fn listen_for_interrupts() {
-    if let Err(error) = ctrlc::set_handler(|| INTERRUPT.request()) {
+    let interrupted = || {
+        if INTERRUPT.request() {
+            std::process::exit(ExitStatus::Interrupted.code().into());
+        }
+        eprintln!(
+            "interrupted: finished runs are kept; a second interrupt ends everything at once"
+        );
+    };
+    if let Err(error) = ctrlc::set_handler(interrupted) {
         eprintln!("warning: interrupts will end the program at once: {error}");
     }
 }

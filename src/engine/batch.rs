@@ -110,6 +110,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn prepare(&self) -> Result<(), FailureKind> {
+        self.engine.installation.check_unchanged()?;
         let adapter = self.engine.adapter;
         for (index, task) in self.tasks.iter().enumerate() {
             let accepted = adapter.name.check_convention(task.convention());
@@ -144,9 +145,14 @@ impl<'a, T: Task> Batch<'a, T> {
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
         command[0] = self.engine.installation.program.clone().into_os_string();
         let directory = self.directory.clone();
+        let home = tempfile::Builder::new()
+            .prefix(".home-")
+            .tempdir_in(&directory)
+            .map_err(FailureKind::Start)?;
         let job = Job {
             command: &command,
             directory: &directory,
+            home: &std::path::absolute(home.path()).map_err(FailureKind::Start)?,
             environment: self.engine.adapter.environment,
             time_limit: self.time_limit(workplace),
             interrupt: workplace.interrupt,
@@ -188,12 +194,15 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn read(&mut self, index: usize, report: Report<T>) {
         let directory = self.task_directory(index);
-        match (self.deck.read)(&directory, &self.tasks[index]) {
+        let outcome = (self.deck.read)(&directory, &self.tasks[index]).map_err(FailureKind::Series);
+        // A program that was replaced meanwhile may not be the one that answered.
+        let unchanged = self.engine.installation.check_unchanged();
+        match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
                 let seconds = self.last_report.elapsed().as_secs_f64();
                 self.report(index, Ok((outcome, seconds)), report);
             }
-            Err(error) => self.fail(index, FailureKind::Series(error), report),
+            Err(kind) => self.fail(index, kind, report),
         }
     }
 

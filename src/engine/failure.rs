@@ -21,6 +21,9 @@ pub enum FailureKind {
     /// The program could not be started.
     #[error("cannot start the program: {0}")]
     Start(std::io::Error),
+    /// The program is not the one whose version and hash were taken at the start.
+    #[error("{} was replaced while it was in use; start again", .0.display())]
+    Replaced(PathBuf),
     /// The program ended before the case was done.
     #[error("the program ended without a series: {0}")]
     Ended(ExitStatus),

@@ -1,9 +1,10 @@
 //! Which binary an engine is, and which version.
 
-use super::Environment;
-use super::process::{Ending, Interrupt, Job, STANDARD_OUTPUT, run};
+use super::process::{self, Interrupt, Job};
+use super::{Environment, FailureKind};
 use crate::stack::sha256_hex;
 use std::ffi::OsString;
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -21,6 +22,32 @@ pub struct Installation {
     pub package: Option<String>,
     /// SHA-256 of the program file.
     pub hash: String,
+    /// What changes when somebody writes to the file or puts another in its place.
+    stamp: Stamp,
+}
+
+impl Installation {
+    /// Refuses a program that has been replaced since it was found.
+    ///
+    /// # Errors
+    /// It names the program.
+    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+        let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
+        let replaced = || FailureKind::Replaced(self.program.clone());
+        unchanged.then_some(()).ok_or_else(replaced)
+    }
+}
+
+/// Device and number of a file, and when it last changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stamp([i64; 4]);
+
+impl Stamp {
+    fn of(path: &Path) -> Option<Self> {
+        let data = std::fs::metadata(path).ok()?;
+        let place = [data.dev() as i64, data.ino() as i64];
+        Some(Self([place[0], place[1], data.ctime(), data.ctime_nsec()]))
+    }
 }
 
 /// How a program says its version.
@@ -46,10 +73,12 @@ pub fn find(
         Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
         _ => own_version(&program, question, environment),
     };
+    let stamp = Stamp::of(&program)?;
     let hash = sha256_hex(&std::fs::read(&program).ok()?);
     Some(Installation {
         program,
         hash,
+        stamp,
         version,
         package: package.map(|(name, version)| format!("{name} {version}")),
     })
@@ -62,16 +91,10 @@ fn in_search_path(program: &str) -> Option<PathBuf> {
         .find(|candidate| is_executable(candidate))
 }
 
-#[cfg(unix)]
 fn is_executable(path: &Path) -> bool {
     use std::os::unix::fs::PermissionsExt;
     let metadata = std::fs::metadata(path);
     metadata.is_ok_and(|metadata| metadata.is_file() && metadata.permissions().mode() & 0o111 != 0)
-}
-
-#[cfg(not(unix))]
-fn is_executable(path: &Path) -> bool {
-    path.is_file()
 }
 
 /// Debian package and version that the program, links followed, belongs to.
@@ -116,24 +139,16 @@ fn own_version(program: &Path, question: &VersionQuestion, environment: Environm
 
 /// What a command that succeeds writes to its standard output.
 fn answer(command: Vec<OsString>, environment: Environment) -> Option<String> {
-    let directory = tempfile::tempdir().ok()?;
-    let ending = run(
-        &Job {
-            command: &command,
-            directory: directory.path(),
-            environment,
-            time_limit: LONGEST_ANSWER,
-            interrupt: &Interrupt::new(),
-        },
-        || false,
-    );
-    let Ok(Ending::Exited(status)) = ending else {
-        return None;
-    };
-    let text = std::fs::read(directory.path().join(STANDARD_OUTPUT)).ok()?;
-    status
-        .success()
-        .then(|| String::from_utf8_lossy(&text).into_owned())
+    let text = process::answer(&Job {
+        command: &command,
+        directory: Path::new("/"),
+        // Nothing is to be left behind.
+        home: Path::new("/nonexistent"),
+        environment,
+        time_limit: LONGEST_ANSWER,
+        interrupt: &Interrupt::new(),
+    })?;
+    Some(String::from_utf8_lossy(&text).into_owned())
 }
 
 #[cfg(test)]

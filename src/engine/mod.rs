@@ -1,9 +1,11 @@
 //! Whoever turns a case into a time series: the native DEM, and the external codes behind one runner.
 
 mod batch;
+mod capture;
 mod deck;
 mod external;
 mod failure;
+mod guard;
 mod installation;
 mod lammps;
 mod liggghts;
@@ -19,6 +21,7 @@ pub use deck::{
     DeckParameters, PreparationParameters, ProbeParameters, PyramidParameters, placed_cylinders,
 };
 pub use failure::{Failure, FailureKind};
+pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
 pub use process::Interrupt;
 pub use task::{ParameterFile, Task};
 

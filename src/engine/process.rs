@@ -1,7 +1,9 @@
-//! The one runner of foreign programs: a process group of its own, no shell, a time limit, output in files.
+//! The one runner of foreign programs: a process group of its own, no shell, a time limit, bounded output.
 
+use super::capture::Capture;
+use super::guard;
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
@@ -9,6 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
+/// A guard that takes longer to clean up is killed.
+const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 
 /// Names of the files that receive what the program writes.
 pub const STANDARD_OUTPUT: &str = "stdout.txt";
@@ -25,9 +29,9 @@ impl Interrupt {
         Self(AtomicBool::new(false))
     }
 
-    /// Asks everything to stop.
-    pub fn request(&self) {
-        self.0.store(true, Ordering::SeqCst);
+    /// Asks everything to stop; says whether somebody had asked before.
+    pub fn request(&self) -> bool {
+        self.0.swap(true, Ordering::SeqCst)
     }
 
     /// Whether everything should stop.
@@ -42,6 +46,8 @@ pub struct Job<'a> {
     pub command: &'a [OsString],
     /// Its working directory.
     pub directory: &'a Path,
+    /// Its home, and the place of its temporary files.
+    pub home: &'a Path,
     /// Further variables of its otherwise minimal environment.
     pub environment: &'a [(&'a str, &'a str)],
     /// Longest time without progress.
@@ -61,16 +67,35 @@ pub enum Ending {
     Interrupted,
 }
 
-/// Runs `job` to its end. `progress` is called while it runs and says whether something was finished,
-/// which starts the time limit anew.
+/// Runs `job` to its end, with its output in files of its directory. `progress` is called while it runs and says
+/// whether something was finished, which starts the time limit anew.
 ///
 /// # Errors
 /// If the program cannot be started or watched.
 pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending> {
-    let scratch = tempfile::Builder::new()
-        .prefix(".scratch-")
-        .tempdir_in(job.directory)?;
-    watch(job, spawn(job, scratch.path())?, progress)
+    let output = File::create(job.directory.join(STANDARD_OUTPUT))?;
+    let error = File::create(job.directory.join(STANDARD_ERROR))?;
+    let mut child = spawn(job)?;
+    let captures = [
+        child.stdout().take().map(|pipe| Capture::new(pipe, output)),
+        child.stderr().take().map(|pipe| Capture::new(pipe, error)),
+    ];
+    let ending = watch(job, child, progress);
+    for capture in captures.into_iter().flatten() {
+        capture.finish();
+    }
+    ending
+}
+
+/// Runs a short `job` to its end; returns what it wrote to its standard output, if it succeeded.
+pub fn answer(job: &Job) -> Option<Vec<u8>> {
+    let mut child = spawn(job).ok()?;
+    let output = Capture::new(child.stdout().take()?, Vec::new());
+    let error = Capture::new(child.stderr().take()?, std::io::sink());
+    let ending = watch(job, child, || false);
+    error.finish();
+    let output = output.finish()?;
+    matches!(ending, Ok(Ending::Exited(status)) if status.success()).then_some(output)
 }
 
 fn watch(
@@ -100,32 +125,47 @@ fn watch(
     }
 }
 
-/// Home and temporary files go to `scratch`, which does not outlive the program.
-fn spawn(job: &Job, scratch: &Path) -> std::io::Result<Box<dyn ChildWrapper>> {
-    let output = File::create(job.directory.join(STANDARD_OUTPUT))?;
-    let error = File::create(job.directory.join(STANDARD_ERROR))?;
+fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    CommandWrap::with_new(&job.command[0], |command| {
+    let prefix = guard::prefix();
+    let mut words = prefix
+        .iter()
+        .copied()
+        .chain(job.command.iter().map(OsString::as_os_str));
+    let program = words.next().unwrap_or(OsStr::new(""));
+    CommandWrap::with_new(program, |command| {
         command
-            .args(&job.command[1..])
+            .args(words)
             .current_dir(job.directory)
             .env_clear()
             .env("PATH", path)
-            .env("HOME", scratch)
-            .env("TMPDIR", scratch)
+            .env("HOME", job.home)
+            .env("TMPDIR", job.home)
             .env("LC_ALL", "C.UTF-8")
             .env("OMP_NUM_THREADS", "1")
             .envs(job.environment.iter().copied())
-            .stdin(Stdio::null())
-            .stdout(output)
-            .stderr(error);
+            // A guard watches its end; for other programs nothing is ever in it.
+            .stdin(if prefix.is_empty() {
+                Stdio::null()
+            } else {
+                Stdio::piped()
+            })
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
     })
     .wrap(ProcessGroup::leader())
     .spawn()
 }
 
+/// Lets a guard clean up, if there is one; kills what is left.
 fn kill(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
-    child.start_kill()?;
+    let guarded = child.stdin().take().is_some();
+    let start = Instant::now();
+    while guarded && child.try_wait()?.is_none() && start.elapsed() < LONGEST_CLEANING {
+        std::thread::sleep(POLL_INTERVAL);
+    }
+    // There may be nothing left to kill.
+    let _ = child.start_kill();
     child.wait()?;
     Ok(())
 }

@@ -1,0 +1,91 @@
+//! What a program writes, as much of it as anybody will read: the beginning and the end.
+
+use std::collections::VecDeque;
+use std::io::{Read, Write};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+const HEAD_BYTES: u64 = 1 << 20;
+const TAIL_BYTES: usize = 1 << 16;
+/// A pipe that stays open longer after its program has ended is held by something that outlives it.
+const LONGEST_REST: Duration = Duration::from_secs(1);
+
+/// Copies a pipe to `W` on a thread of its own.
+pub(super) struct Capture<W> {
+    result: Receiver<W>,
+}
+
+impl<W: Write + Send + 'static> Capture<W> {
+    pub(super) fn new(pipe: impl Read + Send + 'static, mut output: W) -> Self {
+        let (sender, result) = channel();
+        std::thread::spawn(move || {
+            // Output that cannot be written is lost; the run is judged by its series.
+            let _ = copy(pipe, &mut output);
+            let _ = sender.send(output);
+        });
+        Self { result }
+    }
+
+    /// What was written to, once all is there.
+    pub(super) fn finish(self) -> Option<W> {
+        self.result.recv_timeout(LONGEST_REST).ok()
+    }
+}
+
+/// Copies the first bytes at once and the last ones at the end, and says how many are missing between them.
+fn copy(mut pipe: impl Read, output: &mut impl Write) -> std::io::Result<()> {
+    std::io::copy(&mut pipe.by_ref().take(HEAD_BYTES), output)?;
+    let mut tail = VecDeque::new();
+    let mut left_out = 0;
+    let mut buffer = vec![0; TAIL_BYTES];
+    loop {
+        let count = pipe.read(&mut buffer)?;
+        if count == 0 {
+            break;
+        }
+        tail.extend(&buffer[..count]);
+        let excess = tail.len().saturating_sub(TAIL_BYTES);
+        tail.drain(..excess);
+        left_out += excess;
+    }
+    if left_out > 0 {
+        write!(output, "\n[{left_out} bytes left out]\n")?;
+    }
+    let (first, second) = tail.as_slices();
+    output.write_all(first)?;
+    output.write_all(second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn captured(text: &[u8]) -> Vec<u8> {
+        let mut output = Vec::new();
+        copy(text, &mut output).unwrap();
+        output
+    }
+
+    #[test]
+    fn what_fits_is_kept_as_it_is() {
+        let text: Vec<u8> = (0..HEAD_BYTES as usize + TAIL_BYTES)
+            .map(|index| index as u8)
+            .collect();
+        assert_eq!(captured(&text), text);
+        assert_eq!(captured(b""), b"");
+    }
+
+    #[test]
+    fn of_more_the_beginning_and_the_end_are_kept() {
+        let mut text = b"begin".to_vec();
+        text.extend(vec![b'.'; 5_000_000]);
+        text.extend(b"end");
+        let kept = captured(&text);
+        assert!(kept.starts_with(b"begin.") && kept.ends_with(b".end"));
+        let marker = format!(
+            "[{} bytes left out]",
+            text.len() - (HEAD_BYTES as usize + TAIL_BYTES)
+        );
+        assert!(String::from_utf8_lossy(&kept).contains(&marker));
+    }
+}

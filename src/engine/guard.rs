@@ -1,0 +1,155 @@
+//! A process of this program between it and a foreign one.
+//!
+//! It lives as long as the foreign program and all that this has started, and ends them when tristack ends,
+//! however that ends: `kill -9` leaves nothing running. It also limits what they may use, and shuts them off from
+//! the network where the system lets it.
+
+use nix::errno::Errno;
+use nix::sched::{CloneFlags, unshare};
+use nix::sys::prctl::set_child_subreaper;
+use nix::sys::resource::{Resource, setrlimit};
+use nix::sys::signal::{Signal, kill, raise};
+use nix::sys::socket::{AddressFamily, MsgFlags, SockFlag, SockProtocol, SockType, send, socket};
+use nix::sys::wait::{WaitPidFlag, waitpid};
+use nix::unistd::{Pid, getgid, getpid, getuid};
+use std::ffi::{OsStr, OsString};
+use std::io::Read;
+use std::os::fd::AsRawFd;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// The command of `tristack` that is a guard.
+pub const COMMAND: &str = "guard";
+
+/// Ten times what any code needs for the stack.
+const MOST_MEMORY: u64 = 8 << 30;
+/// A thousand times the longest series.
+const LONGEST_FILE: u64 = 1 << 30;
+
+static GUARDED: AtomicBool = AtomicBool::new(false);
+
+/// From now on foreign programs are guarded. To be called by a program that understands [`COMMAND`].
+pub fn guard_foreign_programs() {
+    GUARDED.store(true, Ordering::SeqCst);
+}
+
+/// What stands before the command of a foreign program. The link leads to this program even after another one has
+/// taken its name.
+pub(super) fn prefix() -> &'static [&'static OsStr] {
+    static PREFIX: std::sync::LazyLock<[&OsStr; 3]> =
+        std::sync::LazyLock::new(|| ["/proc/self/exe", COMMAND, "--"].map(OsStr::new));
+    if GUARDED.load(Ordering::SeqCst) {
+        PREFIX.as_slice()
+    } else {
+        &[]
+    }
+}
+
+/// Runs `command` under guard until it ends or standard input is closed. Whatever it has started is then dead.
+///
+/// # Errors
+/// If it cannot be started.
+pub fn guard(command: &[OsString]) -> std::io::Result<ExitStatus> {
+    set_child_subreaper(true)?;
+    setrlimit(Resource::RLIMIT_CORE, 0, 0)?;
+    setrlimit(Resource::RLIMIT_AS, MOST_MEMORY, MOST_MEMORY)?;
+    setrlimit(Resource::RLIMIT_FSIZE, LONGEST_FILE, LONGEST_FILE)?;
+    // Where this is not allowed, programs are as free as their decks leave them.
+    let _ = leave_network();
+    let mut child = Command::new(&command[0])
+        .args(&command[1..])
+        .stdin(Stdio::null())
+        .spawn()?;
+    let program = Pid::from_raw(child.id() as i32);
+    std::thread::spawn(move || {
+        // Nothing ever comes: this waits for the end of the other side.
+        let _ = std::io::stdin().read(&mut [0]);
+        let _ = kill(program, Signal::SIGKILL);
+    });
+    let status = child.wait()?;
+    end_descendants();
+    Ok(status)
+}
+
+/// Ends this program the way `status` says, so that whoever waits for it sees what the foreign program did.
+pub fn end_like(status: ExitStatus) -> i32 {
+    if let Some(signal) = status.signal().and_then(|it| Signal::try_from(it).ok()) {
+        // The first may only take the handler away that the runtime has for it.
+        let _ = raise(signal);
+        let _ = raise(signal);
+    }
+    status.code().unwrap_or(1)
+}
+
+/// Moves to a network of its own, in which there is nothing but a loopback interface.
+fn leave_network() -> std::io::Result<()> {
+    let (user, group) = (getuid(), getgid());
+    if unshare(CloneFlags::CLONE_NEWNET).is_err() {
+        // Only the owner of a name space may do that; a user may own a new one, in which nobody else exists.
+        unshare(CloneFlags::CLONE_NEWUSER | CloneFlags::CLONE_NEWNET)?;
+        std::fs::write("/proc/self/setgroups", "deny")?;
+        std::fs::write("/proc/self/uid_map", format!("{user} {user} 1"))?;
+        std::fs::write("/proc/self/gid_map", format!("{group} {group} 1"))?;
+    }
+    start_loopback()
+}
+
+/// Asks the kernel to bring up interface 1, which is the loopback: some codes do not start without one.
+fn start_loopback() -> std::io::Result<()> {
+    const NEW_LINK: u16 = 16;
+    const REQUEST: u16 = 1;
+    const LOOPBACK: u32 = 1;
+    const UP: u32 = 1;
+    let netlink = socket(
+        AddressFamily::Netlink,
+        SockType::Raw,
+        SockFlag::SOCK_CLOEXEC,
+        SockProtocol::NetlinkRoute,
+    )?;
+    // struct nlmsghdr and struct ifinfomsg of linux/netlink.h and linux/rtnetlink.h.
+    let length = 32_u32.to_ne_bytes();
+    let kind = [NEW_LINK, REQUEST].map(u16::to_ne_bytes);
+    let rest = [0, 0, 0, LOOPBACK, UP, UP].map(u32::to_ne_bytes);
+    let message = [length.as_slice(), kind.as_flattened(), rest.as_flattened()].concat();
+    send(netlink.as_raw_fd(), &message, MsgFlags::empty())?;
+    Ok(())
+}
+
+/// Kills every process that the foreign program has started, also those that have left its group: orphans become
+/// children of this process.
+fn end_descendants() {
+    loop {
+        match waitpid(None, Some(WaitPidFlag::WNOHANG)) {
+            Err(Errno::EINTR) => continue,
+            // No children are left.
+            Err(_) => return,
+            Ok(_) => {}
+        }
+        for child in children() {
+            let _ = kill(child, Signal::SIGKILL);
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn children() -> Vec<Pid> {
+    let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
+    let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
+    numbers
+        .filter(|&process| parent(process) == Some(getpid()))
+        .map(Pid::from_raw)
+        .collect()
+}
+
+fn parent(process: i32) -> Option<Pid> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // The name, in parentheses, may hold anything.
+    let (_, rest) = status.rsplit_once(')')?;
+    rest.split_whitespace()
+        .nth(1)?
+        .parse()
+        .ok()
+        .map(Pid::from_raw)
+}

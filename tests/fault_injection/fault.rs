@@ -1,0 +1,158 @@
+//! What may happen.
+
+use super::disk;
+use std::path::Path;
+
+/// A thing that goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    Process(ProcessFault),
+    Engine(EngineFault),
+    Store(StoreFault),
+    Disk(DiskFault),
+}
+
+/// What happens to a running tristack or to the processes it has started, at a random moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ProcessFault {
+    Killed,
+    KilledTwice,
+    Interrupted,
+    InterruptedTwice,
+    Terminated,
+    StoppedForAWhile,
+    EngineKilled,
+    EngineStopped,
+    GuardKilled,
+    EngineReplaced,
+    ClockJumps,
+    TwoAtOnce,
+    TwoAtOnceOneKilled,
+}
+
+/// What a code does instead of delivering one of its series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum EngineFault {
+    Crashes,
+    IsKilledForItsMemory,
+    TakesTooMuchMemory,
+    Hangs,
+    StopsItself,
+    EndsSilently,
+    EndsWithAnError,
+    LeavesADaemon,
+    WritesTenGigabytes,
+    FillsAFile,
+    SeriesTruncated,
+    SeriesCutInARow,
+    SeriesReordered,
+    SeriesDuplicated,
+    SeriesNotANumber,
+    SeriesInOtherUnits,
+    SeriesOfAnotherCase,
+    SeriesWithoutAColumn,
+    SeriesNotText,
+    SeriesEmpty,
+    SeriesWithoutRows,
+}
+
+/// What is found in the store by the next program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum StoreFault {
+    BitFlipped,
+    FileTruncated,
+    FileMissing,
+    MadeWithAnotherDeck,
+    MadeByAnotherProgram,
+    OtherFormat,
+}
+
+/// What the file system does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum DiskFault {
+    Full,
+    ReadOnly,
+    RunsReadOnly,
+}
+
+impl Fault {
+    /// Every fault, the kinds taking turns.
+    pub fn all() -> impl Iterator<Item = Self> {
+        use {DiskFault as D, EngineFault as E, ProcessFault as P, StoreFault as S};
+        let process = [
+            P::Killed,
+            P::Interrupted,
+            P::EngineKilled,
+            P::TwoAtOnce,
+            P::KilledTwice,
+            P::Terminated,
+            P::StoppedForAWhile,
+            P::GuardKilled,
+            P::InterruptedTwice,
+            P::EngineStopped,
+            P::EngineReplaced,
+            P::TwoAtOnceOneKilled,
+            P::ClockJumps,
+        ];
+        let engine = [
+            E::Crashes,
+            E::IsKilledForItsMemory,
+            E::TakesTooMuchMemory,
+            E::Hangs,
+            E::StopsItself,
+            E::EndsSilently,
+            E::EndsWithAnError,
+            E::LeavesADaemon,
+            E::WritesTenGigabytes,
+            E::FillsAFile,
+            E::SeriesTruncated,
+            E::SeriesCutInARow,
+            E::SeriesReordered,
+            E::SeriesDuplicated,
+            E::SeriesNotANumber,
+            E::SeriesInOtherUnits,
+            E::SeriesOfAnotherCase,
+            E::SeriesWithoutAColumn,
+            E::SeriesNotText,
+            E::SeriesEmpty,
+            E::SeriesWithoutRows,
+        ];
+        let store = [
+            S::BitFlipped,
+            S::FileTruncated,
+            S::FileMissing,
+            S::MadeWithAnotherDeck,
+            S::MadeByAnotherProgram,
+            S::OtherFormat,
+        ];
+        let disk = [D::Full, D::ReadOnly, D::RunsReadOnly];
+        let process = process.into_iter().map(Self::Process);
+        let engine = engine.into_iter().map(Self::Engine);
+        let store = store.into_iter().map(Self::Store);
+        process
+            .chain(engine)
+            .chain(store)
+            .chain(disk.into_iter().map(Self::Disk))
+    }
+
+    /// Whether this machine can do it; otherwise it is said, and left out.
+    pub fn is_possible(&self) -> bool {
+        let missing = match self {
+            Self::Disk(_) if !disk::can_mount() => "no file system can be mounted",
+            Self::Process(ProcessFault::ClockJumps) if fake_clock().is_none() => {
+                "libfaketime is not installed"
+            }
+            _ => return true,
+        };
+        eprintln!("{self:?} is left out: {missing}");
+        let required = std::env::var_os("TRISTACK_REQUIRE_FAULTS").is_some();
+        assert!(!required, "{self:?} is required");
+        false
+    }
+}
+
+/// A library that makes a program believe in another time.
+pub fn fake_clock() -> Option<&'static Path> {
+    let path = Path::new("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1");
+    path.exists().then_some(path)
+}

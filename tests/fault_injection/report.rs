@@ -1,0 +1,56 @@
+//! What was done, for docs/reliability.md.
+
+use super::fault::Fault;
+use super::round::Story;
+use std::collections::BTreeMap;
+
+/// Writes it to the file that TRISTACK_FAULT_REPORT names, if it names one.
+pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, String>)]) {
+    let Some(path) = std::env::var_os("TRISTACK_FAULT_REPORT") else {
+        return;
+    };
+    let mut faults: BTreeMap<Fault, [usize; 4]> = BTreeMap::new();
+    for (fault, outcome) in outcomes {
+        let [count, finished, made, complaints] = faults.entry(*fault).or_default();
+        *count += 1;
+        match outcome {
+            Ok(story) => {
+                *finished += story.finished_before;
+                *made += story.made_after;
+            }
+            Err(_) => *complaints += 1,
+        }
+    }
+    let faults = faults.into_iter().map(|(fault, counts)| {
+        let (kind, name) = names(fault);
+        let [rounds, finished, made, complaints] = counts;
+        serde_json::json!({
+            "kind": kind,
+            "fault": name,
+            "rounds": rounds,
+            "finished_before": finished,
+            "made_after": made,
+            "complaints": complaints,
+        })
+    });
+    let report = serde_json::json!({
+        "date": jiff::Timestamp::now().to_string(),
+        "rounds": rounds,
+        "seed": seed,
+        "faults": faults.collect::<Vec<_>>(),
+    });
+    let text = serde_json::to_string_pretty(&report).expect("plain data");
+    std::fs::write(path, text + "\n").expect("the report can be written");
+}
+
+/// `Engine(SeriesEmpty)` as "engine" and "series empty".
+fn names(fault: Fault) -> (String, String) {
+    let text = format!("{fault:?}");
+    let (kind, name) = text.trim_end_matches(')').split_once('(').expect("a kind");
+    let words = name.chars().flat_map(|letter| {
+        let space = letter.is_uppercase().then_some(' ');
+        space.into_iter().chain(letter.to_lowercase())
+    });
+    let words: String = words.collect();
+    (kind.to_lowercase(), words.trim().to_owned())
+}

@@ -1,0 +1,278 @@
+//! One fault, from the first process to the last look at what it has left.
+
+use super::common::Bench;
+use super::fault::{Fault, ProcessFault, StoreFault};
+use super::processes;
+use super::workload::{Workload, Workloads};
+use super::{disk, engine_faults, process_faults, store_faults};
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+use tristack::stack::sha256_hex;
+
+/// A place, something to compute there, and chance.
+pub struct Round<'a> {
+    pub bench: Bench,
+    pub workload: &'a Workload,
+    pub workloads: &'a Workloads,
+    pub random: fastrand::Rng,
+}
+
+/// What a fault has done, and what may be expected after it.
+#[derive(Default)]
+pub struct Aftermath {
+    /// What the disturbed programs said.
+    pub outputs: Vec<Output>,
+    /// Whether they must have come to the same result as if nothing had happened.
+    pub harmless: bool,
+    /// Whether at least one row must have got no agreement.
+    pub harmful: bool,
+    /// Whether what is in the store was made by a wrong code, so that going on means to begin anew.
+    pub begin_anew: bool,
+    /// Number of runs that will be made again because they are damaged.
+    pub damaged: usize,
+}
+
+/// What a round came to.
+#[derive(Debug, Clone, Copy)]
+pub struct Story {
+    /// Runs that the disturbed programs had said were finished.
+    pub finished_before: usize,
+    /// Runs that were made after the fault.
+    pub made_after: usize,
+}
+
+impl<'a> Round<'a> {
+    /// Lets `fault` strike, with the chances of `seed`.
+    ///
+    /// # Errors
+    /// A complaint about what went wrong.
+    pub fn play(fault: Fault, workloads: &'a Workloads, seed: u64) -> Result<Story, String> {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let workload = choose(fault, workloads, &mut random);
+        let bench = Bench::with_system_programs();
+        if std::ptr::eq(workload, &workloads.replayed) {
+            workloads.install_replay(&bench);
+        }
+        let mut round = Self {
+            bench,
+            workload,
+            workloads,
+            random,
+        };
+        let aftermath = match fault {
+            Fault::Process(fault) => process_faults::strike(fault, &mut round),
+            Fault::Engine(fault) => engine_faults::strike(fault, &mut round),
+            Fault::Store(fault) => store_faults::strike(fault, &mut round),
+            Fault::Disk(fault) => disk::strike(fault, &mut round),
+        }?;
+        processes::all_ended(&round.root())?;
+        round.look_at_outputs(&aftermath)?;
+        let finished_before = round.look_at_finished(&aftermath)?;
+        let made_after = round.go_on(&aftermath)?;
+        round.look_for_leftovers(&aftermath)?;
+        Ok(Story {
+            finished_before,
+            made_after,
+        })
+    }
+
+    pub fn root(&self) -> PathBuf {
+        self.bench.path("")
+    }
+
+    /// A tristack at work, with further `options`.
+    pub fn command(&self, options: &str) -> Command {
+        let mut command = self
+            .bench
+            .process(&format!("{} {options}", self.workload.line));
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    pub fn start(&self, options: &str) -> Child {
+        self.command(options).spawn().expect("it starts")
+    }
+
+    pub fn run(&self, options: &str) -> Output {
+        self.command(options).output().expect("it runs")
+    }
+
+    /// Waits for some time that the work takes, or a little more.
+    pub fn wait_for_a_moment(&mut self) {
+        std::thread::sleep(self.workload.duration.mul_f64(1.2 * self.random.f64()));
+    }
+
+    pub fn moment(&mut self) -> Duration {
+        self.workload.duration.mul_f64(self.random.f64())
+    }
+
+    pub fn store(&self) -> PathBuf {
+        self.bench.path("store")
+    }
+
+    /// The directories of all runs in the store.
+    pub fn entries(&self) -> Vec<PathBuf> {
+        let below = |directory: &Path| {
+            let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+            let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+            paths.sort();
+            paths
+        };
+        let groups = below(&self.store().join("runs"));
+        groups.iter().flat_map(|group| below(group)).collect()
+    }
+
+    /// A row is the one that nothing has happened to, or it is no agreement.
+    fn look_at_outputs(&self, aftermath: &Aftermath) -> Result<(), String> {
+        let expected: Vec<&str> = self.workload.expected.lines().collect();
+        for output in &aftermath.outputs {
+            let text = String::from_utf8_lossy(&output.stdout);
+            let told = || format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
+            let suspicious = text.lines().find(|line| {
+                let known = expected.contains(line);
+                !known && line.contains(",agrees,")
+            });
+            if let Some(row) = suspicious {
+                return Err(format!("a wrong agreement: {row}\n{}", told()));
+            }
+            let same = text == self.workload.expected && output.status.success();
+            if aftermath.harmless && !same {
+                return Err(format!("another result: {:?}\n{}", output.status, told()));
+            }
+            if aftermath.harmful && (same || output.status.success()) {
+                return Err(format!("nobody noticed\n{}", told()));
+            }
+            if text.contains("panicked") || told().contains("panicked") {
+                return Err(format!("a panic\n{}", told()));
+            }
+        }
+        Ok(())
+    }
+
+    /// What was said to be finished is in the store, and whole.
+    fn look_at_finished(&self, aftermath: &Aftermath) -> Result<usize, String> {
+        let finished = aftermath.outputs.iter().map(|output| {
+            let text = String::from_utf8_lossy(&output.stderr).into_owned();
+            let lines = text.lines().filter(|line| line.starts_with('['));
+            let kept = lines.count();
+            kept - text.matches("could not be kept").count().min(kept)
+        });
+        let finished: usize = finished.sum();
+        let entries = self.entries();
+        let whole = entries.iter().filter(|entry| is_whole(entry)).count();
+        if whole + aftermath.damaged != entries.len() {
+            return Err(format!("{whole} of {} entries are whole", entries.len()));
+        }
+        let present = entries.len().min(whole + aftermath.damaged);
+        let said = finished.min(self.workload.cases.len());
+        if present < said {
+            return Err(format!("{said} runs were finished, {present} are kept"));
+        }
+        Ok(finished)
+    }
+
+    /// Goes on without faults; returns how many runs were made.
+    fn go_on(&self, aftermath: &Aftermath) -> Result<usize, String> {
+        let before = self.stamps();
+        let options = if aftermath.begin_anew { "--fresh" } else { "" };
+        let output = self.run(options);
+        let message = String::from_utf8_lossy(&output.stderr);
+        if !output.status.success() || output.stdout != self.workload.expected.as_bytes() {
+            let text = String::from_utf8_lossy(&output.stdout);
+            return Err(format!("going on gives another result\n{text}\n{message}"));
+        }
+        if message.matches("damaged").count() != aftermath.damaged {
+            return Err(format!("damage is not told as it is\n{message}"));
+        }
+        let after = self.stamps();
+        let untouched = before
+            .iter()
+            .filter(|(path, stamp)| after.get(*path) == Some(stamp));
+        let lost = before.len() - untouched.count();
+        if !aftermath.begin_anew && lost != aftermath.damaged {
+            return Err(format!("{lost} finished runs were made again\n{message}"));
+        }
+        Ok(message.lines().filter(|line| line.starts_with('[')).count())
+    }
+
+    /// What tells an entry from another one in its place.
+    fn stamps(&self) -> BTreeMap<PathBuf, u64> {
+        let entries = self.entries().into_iter();
+        let stamps = entries.filter_map(|entry| {
+            let number = fs::metadata(&entry).ok()?.ino();
+            Some((entry, number))
+        });
+        stamps.collect()
+    }
+
+    /// Nothing temporary is left, but what failed runs have to show.
+    fn look_for_leftovers(&self, aftermath: &Aftermath) -> Result<(), String> {
+        processes::all_ended(&self.root())?;
+        let mut left = Vec::new();
+        let mut directories = vec![self.root()];
+        while let Some(directory) = directories.pop() {
+            for entry in fs::read_dir(&directory).expect("a directory").flatten() {
+                let (path, name) = (entry.path(), entry.file_name());
+                let name = name.to_string_lossy().into_owned();
+                let temporary = ["draft", ".draft", ".tmp", ".home", "tristack-"];
+                if temporary.iter().any(|prefix| name.starts_with(prefix)) {
+                    left.push(path.clone());
+                }
+                if directory.ends_with("store/sessions") {
+                    left.push(path.clone());
+                }
+                // Evidence of failures is kept, whoever is to look at it.
+                let kept = directory.ends_with("store/work") && may_leave_evidence(aftermath);
+                if directory.ends_with("store/work") && !kept {
+                    left.push(path.clone());
+                }
+                if path.is_dir() && !kept {
+                    directories.push(path);
+                }
+            }
+        }
+        match left.as_slice() {
+            [] => Ok(()),
+            left => Err(format!("left behind: {left:?}")),
+        }
+    }
+}
+
+fn may_leave_evidence(aftermath: &Aftermath) -> bool {
+    let failed = |output: &Output| String::from_utf8_lossy(&output.stderr).contains("failed");
+    aftermath.outputs.iter().any(failed)
+}
+
+fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &'a Workload {
+    use ProcessFault as P;
+    let real = &all.real[random.usize(..all.real.len())];
+    let native = &all.real[0];
+    let often_real = random.f64() < 0.4;
+    match fault {
+        Fault::Engine(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
+        // What hangs without an end of its own in sight must not be waited for.
+        Fault::Process(P::EngineStopped) => &all.replayed,
+        Fault::Process(P::EngineKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
+            &all.replayed
+        }
+        Fault::Store(StoreFault::MadeByAnotherProgram) => &all.replayed,
+        _ if often_real => real,
+        _ => &all.replayed,
+    }
+}
+
+/// Whether every file of an entry is the one that was written.
+pub fn is_whole(entry: &Path) -> bool {
+    let Ok(sums) = fs::read_to_string(entry.join("SHA256SUMS")) else {
+        return false;
+    };
+    let right = sums.lines().filter(|line| {
+        let (digest, name) = line.split_once("  ").unwrap_or_default();
+        fs::read(entry.join(name)).is_ok_and(|content| sha256_hex(&content) == digest)
+    });
+    right.count() == 3
+}

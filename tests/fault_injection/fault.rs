@@ -17,6 +17,7 @@ pub enum Fault {
 pub enum ProcessFault {
     Killed,
     KilledTwice,
+    KilledWhileEngineHangs,
     Interrupted,
     InterruptedTwice,
     Terminated,
@@ -85,6 +86,7 @@ impl Fault {
             P::EngineKilled,
             P::TwoAtOnce,
             P::KilledTwice,
+            P::KilledWhileEngineHangs,
             P::Terminated,
             P::StoppedForAWhile,
             P::GuardKilled,

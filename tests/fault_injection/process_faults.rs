@@ -3,7 +3,7 @@
 use super::fault::{ProcessFault, fake_clock};
 use super::processes::{self, Process};
 use super::round::{Aftermath, Round};
-use super::workload::asked;
+use super::workload::{address, asked};
 use nix::sys::signal::Signal;
 use std::collections::BTreeSet;
 use std::fs;
@@ -17,6 +17,7 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
     match fault {
         ProcessFault::Killed => Ok(kill_times(1, round)),
         ProcessFault::KilledTwice => Ok(kill_times(2, round)),
+        ProcessFault::KilledWhileEngineHangs => Ok(kill_while_engine_hangs(round)),
         ProcessFault::Interrupted => interrupt(Signal::SIGINT, round),
         ProcessFault::Terminated => interrupt(Signal::SIGTERM, round),
         ProcessFault::InterruptedTwice => interrupt_twice(round),
@@ -57,6 +58,24 @@ fn kill_times(times: usize, round: &mut Round) -> Aftermath {
     }
     // The last killed one may have been the one that did it all.
     aftermath
+}
+
+/// The engine would go on for ten minutes, and so would what it has started.
+fn kill_while_engine_hangs(round: &mut Round) -> Aftermath {
+    let first = address(&round.workload.cases[0]);
+    let hang = round.bench.path(&format!("replay/{first}.sh"));
+    fs::write(&hang, "setsid sleep 600 & sleep 600").expect("a script");
+    let child = round.start("");
+    while !asked(&round.bench).contains(&first) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(round.random.u64(..300)));
+    signal(&child, Signal::SIGKILL);
+    fs::remove_file(hang).expect("it is there");
+    Aftermath {
+        outputs: vec![finish(child)],
+        ..Aftermath::default()
+    }
 }
 
 fn interrupt(how: Signal, round: &mut Round) -> Result<Aftermath, String> {

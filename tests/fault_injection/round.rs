@@ -255,7 +255,7 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
     match fault {
         Fault::Engine(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
         // What hangs without an end of its own in sight must not be waited for.
-        Fault::Process(P::EngineStopped) => &all.replayed,
+        Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs) => &all.replayed,
         Fault::Process(P::EngineKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
             &all.replayed
         }

@@ -1,0 +1,106 @@
+//! The process between tristack and a foreign program.
+
+mod common;
+
+use common::Bench;
+use std::fs;
+use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// A guard of a shell that executes `script`; it lives as long as its standard input is held open.
+fn guarded(bench: &Bench, script: &str) -> Child {
+    let mut command = bench.process("guard -- sh -c");
+    command
+        .arg(script)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command.spawn().expect("it starts")
+}
+
+fn output(script: &str) -> Output {
+    let mut child = guarded(&Bench::with_system_programs(), script);
+    let held = child.stdin.take();
+    let output = child.wait_with_output().expect("it ends");
+    drop(held);
+    output
+}
+
+fn text(script: &str) -> String {
+    String::from_utf8(output(script).stdout).expect("text")
+}
+
+fn is_running(process: &str) -> bool {
+    fs::exists(format!("/proc/{}", process.trim())).expect("a list of processes")
+}
+
+#[test]
+fn a_guard_ends_as_its_program_ends() {
+    assert_eq!(output("exit 7").status.code(), Some(7));
+    assert_eq!(output("true").status.code(), Some(0));
+    for signal in [6, 9, 11, 15] {
+        let status = output(&format!("kill -{signal} $$")).status;
+        assert_eq!(status.signal(), Some(signal));
+    }
+    let bench = Bench::with_system_programs();
+    let mut command = bench.tristack("guard -- no-such-program");
+    command.assert().code(127);
+}
+
+#[test]
+fn whatever_a_program_leaves_behind_ends_with_it() {
+    let left = text(
+        "setsid sleep 600 > /dev/null & echo $!; (setsid sh -c 'echo $$; exec sleep 600' &) ; sleep 0.1",
+    );
+    let left: Vec<&str> = left.lines().collect();
+    assert_eq!(left.len(), 2);
+    for process in left {
+        assert!(!is_running(process), "{process}");
+    }
+}
+
+#[test]
+fn a_program_ends_when_nobody_holds_its_guard_any_more() {
+    let bench = Bench::with_system_programs();
+    let mut child = guarded(&bench, "echo $$; sleep 600");
+    let mut first = [0; 16];
+    let count = child.stdout.as_mut().expect("a pipe").read(&mut first);
+    let number = String::from_utf8_lossy(&first[..count.expect("a number")]).into_owned();
+    assert!(is_running(&number));
+    let start = Instant::now();
+    drop(child.stdin.take());
+    child.wait().expect("it ends");
+    assert!(!is_running(&number));
+    assert!(start.elapsed() < Duration::from_secs(5));
+}
+
+#[test]
+fn a_program_has_a_network_of_its_own() {
+    let own = fs::read_link("/proc/self/ns/net").expect("a name space");
+    let its = text("readlink /proc/self/ns/net");
+    if its.trim() == own.to_string_lossy() {
+        eprintln!("this user may not leave the network: nothing to test");
+        return;
+    }
+    let devices = text("tail -n +3 /proc/net/dev | cut -d : -f 1");
+    assert_eq!(devices.trim(), "lo");
+    let loopback_is_up = text("cat /sys/class/net/lo/flags /proc/net/fib_trie | grep -c 127.0.0.1");
+    assert_ne!(loopback_is_up.trim(), "0");
+}
+
+#[test]
+fn memory_files_and_core_dumps_are_limited() {
+    let limits = text("ulimit -v; ulimit -f; ulimit -c");
+    // In units of 1024 and of 512 bytes.
+    assert_eq!(limits, "8388608\n2097152\n0\n");
+}
+
+#[test]
+fn a_guard_is_nothing_to_type() {
+    let bench = Bench::without_engines();
+    let output = bench.tristack("--help").output().expect("it runs");
+    let help = String::from_utf8(output.stdout).expect("text");
+    assert!(!help.contains("guard"), "{help}");
+}

@@ -1,0 +1,160 @@
+//! The store as a user meets it: on disk, and with several programs at it.
+
+mod common;
+
+use common::replay::{self, Disturbance};
+use common::{Bench, standard_output};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const SWEEP: &str = "sweep --engine native --mu 0.3 --stiffness 100 --format csv";
+
+fn entries(bench: &Bench) -> Vec<PathBuf> {
+    let below = |directory: &Path| {
+        let entries = fs::read_dir(directory).expect("a directory");
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        paths.collect::<Vec<_>>()
+    };
+    let groups = below(&bench.path("store/runs"));
+    groups.iter().flat_map(|group| below(group)).collect()
+}
+
+#[test]
+fn an_entry_can_be_checked_without_tristack() {
+    let bench = Bench::without_engines();
+    bench.tristack(SWEEP).assert().code(0);
+    let entries = entries(&bench);
+    assert_eq!(entries.len(), 5);
+    let is_right = |entry: &Path| {
+        let mut command = Command::new("sha256sum");
+        command.args(["--check", "--strict", "--quiet", "SHA256SUMS"]);
+        let output = command.current_dir(entry).output().expect("it runs");
+        output.status.success()
+    };
+    for entry in &entries {
+        assert!(is_right(entry), "{}", entry.display());
+    }
+    fs::write(entries[0].join("series.csv"), "step").expect("it can be written");
+    assert!(!is_right(&entries[0]));
+}
+
+#[test]
+fn a_damaged_entry_is_put_aside_and_kept() {
+    let bench = Bench::without_engines();
+    let first = standard_output(&mut bench.tristack(SWEEP));
+    let entry = &entries(&bench)[0];
+    let path = entry.join("series.csv");
+    let right = fs::read(&path).expect("a series");
+    fs::write(&path, &right[1..]).expect("it can be written");
+    let output = bench.tristack(SWEEP).output().expect("it runs");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), first);
+    let message = String::from_utf8_lossy(&output.stderr);
+    let aside = bench.path("store/quarantine");
+    let aside = fs::read_dir(aside).expect("a directory").next();
+    let aside = aside.expect("an entry").expect("it is readable").path();
+    for part in [
+        "damaged run in the store, computed anew",
+        "series.csv: its SHA-256 is",
+        &aside.display().to_string(),
+    ] {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+    let kept = fs::read(aside.join("series.csv")).expect("a series");
+    assert_eq!(kept, right[1..]);
+    assert_eq!(fs::read(path).expect("a series"), right);
+}
+
+#[test]
+fn a_store_of_another_format_is_refused_and_left_as_it_is() {
+    let bench = Bench::without_engines();
+    let store = bench.path("store");
+    for (file, content) in [
+        ("format", "tristack store, format 3\n"),
+        ("runs/00/old", ""),
+    ] {
+        let path = store.join(file);
+        fs::create_dir_all(path.parent().expect("a directory")).expect("a directory");
+        fs::write(&path, content).expect("a file");
+        let output = bench.tristack(SWEEP).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(1));
+        let message = String::from_utf8_lossy(&output.stderr);
+        for part in [
+            "store/format: ",
+            "accepted is a store with `tristack store, format 2`",
+        ] {
+            assert!(message.contains(part), "{message}");
+        }
+        assert_eq!(fs::read_dir(&store).expect("a store").count(), 1);
+        fs::remove_dir_all(&store).expect("it can be removed");
+    }
+}
+
+fn start(bench: &Bench, line: &str) -> std::process::Child {
+    let mut command = bench.process(line);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("it starts")
+}
+
+/// A code that notes every series it is asked for, and takes its time.
+fn install_slow_replay(bench: &Bench) -> PathBuf {
+    replay::install(bench, |_| Disturbance::None);
+    let program = bench.path("programs/yade");
+    let asked = bench.path("asked");
+    let script = fs::read_to_string(&program).expect("a script");
+    let slow = script.replace(
+        "address=$(",
+        &format!(
+            "[ $result = probe.csv ] || {{ echo $directory >> {}; sleep 0.1; }}; address=$(",
+            asked.display()
+        ),
+    );
+    assert_ne!(slow, script);
+    fs::write(program, slow).expect("a script");
+    asked
+}
+
+#[test]
+fn two_programs_at_one_store_make_every_run_once() {
+    let bench = Bench::with_system_programs();
+    let asked = install_slow_replay(&bench);
+    let line = "crosscheck --engines yade --jobs 2 --format csv";
+    let programs = [start(&bench, line), start(&bench, line)];
+    let numbers = [programs[0].id(), programs[1].id()];
+    let outputs = programs.map(|program| program.wait_with_output().expect("it ends"));
+    let tell = |output: &Output| String::from_utf8_lossy(&output.stderr).into_owned();
+    let [one, other] = &outputs;
+    assert_eq!(one.status.code(), Some(0), "{}", tell(one));
+    assert_eq!(one.stdout, other.stdout, "{}", tell(other));
+    let asked = fs::read_to_string(asked).expect("a list");
+    assert_eq!(asked.lines().count(), 90);
+    let waited = numbers.iter().filter(|number| {
+        let named = format!("that process {number} on ");
+        outputs.iter().any(|output| tell(output).contains(&named))
+    });
+    assert!(waited.count() > 0, "{}\n{}", tell(one), tell(other));
+}
+
+#[test]
+fn what_a_killed_program_was_making_is_made_by_the_one_that_waits() {
+    let bench = Bench::with_system_programs();
+    let asked = install_slow_replay(&bench);
+    let line = "sweep --engine yade --mu 0.3 --stiffness 100 --jobs 1 --format csv";
+    let mut first = start(&bench, line);
+    while !asked.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let second = start(&bench, line);
+    std::thread::sleep(std::time::Duration::from_millis(150));
+    first.kill().expect("it can be killed");
+    first.wait().expect("it ends");
+    let output = second.wait_with_output().expect("it ends");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let store = bench.path("store");
+    for directory in ["sessions", "work"] {
+        let left = fs::read_dir(store.join(directory)).expect("a directory");
+        assert_eq!(left.count(), 0, "{directory}");
+    }
+    assert_eq!(entries(&bench).len(), 5);
+}

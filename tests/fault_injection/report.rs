@@ -34,6 +34,9 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
         })
     });
     let report = serde_json::json!({
+        "command": "bash .ci/reliability faults",
+        "commit": commit(),
+        "machine": tristack::archive::machine(),
         "date": jiff::Timestamp::now().to_string(),
         "rounds": rounds,
         "seed": seed,
@@ -41,6 +44,13 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
     });
     let text = serde_json::to_string_pretty(&report).expect("plain data");
     std::fs::write(path, text + "\n").expect("the report can be written");
+}
+
+fn commit() -> String {
+    let mut command = std::process::Command::new("git");
+    let output = command.args(["describe", "--always", "--dirty", "--abbrev=12"]);
+    let output = output.output().expect("git runs");
+    String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 
 /// `Engine(SeriesEmpty)` as "engine" and "series empty".

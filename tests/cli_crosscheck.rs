@@ -2,10 +2,9 @@
 
 mod common;
 
-use common::{Bench, assert_only, json, standard_error, standard_output};
+use common::{Bench, assert_only, copy_run, json, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
-use tristack::stack::sha256_hex;
 
 #[test]
 fn every_row_agrees_and_says_where_it_comes_from() {
@@ -139,19 +138,10 @@ fn copy_recordings(engine: &str, target: &std::path::Path, change: impl Fn(&str)
     let source = format!("{}/reference/{engine}", env!("CARGO_MANIFEST_DIR"));
     for entry in fs::read_dir(source).expect("recorded runs").flatten() {
         let copy = target.join(entry.file_name());
-        fs::create_dir_all(&copy).expect("a directory");
-        let mut sums = String::new();
-        for file in ["case.json", "series.csv", "provenance.json"] {
-            let text = fs::read_to_string(entry.path().join(file)).expect("a file");
-            let text = if file == "provenance.json" {
-                change(&text)
-            } else {
-                text
-            };
-            sums += &format!("{}  {file}\n", sha256_hex(text.as_bytes()));
-            fs::write(copy.join(file), text).expect("a copy");
-        }
-        fs::write(copy.join("SHA256SUMS"), sums).expect("their digests");
+        copy_run(&entry.path(), &copy, |file, text| match file {
+            "provenance.json" => change(&text),
+            _ => text,
+        });
     }
 }
 

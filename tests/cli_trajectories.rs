@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, assert_only, json, standard_output};
+use common::{Bench, assert_only, copy_run, json, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
@@ -196,16 +196,10 @@ fn copy_recordings(target: &Path, change: impl Fn(&str, String) -> String) {
             .flatten()
         {
             let copy = target.join(&name).join(run.file_name());
-            fs::create_dir_all(&copy).expect("a directory");
-            for file in ["case.json", "series.csv", "provenance.json"] {
-                let text = fs::read_to_string(run.path().join(file)).expect("a file");
-                let text = if file == "series.csv" {
-                    change(&name, text)
-                } else {
-                    text
-                };
-                fs::write(copy.join(file), text).expect("a copy");
-            }
+            copy_run(&run.path(), &copy, |file, text| match file {
+                "series.csv" => change(&name, text),
+                _ => text,
+            });
         }
     }
 }

@@ -369,6 +369,25 @@ fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
 }
 
 #[test]
+fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let entry = fs::read_dir(format!("{}/reference/yade", env!("CARGO_MANIFEST_DIR")));
+    let entry = entry.expect("recorded runs").flatten().next();
+    let case = entry.expect("a run").path().join("case.json");
+    let line = format!("simulate --engine yade --out run --case {}", case.display());
+    bench.tristack(&line).assert().code(0);
+    let decks = ["run/stack.py", "run/contacts.py", "run/parameters.json"];
+    let read = || decks.map(|deck| fs::read(bench.path(deck)).expect("a deck"));
+    let right = read();
+    for deck in decks {
+        fs::write(bench.path(deck), "friction = 0").expect("it can be written");
+    }
+    bench.tristack(&line).assert().code(0);
+    assert!(read() == right);
+}
+
+#[test]
 fn a_case_that_the_engine_cannot_run_touches_nothing() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);

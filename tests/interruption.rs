@@ -72,6 +72,19 @@ fn an_interrupted_run_is_taken_up_where_it_was_and_ends_with_the_same_bits() {
 }
 
 #[test]
+fn of_more_runs_than_fit_into_a_vector_every_one_is_reported_after_an_interrupt() {
+    let some = long_cases(3);
+    let cases: Vec<Case> = some.iter().copied().cycle().take(40).collect();
+    let directory = tempfile::tempdir().expect("a directory");
+    let (outcomes, _) = outcomes(&cases, directory.path(), 1000);
+    assert_eq!(outcomes.len(), 40);
+    let interrupted = outcomes
+        .into_iter()
+        .filter(|outcome| matches!(outcome, Err(failure) if failure.is_interrupted()));
+    assert_eq!(interrupted.count(), 40);
+}
+
+#[test]
 fn a_finished_run_needs_no_checkpoint_once_it_is_kept() {
     let root = tempfile::tempdir().expect("a directory");
     let store = Store::open(root.path()).expect("a store");

@@ -5,6 +5,7 @@ mod common;
 
 use common::{Bench, assert_only, json};
 use std::fs;
+use std::process::Stdio;
 use tristack::crosscheck::plan;
 use tristack::dem::compress_stack;
 use tristack::engine::{EngineName, FailureKind, Interrupt, Workplace};
@@ -252,6 +253,51 @@ fn cases_of_both_preparations_come_back_in_order() {
         let refused = results.iter().filter(|(_, result)| result.is_err()).count();
         assert_eq!(refused, usize::from(name == EngineName::Lammps));
     }
+}
+
+#[test]
+fn no_code_sees_the_network() {
+    let own = fs::read_link("/proc/self/ns/net").expect("a name space");
+    let bench = Bench::with_system_programs();
+    let mut guard = bench.process("guard -- readlink /proc/self/ns/net");
+    let guard = guard.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+    let mut guard = guard.expect("it starts");
+    let held = guard.stdin.take();
+    let guarded = guard.wait_with_output().expect("it ends").stdout;
+    drop(held);
+    if String::from_utf8_lossy(&guarded).trim() == own.to_string_lossy() {
+        eprintln!("this user may not leave the network: nothing to test");
+        return;
+    }
+    for engine in installed() {
+        let bench = Bench::with_system_programs();
+        let line = format!("simulate --engine {engine} --mu 0.3 --stiffness 10000 --out run");
+        let mut child = bench.process(&line).spawn().expect("it starts");
+        let place = bench.path("run");
+        let mut seen = None;
+        while seen.is_none() && child.try_wait().expect("it can be watched").is_none() {
+            seen = network_of_program_in(&place);
+        }
+        let _ = child.kill();
+        let _ = child.wait();
+        let seen = seen.expect("the code has been seen running");
+        assert_ne!(seen, own, "{engine}");
+    }
+}
+
+/// The network of a program that runs in `directory` and is no guard.
+fn network_of_program_in(directory: &std::path::Path) -> Option<std::path::PathBuf> {
+    let processes = fs::read_dir("/proc").expect("processes").flatten();
+    let mut programs = processes.filter(|process| {
+        let here = fs::read_link(process.path().join("cwd"));
+        let command = fs::read(process.path().join("cmdline")).unwrap_or_default();
+        here.is_ok_and(|here| here == directory)
+            && !command.is_empty()
+            && !command.starts_with(b"/proc/self/exe")
+            && !command.windows(8).any(|part| part == b"tristack")
+    });
+    let program = programs.next()?;
+    fs::read_link(program.path().join("ns/net")).ok()
 }
 
 fn largest_deviation(left: &std::path::Path, right: &std::path::Path) -> f64 {

@@ -10,6 +10,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use tristack::engine::EngineName;
+use tristack::stack::sha256_hex;
 
 /// A place of its own for a test: store, programs in the search path, results.
 pub struct Bench {
@@ -109,6 +110,19 @@ pub fn standard_error(command: &mut Command) -> String {
 
 pub fn json(text: &str) -> serde_json::Value {
     serde_json::from_str(text).expect("the output is JSON")
+}
+
+/// Copies the recorded run at `source` to `target`, each file as `change` makes it, with the digests that go with it.
+pub fn copy_run(source: &Path, target: &Path, change: impl Fn(&str, String) -> String) {
+    fs::create_dir_all(target).expect("a directory");
+    let mut sums = String::new();
+    for file in ["case.json", "series.csv", "provenance.json"] {
+        let text = fs::read_to_string(source.join(file)).expect("a file");
+        let text = change(file, text);
+        sums += &format!("{}  {file}\n", sha256_hex(text.as_bytes()));
+        fs::write(target.join(file), text).expect("a copy");
+    }
+    fs::write(target.join("SHA256SUMS"), sums).expect("its digests");
 }
 
 /// Nothing but what is named is in `directory`.

@@ -4,7 +4,7 @@ use super::checkpoints::{CHECKPOINT_INTERVAL, Checkpoints, Unfinished};
 use super::{Native, failure, why};
 use crate::archive::Run;
 use crate::dem::{Checkpoint, OpenRun, OpenRuns, RunQueue};
-use crate::engine::{EngineName, Finished, Workplace};
+use crate::engine::{EngineName, FailureKind, Finished, Workplace};
 use crate::stack::Case;
 use crate::trace::{SeriesError, Trace};
 use std::collections::{BTreeMap, VecDeque};
@@ -51,6 +51,14 @@ impl<'a, 'f> Lanes<'a, 'f> {
             shared: now,
             last_finished: now,
             last_kept: now,
+        }
+    }
+
+    /// Reports what nobody wanted to begin any more.
+    pub(super) fn give_up_waiting(&mut self) {
+        while let Some(index) = self.waiting.pop_front() {
+            let interrupted = failure(self.cases[index], FailureKind::Interrupted);
+            (self.finished)(index, Err(interrupted));
         }
     }
 

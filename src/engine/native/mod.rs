@@ -57,6 +57,7 @@ impl Native {
             };
             let mut lanes = Lanes::new(self, cases, indices, workplace, &mut *finished);
             width.compress_stacks(&mut lanes);
+            lanes.give_up_waiting();
         }
     }
 

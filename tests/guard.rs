@@ -6,7 +6,7 @@ use common::Bench;
 use std::fs;
 use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
-use std::process::{Child, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// A guard of a shell that executes `script`; it lives as long as its standard input is held open.
@@ -95,6 +95,19 @@ fn memory_files_and_core_dumps_are_limited() {
     let limits = text("ulimit -v; ulimit -f; ulimit -c");
     // In units of 1024 and of 512 bytes.
     assert_eq!(limits, "8388608\n2097152\n0\n");
+}
+
+#[test]
+fn a_lower_limit_stays() {
+    let script = "ulimit -v 4000000; exec \"$0\" guard -- sh -c 'ulimit -v'";
+    let mut shell = Command::new("sh");
+    shell.args(["-c", script, env!("CARGO_BIN_EXE_tristack")]);
+    let child = shell.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+    let mut child = child.expect("it starts");
+    let held = child.stdin.take();
+    let output = child.wait_with_output().expect("it ends");
+    drop(held);
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "4000000\n");
 }
 
 #[test]

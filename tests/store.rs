@@ -90,6 +90,32 @@ fn a_store_of_another_format_is_refused_and_left_as_it_is() {
     }
 }
 
+#[test]
+fn runs_are_kept_though_nobody_listens_any_more() {
+    let bench = Bench::without_engines();
+    let mut command =
+        bench.process("sweep --engine native --mu 0.2:0.5:0.02 --stiffness 100 --jobs 2");
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("it starts");
+    drop(child.stderr.take());
+    drop(child.stdout.take());
+    let status = child.wait().expect("it ends");
+    assert_eq!(status.code(), Some(0));
+    assert_eq!(entries(&bench).len(), 16 * 5);
+}
+
+#[test]
+fn native_runs_that_are_late_are_told_of_one_by_one() {
+    let bench = Bench::without_engines();
+    let line =
+        "sweep --engine native --mu 0.2:0.5:0.05 --stiffness 1e6 --jobs 1 --time-limit 0.001";
+    let output = bench.tristack(&format!("{line} --format csv")).output();
+    let output = output.expect("it runs");
+    let rows = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(rows.lines().count(), 1 + 7, "{rows}");
+    assert_eq!(output.status.code(), Some(3));
+}
+
 fn start(bench: &Bench, line: &str) -> std::process::Child {
     let mut command = bench.process(line);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());

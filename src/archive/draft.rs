@@ -3,9 +3,9 @@
 //! Content goes to a draft, is synced, and takes the place of the target by a rename, which is synced too.
 
 use super::ArchiveError;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
@@ -32,35 +32,41 @@ pub fn write_atomically_via(
     path: &Path,
     content: &[u8],
 ) -> Result<(), ArchiveError> {
-    write_by_draft(drafts, &OsString::from("draft-"), path, content)
+    write_by_draft(drafts, OsStr::new("draft-"), path, content)
 }
 
 fn write_by_draft(
     drafts: &Path,
-    prefix: &OsString,
+    prefix: &OsStr,
     path: &Path,
     content: &[u8],
 ) -> Result<(), ArchiveError> {
+    let write = || try_to_write(drafts, prefix, path, content);
+    // Before it was locked, another program may have taken the draft for an abandoned one.
+    match write() {
+        Err(error) if error.kind() == ErrorKind::NotFound => write(),
+        written => written,
+    }
+    .map_err(ArchiveError::writing(path))?;
+    sync_directory(&parent(path))
+}
+
+fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> std::io::Result<()> {
     // As readable as any other file of this user, not as a temporary one.
     let mut draft = tempfile::Builder::new()
         .prefix(prefix)
         .permissions(fs::Permissions::from_mode(0o666))
-        .tempfile_in(drafts)
-        .map_err(ArchiveError::writing(path))?;
+        .tempfile_in(drafts)?;
     // Says to other programs that somebody is at it; one that cannot be locked is only not cleaned up.
     let _ = draft.as_file().try_lock();
-    draft
-        .write_all(content)
-        .and_then(|()| draft.as_file().sync_all())
-        .map_err(ArchiveError::writing(path))?;
-    draft
-        .persist(path)
-        .map_err(|error| ArchiveError::writing(path)(error.error))?;
-    sync_directory(&parent(path))
+    draft.write_all(content)?;
+    draft.as_file().sync_all()?;
+    draft.persist(path).map_err(|error| error.error)?;
+    Ok(())
 }
 
 /// Removes the drafts with `prefix` in `directory` that nobody holds any more: a lock ends with its program.
-fn remove_abandoned(directory: &Path, prefix: &OsString) {
+pub(super) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let drafts = entries.filter(|entry| {
         let name = entry.file_name();
@@ -71,7 +77,7 @@ fn remove_abandoned(directory: &Path, prefix: &OsString) {
         let abandoned = File::open(draft.path()).is_ok_and(|file| file.try_lock().is_ok());
         if abandoned {
             // Somebody else may have been faster.
-            let _ = fs::remove_file(draft.path());
+            let _ = fs::remove_file(draft.path()).or_else(|_| fs::remove_dir_all(draft.path()));
         }
     }
 }

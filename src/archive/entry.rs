@@ -2,7 +2,7 @@
 
 use super::Provenance;
 use super::checksums::{CHECKSUMS, check, checksums};
-use super::draft::{parent, sync_directory, write_synced};
+use super::draft::{parent, remove_abandoned, sync_directory, write_synced};
 use crate::stack::{Case, CaseError};
 use crate::trace::{SeriesError, Trace};
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
@@ -13,6 +13,7 @@ use thiserror::Error;
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
+const DRAFT: &str = ".draft-";
 
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,12 +148,17 @@ impl Archive {
     /// If the file system refuses; what is under `name` is then what was there before.
     pub fn save(&self, name: &Path, run: &Run) -> Result<(), ArchiveError> {
         let target = self.root.join(name);
-        let parent = parent(&target);
-        fs::create_dir_all(&parent).map_err(ArchiveError::writing(&parent))?;
+        let parent = create_parent(&target)?;
+        if self.drafts == self.root {
+            // Elsewhere, whoever owns the place cleans up.
+            remove_abandoned(&self.drafts, DRAFT.as_ref());
+        }
         let draft = tempfile::Builder::new()
-            .prefix(".draft-")
+            .prefix(DRAFT)
             .tempdir_in(&self.drafts)
             .map_err(ArchiveError::writing(&self.drafts))?;
+        let held = fs::File::open(draft.path()).map_err(ArchiveError::writing(draft.path()))?;
+        let _ = held.try_lock();
         write_entry(draft.path(), run)?;
         put_in_place(draft.path(), &target)?;
         // Removes what was there before, if anything was.
@@ -165,13 +171,24 @@ impl Archive {
     /// # Errors
     /// If the file system refuses.
     pub fn move_away(&self, name: &Path, target: &Path) -> Result<(), ArchiveError> {
-        let parent = parent(target);
-        fs::create_dir_all(&parent).map_err(ArchiveError::writing(&parent))?;
+        create_parent(target)?;
         match fs::rename(self.root.join(name), target) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
             renamed => renamed.map_err(ArchiveError::writing(target)),
         }
     }
+}
+
+/// Creates the directory for `target`, and makes it last.
+fn create_parent(target: &Path) -> Result<PathBuf, ArchiveError> {
+    let directory = parent(target);
+    if !directory.is_dir() {
+        fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
+        for above in directory.ancestors().skip(1).take(2) {
+            sync_directory(&parent(&above.join("file")))?;
+        }
+    }
+    Ok(directory)
 }
 
 fn write_entry(directory: &Path, run: &Run) -> Result<(), ArchiveError> {
@@ -191,8 +208,11 @@ fn write_entry(directory: &Path, run: &Run) -> Result<(), ArchiveError> {
 /// Renames `draft` to `target`; an older `target` takes the place of the draft in the same instant.
 fn put_in_place(draft: &Path, target: &Path) -> Result<(), ArchiveError> {
     let rename = |flags| renameat2(AT_FDCWD, draft, AT_FDCWD, target, flags);
-    let renamed = match rename(RenameFlags::RENAME_NOREPLACE) {
-        Err(nix::Error::EEXIST) => rename(RenameFlags::RENAME_EXCHANGE).map_err(Into::into),
+    let renamed = rename(RenameFlags::RENAME_NOREPLACE).or_else(|error| match error {
+        nix::Error::EEXIST => rename(RenameFlags::RENAME_EXCHANGE),
+        error => Err(error),
+    });
+    let renamed = match renamed {
         // Network file systems know plain renames only.
         Err(nix::Error::EINVAL) => put_in_place_by_steps(draft, target),
         renamed => renamed.map_err(Into::into),
@@ -206,11 +226,14 @@ fn put_in_place_by_steps(draft: &Path, target: &Path) -> std::io::Result<()> {
     if target.exists() {
         fs::rename(target, &old)?;
     }
-    fs::rename(draft, target)?;
+    let renamed = fs::rename(draft, target);
     if old.exists() {
-        fs::remove_dir_all(&old)?;
+        match renamed {
+            Ok(()) => fs::remove_dir_all(&old)?,
+            Err(_) => fs::rename(&old, target)?,
+        }
     }
-    Ok(())
+    renamed
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ArchiveError> {

@@ -3,6 +3,7 @@
 use super::explain::{RowName, explain, row_name};
 use super::options::{Format, RunOptions, participants, writable};
 use super::progress::Reporter;
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
 use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure};
@@ -116,7 +117,7 @@ pub(super) fn conclude(
     for judgement in judgements {
         let row = &judgement.row;
         for note in &judgement.notes {
-            eprintln!(
+            tell!(
                 "{}: {} mu={} stiffness={}: {note}",
                 row.verdict,
                 row.engine,
@@ -126,15 +127,15 @@ pub(super) fn conclude(
         }
     }
     for participant in participants.iter().filter(|who| who.engine.is_none()) {
-        eprintln!(
+        tell!(
             "{} is not installed: recorded runs stand in for it (to run it live: {})",
             participant.name,
             participant.name.installation_hint()
         );
     }
-    eprintln!("{}", summary(judgements));
+    tell!("{}", summary(judgements));
     if INTERRUPT.requested() {
-        eprintln!(
+        tell!(
             "interrupted with {} of {planned} rows complete; every finished run is kept, and the same \
              command goes on from here",
             judgements.len()

@@ -15,6 +15,7 @@ mod regimes;
 mod report;
 mod simulate;
 mod sweep;
+mod tell;
 mod theory;
 mod trajectories;
 
@@ -26,6 +27,7 @@ use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
+pub(crate) use tell::tell;
 
 /// The user's wish to stop.
 pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
@@ -97,12 +99,10 @@ fn listen_for_interrupts() {
         if INTERRUPT.request() {
             std::process::exit(ExitStatus::Interrupted.code().into());
         }
-        eprintln!(
-            "interrupted: finished runs are kept; a second interrupt ends everything at once"
-        );
+        tell!("interrupted: finished runs are kept; a second interrupt ends everything at once");
     };
     if let Err(error) = ctrlc::set_handler(interrupted) {
-        eprintln!("warning: interrupts will end the program at once: {error}");
+        tell!("warning: interrupts will end the program at once: {error}");
     }
 }
 

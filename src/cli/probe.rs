@@ -2,6 +2,7 @@
 
 use super::options::{Format, RunOptions, participants};
 use super::progress::Reporter;
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::crosscheck::{Participant, Probed, probe_all};
 use crate::engine::EngineName;
@@ -55,9 +56,9 @@ fn conclude(participants: &[Participant], probed: &[Probed], findings: &[Finding
         if let Err(error) = result
             && !INTERRUPT.requested()
         {
-            eprintln!("{} was not probed: {error}", who.name);
+            tell!("{} was not probed: {error}", who.name);
         } else if who.engine.is_none() {
-            eprintln!(
+            tell!(
                 "{} is not installed: its recorded answers stand in for it",
                 who.name
             );
@@ -68,7 +69,7 @@ fn conclude(participants: &[Participant], probed: &[Probed], findings: &[Finding
         alike.count()
     };
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
-    eprintln!(
+    tell!(
         "{agreeing} of {} properties are as declared, {differing} differ, {} are inconclusive",
         findings.len(),
         findings.len() - agreeing - differing

@@ -1,5 +1,6 @@
 //! Progress on standard error: a bar on a terminal, plain lines elsewhere.
 
+use super::tell;
 use crate::archive::Run;
 use crate::crosscheck::Progress;
 use crate::engine::{EngineName, Failure};
@@ -51,7 +52,7 @@ impl Reporter {
         if self.drawn {
             self.bar.println(line);
         } else {
-            eprintln!("{line}");
+            tell!("{line}");
         }
     }
 
@@ -82,7 +83,7 @@ impl Progress for Reporter {
             counts.last_line = Instant::now();
             let done = self.bar.position() as f64 / self.bar.length().unwrap_or(1) as f64;
             let left = HumanDuration(self.bar.eta());
-            eprintln!("{:.0} % done, {left} left", 100.0 * done);
+            tell!("{:.0} % done, {left} left", 100.0 * done);
         }
     }
 
@@ -103,7 +104,7 @@ impl Progress for Reporter {
             Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
             Ok(run) if !self.drawn => {
                 let seconds = run.provenance.seconds;
-                eprintln!("{subject}: {seconds:.2} s");
+                tell!("{subject}: {seconds:.2} s");
             }
             _ => self.bar.set_message(subject),
         }

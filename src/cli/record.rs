@@ -2,6 +2,7 @@
 
 use super::options::{RunOptions, participants, recorded_trajectories, reference_directory};
 use super::progress::Reporter;
+use super::tell;
 use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::Run;
@@ -108,14 +109,14 @@ fn record_readings(participant: &Participant, settings: &Settings) -> Result<Exi
             settings.recorded.replace_readings(name, &readings)?;
             let (count, directory) = (readings.len(), reference_directory());
             let directory = directory.join("readings");
-            eprintln!(
+            tell!(
                 "{count} readings of {name} recorded under {}",
                 directory.display()
             );
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            eprintln!("the readings of {name} are not recorded: {error}");
+            tell!("the readings of {name} are not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }
@@ -138,14 +139,14 @@ fn record_runs<W: Workload>(
             recorded.replace(name, &runs)?;
             let directory = directory.join(name.as_str());
             let count = runs.len();
-            eprintln!(
+            tell!(
                 "{count} runs of {name} recorded under {}",
                 directory.display()
             );
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            eprintln!("the runs of {name} are not recorded: {error}");
+            tell!("the runs of {name} are not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }
@@ -161,11 +162,11 @@ fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<Exi
         Ok(probe) => {
             settings.recorded.replace_probe(name, &probe)?;
             let directory = reference_directory();
-            eprintln!("probe of {name} recorded under {}", directory.display());
+            tell!("probe of {name} recorded under {}", directory.display());
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            eprintln!("the probe of {name} is not recorded: {error}");
+            tell!("the probe of {name} is not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }

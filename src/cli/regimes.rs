@@ -2,6 +2,7 @@
 
 use super::options::{Format, as_flag, writable};
 use super::progress::Counter;
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
 use crate::crosscheck::{Survey, THREE_DIGITS, examined_stacks, survey};
@@ -60,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let survey = survey(&points, threads, &INTERRUPT, &|done| counter.add(done));
     drop(counter);
     if INTERRUPT.requested() {
-        eprintln!("interrupted: nothing is printed or written");
+        tell!("interrupted: nothing is printed or written");
         return Ok(ExitStatus::Interrupted);
     }
     if let Some(directory) = &arguments.out {
@@ -129,7 +130,7 @@ fn conclude(survey: &Survey) -> ExitStatus {
     let count = |verdict: Verdict| verdicts.iter().filter(|&&other| other == verdict).count();
     let agree = count(Verdict::Agrees);
     let (differ, all) = (count(Verdict::Differs), verdicts.len());
-    eprintln!(
+    tell!(
         "{agree} of {all} places agree ({} on boundaries, {} largest forces), {differ} differ, {} inconclusive",
         survey.confirmations.len(),
         survey.examinations.len(),

@@ -2,6 +2,7 @@
 
 use super::options::{RunOptions, participants, recorded_trajectories, writable};
 use super::progress::{Counter, Reporter};
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
 use crate::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 }
 
 fn interrupted() -> ExitStatus {
-    eprintln!(
+    tell!(
         "interrupted: no report is written; every finished run is kept, and the same command goes on from here"
     );
     ExitStatus::Interrupted
@@ -117,7 +118,7 @@ fn conclude(
             .filter(|claim| claim.verdict == verdict)
             .count()
     };
-    eprintln!(
+    tell!(
         "{} claims: {} hold, {} hold approximately, {} do not hold as stated, {} cannot be tested",
         claims.len(),
         count(ClaimVerdict::Holds),
@@ -125,7 +126,7 @@ fn conclude(
         count(ClaimVerdict::Fails),
         count(ClaimVerdict::Untestable)
     );
-    eprintln!("{}", directory.join("report.html").display());
+    tell!("{}", directory.join("report.html").display());
     let curves = ExitStatus::of(&reproduction.yield_curves);
     curves.max(ExitStatus::of(&reproduction.scaling))
 }

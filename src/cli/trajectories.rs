@@ -2,6 +2,7 @@
 
 use super::options::{Format, RunOptions, participants, recorded_trajectories, writable};
 use super::progress::Reporter;
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, write_atomically};
 use crate::crosscheck::{
@@ -130,19 +131,19 @@ fn conclude(
 ) -> ExitStatus {
     for judgement in judgements {
         for note in &judgement.notes {
-            eprintln!("{}: {}: {note}", judgement.verdict, judgement.engine);
+            tell!("{}: {}: {note}", judgement.verdict, judgement.engine);
         }
         for comparison in &judgement.comparisons {
             if let Some(note) = &comparison.note {
                 let (engine, verdict) = (judgement.engine, comparison.verdict);
                 let twin = comparison.twin.as_str();
                 let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
-                eprintln!("{verdict}: {engine}, {twin} twin, {branch}, {quantity}: {note}");
+                tell!("{verdict}: {engine}, {twin} twin, {branch}, {quantity}: {note}");
             }
         }
     }
     for participant in participants.iter().filter(|who| who.engine.is_none()) {
-        eprintln!(
+        tell!(
             "{} is not installed: recorded runs stand in for it (to run it live: {})",
             participant.name,
             participant.name.installation_hint()
@@ -155,13 +156,13 @@ fn conclude(
     let agreeing = verdicts
         .iter()
         .filter(|&&verdict| verdict == Verdict::Agrees);
-    eprintln!(
+    tell!(
         "{} of {} comparisons agree",
         agreeing.count(),
         verdicts.len()
     );
     if INTERRUPT.requested() {
-        eprintln!(
+        tell!(
             "interrupted with {} of {planned} codes complete; every finished run is kept, and the same \
              command goes on from here",
             judgements.len()

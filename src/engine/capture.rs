@@ -19,8 +19,11 @@ impl<W: Write + Send + 'static> Capture<W> {
     pub(super) fn new(pipe: impl Read + Send + 'static, mut output: W) -> Self {
         let (sender, result) = channel();
         std::thread::spawn(move || {
-            // Output that cannot be written is lost; the run is judged by its series.
-            let _ = copy(pipe, &mut output);
+            // Output that cannot be written is lost, and the program does not notice: it is judged by its series.
+            let mut pipe = pipe;
+            if copy(&mut pipe, &mut output).is_err() {
+                let _ = std::io::copy(&mut pipe, &mut std::io::sink());
+            }
             let _ = sender.send(output);
         });
         Self { result }

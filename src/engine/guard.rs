@@ -7,7 +7,7 @@
 use nix::errno::Errno;
 use nix::sched::{CloneFlags, unshare};
 use nix::sys::prctl::set_child_subreaper;
-use nix::sys::resource::{Resource, setrlimit};
+use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use nix::sys::signal::{Signal, kill, raise};
 use nix::sys::socket::{AddressFamily, MsgFlags, SockFlag, SockProtocol, SockType, send, socket};
 use nix::sys::wait::{WaitPidFlag, waitpid};
@@ -17,11 +17,15 @@ use std::io::Read;
 use std::os::fd::AsRawFd;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The command of `tristack` that is a guard.
 pub const COMMAND: &str = "guard";
+/// Its flag for a program without a network.
+const OFFLINE: &str = "--offline";
+const THIS_PROGRAM: &str = "/proc/self/exe";
 
 /// Ten times what any code needs for the stack.
 const MOST_MEMORY: u64 = 8 << 30;
@@ -37,27 +41,43 @@ pub fn guard_foreign_programs() {
 
 /// What stands before the command of a foreign program. The link leads to this program even after another one has
 /// taken its name.
-pub(super) fn prefix() -> &'static [&'static OsStr] {
-    static PREFIX: std::sync::LazyLock<[&OsStr; 3]> =
-        std::sync::LazyLock::new(|| ["/proc/self/exe", COMMAND, "--"].map(OsStr::new));
-    if GUARDED.load(Ordering::SeqCst) {
-        PREFIX.as_slice()
-    } else {
-        &[]
-    }
+pub(super) fn prefix() -> Vec<&'static OsStr> {
+    let words: &[&str] = match GUARDED.load(Ordering::SeqCst) {
+        false => &[],
+        true if *MAY_LEAVE_NETWORK => &[THIS_PROGRAM, COMMAND, OFFLINE, "--"],
+        true => &[THIS_PROGRAM, COMMAND, "--"],
+    };
+    words.iter().map(OsStr::new).collect()
 }
 
-/// Runs `command` under guard until it ends or standard input is closed. Whatever it has started is then dead.
+/// Whether the system lets this user leave the network. Somebody has to try: half of it cannot be undone.
+static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
+    let mut guard = Command::new(THIS_PROGRAM);
+    guard.args([COMMAND, OFFLINE, "--", THIS_PROGRAM, "--version"]);
+    guard.stdout(Stdio::null()).stderr(Stdio::null());
+    let child = guard.stdin(Stdio::piped()).spawn();
+    let status = child.and_then(|mut child| {
+        let held = child.stdin.take();
+        let status = child.wait();
+        drop(held);
+        status
+    });
+    status.is_ok_and(|status| status.success())
+});
+
+/// Runs `command` under guard until it ends or standard input is closed, without a network if `offline`. Whatever it
+/// has started is then dead.
 ///
 /// # Errors
-/// If it cannot be started.
-pub fn guard(command: &[OsString]) -> std::io::Result<ExitStatus> {
+/// If it cannot be started that way.
+pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus> {
     set_child_subreaper(true)?;
-    setrlimit(Resource::RLIMIT_CORE, 0, 0)?;
-    setrlimit(Resource::RLIMIT_AS, MOST_MEMORY, MOST_MEMORY)?;
-    setrlimit(Resource::RLIMIT_FSIZE, LONGEST_FILE, LONGEST_FILE)?;
-    // Where this is not allowed, programs are as free as their decks leave them.
-    let _ = leave_network();
+    limit(Resource::RLIMIT_CORE, 0)?;
+    limit(Resource::RLIMIT_AS, MOST_MEMORY)?;
+    limit(Resource::RLIMIT_FSIZE, LONGEST_FILE)?;
+    if offline {
+        leave_network()?;
+    }
     let mut child = Command::new(&command[0])
         .args(&command[1..])
         .stdin(Stdio::null())
@@ -80,7 +100,16 @@ pub fn end_like(status: ExitStatus) -> i32 {
         let _ = raise(signal);
         let _ = raise(signal);
     }
-    status.code().unwrap_or(1)
+    // As a shell tells of a signal that this program ignores.
+    let signal = status.signal().unwrap_or_default();
+    status.code().unwrap_or(128 + signal)
+}
+
+/// Allows no more than `most`, and no more than is allowed already.
+fn limit(resource: Resource, most: u64) -> std::io::Result<()> {
+    let (_, allowed) = getrlimit(resource)?;
+    let most = most.min(allowed);
+    Ok(setrlimit(resource, most, most)?)
 }
 
 /// Moves to a network of its own, in which there is nothing but a loopback interface.

@@ -68,12 +68,12 @@ pub fn find(
     environment: Environment,
 ) -> Option<Installation> {
     let program = in_search_path(program)?;
+    let stamp = Stamp::of(&program)?;
     let package = owning_package(&program);
     let version = match &package {
         Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
         _ => own_version(&program, question, environment),
     };
-    let stamp = Stamp::of(&program)?;
     let hash = sha256_hex(&std::fs::read(&program).ok()?);
     Some(Installation {
         program,

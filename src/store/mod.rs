@@ -77,14 +77,17 @@ impl Store {
         case: &Case,
         deck_hash: &str,
     ) -> Result<Option<Run>, ArchiveError> {
-        let run = self
-            .archive
-            .load(&name(&identity.address(case, deck_hash)))?;
-        Ok(run.filter(|run| {
+        let address = identity.address(case, deck_hash);
+        let run = self.archive.load(&name(&address))?;
+        let run = run.filter(|run| {
             let provenance = &run.provenance;
             let same = provenance.identity == *identity && provenance.deck_hash == deck_hash;
             same && run.case == *case
-        }))
+        });
+        if run.is_some() {
+            self.forget_checkpoint(&address);
+        }
+        Ok(run)
     }
 
     /// Keeps a finished run. What was kept of it while it was under way is no longer needed.
@@ -99,9 +102,14 @@ impl Store {
         } = &run.provenance;
         let address = identity.address(&run.case, deck_hash);
         self.archive.save(&name(&address), run)?;
-        let checkpoint = self.checkpoint_directory().join(format!("{address}.json"));
-        let _ = std::fs::remove_file(checkpoint);
+        self.forget_checkpoint(&address);
         Ok(())
+    }
+
+    fn forget_checkpoint(&self, address: &str) {
+        let checkpoint = self.checkpoint_directory().join(format!("{address}.json"));
+        // Most runs have none.
+        let _ = std::fs::remove_file(checkpoint);
     }
 
     /// Puts the damaged run under `address` aside, and says where it is now.

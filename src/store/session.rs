@@ -90,8 +90,10 @@ impl Session {
         let free = addresses.iter().zip(&holders);
         let free = free.filter(|(_, holder)| holder.is_none());
         let free: Vec<String> = free.map(|(address, _)| address.clone()).collect();
-        state.claims.addresses.extend(free);
-        state.write(&self.path)?;
+        if !free.is_empty() {
+            state.claims.addresses.extend(free);
+            state.write(&self.path)?;
+        }
         Ok(holders)
     }
 

@@ -56,6 +56,7 @@ fn fill(round: &mut Round) -> Aftermath {
         ),
     );
     Aftermath {
+        struck: !output.status.success(),
         outputs: vec![output],
         ..Aftermath::default()
     }
@@ -82,6 +83,7 @@ fn refuse_read_only(round: &mut Round) -> Result<Aftermath, String> {
     }
     Ok(Aftermath {
         outputs: vec![killed, output],
+        struck: true,
         ..Aftermath::default()
     })
 }
@@ -98,6 +100,7 @@ fn lose_the_right_to_keep(round: &mut Round) -> Aftermath {
     );
     Aftermath {
         outputs: vec![output],
+        struck: true,
         harmless: true,
         ..Aftermath::default()
     }

@@ -27,6 +27,7 @@ pub fn strike(fault: E, round: &mut Round) -> Result<Aftermath, String> {
     let harmless = matches!(fault, E::LeavesADaemon | E::WritesTenGigabytes);
     Ok(Aftermath {
         outputs: vec![output],
+        struck: true,
         harmless,
         harmful: !harmless,
         // Whoever delivers forces in other units delivers a whole series.

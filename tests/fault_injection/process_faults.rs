@@ -7,11 +7,12 @@ use super::workload::{address, asked};
 use nix::sys::signal::Signal;
 use std::collections::BTreeSet;
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Output};
 use std::time::{Duration, Instant};
 
 /// A second interrupt is immediate: no more than this on a busy machine.
-const IMMEDIATE: Duration = Duration::from_secs(2);
+const IMMEDIATE: Duration = Duration::from_secs(1);
 
 pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, String> {
     match fault {
@@ -44,6 +45,10 @@ fn signal(child: &Child, signal: Signal) {
     process.signal(signal);
 }
 
+fn is_running(child: &mut Child) -> bool {
+    child.try_wait().expect("it can be watched").is_none()
+}
+
 fn finish(child: Child) -> Output {
     child.wait_with_output().expect("it ends")
 }
@@ -54,9 +59,10 @@ fn kill_times(times: usize, round: &mut Round) -> Aftermath {
         let child = round.start("");
         round.wait_for_a_moment();
         signal(&child, Signal::SIGKILL);
-        aftermath.outputs.push(finish(child));
+        let output = finish(child);
+        aftermath.struck |= output.status.signal() == Some(Signal::SIGKILL as i32);
+        aftermath.outputs.push(output);
     }
-    // The last killed one may have been the one that did it all.
     aftermath
 }
 
@@ -74,6 +80,7 @@ fn kill_while_engine_hangs(round: &mut Round) -> Aftermath {
     fs::remove_file(hang).expect("it is there");
     Aftermath {
         outputs: vec![finish(child)],
+        struck: true,
         ..Aftermath::default()
     }
 }
@@ -88,7 +95,7 @@ fn interrupt(how: Signal, round: &mut Round) -> Result<Aftermath, String> {
         Some(130) if message.contains("interrupted") => {}
         Some(0) => {}
         // So early that nobody listened yet.
-        None => {}
+        None if output.status.signal() == Some(how as i32) => {}
         code => return Err(format!("it ended with {code:?}\n{message}")),
     }
     let sessions = round.store().join("sessions");
@@ -97,35 +104,56 @@ fn interrupt(how: Signal, round: &mut Round) -> Result<Aftermath, String> {
         return Err(format!("{left} sessions are open after an interrupt"));
     }
     Ok(Aftermath {
+        struck: output.status.code() == Some(130),
         outputs: vec![output],
         ..Aftermath::default()
     })
 }
 
+/// The guard is stopped, so that a single interrupt would have to wait for it.
 fn interrupt_twice(round: &mut Round) -> Result<Aftermath, String> {
-    let child = round.start("");
-    round.wait_for_a_moment();
+    let first = address(&round.workload.cases[0]);
+    let hang = round.bench.path(&format!("replay/{first}.sh"));
+    fs::write(&hang, "sleep 600").expect("a script");
+    let mut child = round.start("");
+    while !asked(&round.bench).contains(&first) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let guards = processes::of(&round.root());
+    let guards: Vec<Process> = guards.into_iter().filter(Process::is_guard).collect();
+    let tell_guards = |what| guards.iter().for_each(|guard| guard.signal(what));
+    tell_guards(Signal::SIGSTOP);
     signal(&child, Signal::SIGINT);
-    std::thread::sleep(Duration::from_millis(round.random.u64(..30)));
+    std::thread::sleep(Duration::from_millis(100 + round.random.u64(..300)));
+    let waited = is_running(&mut child);
     let second = Instant::now();
     signal(&child, Signal::SIGINT);
     let output = finish(child);
-    if second.elapsed() > IMMEDIATE {
-        return Err(format!("it took {:?} to end", second.elapsed()));
+    let took = second.elapsed();
+    tell_guards(Signal::SIGCONT);
+    fs::remove_file(hang).expect("it is there");
+    if !waited || took > IMMEDIATE || output.status.code() != Some(130) {
+        let status = output.status;
+        return Err(format!(
+            "it waited: {waited}; it ended after {took:?}, {status}"
+        ));
     }
     Ok(Aftermath {
         outputs: vec![output],
+        struck: true,
         ..Aftermath::default()
     })
 }
 
 fn stop_for_a_while(round: &mut Round) -> Aftermath {
-    let child = round.start("");
+    let mut child = round.start("");
     round.wait_for_a_moment();
+    let struck = is_running(&mut child);
     signal(&child, Signal::SIGSTOP);
     std::thread::sleep(Duration::from_millis(300));
     signal(&child, Signal::SIGCONT);
     Aftermath {
+        struck,
         outputs: vec![finish(child)],
         harmless: true,
         ..Aftermath::default()
@@ -139,6 +167,7 @@ fn signal_others(which: fn(&Process) -> bool, how: Signal, round: &mut Round) ->
     let struck: Vec<Process> = processes.into_iter().filter(which).collect();
     struck.iter().for_each(|process| process.signal(how));
     Aftermath {
+        struck: !struck.is_empty(),
         outputs: vec![finish(child)],
         ..Aftermath::default()
     }
@@ -151,8 +180,10 @@ fn replace_engine(round: &mut Round) -> Aftermath {
     let script = fs::read_to_string(&program).expect("a script");
     round.bench.install("new", &format!("{script}\n# rebuilt"));
     fs::rename(round.bench.path("programs/new"), program).expect("it is replaced");
+    let output = finish(child);
     Aftermath {
-        outputs: vec![finish(child)],
+        struck: String::from_utf8_lossy(&output.stderr).contains("was replaced"),
+        outputs: vec![output],
         ..Aftermath::default()
     }
 }
@@ -167,11 +198,13 @@ fn let_clock_jump(round: &mut Round) -> Aftermath {
         .env("FAKETIME_TIMESTAMP_FILE", &clock)
         .env("FAKETIME_NO_CACHE", "1")
         .env("FAKETIME_DONT_FAKE_MONOTONIC", "1");
-    let child = command.spawn().expect("it starts");
+    let mut child = command.spawn().expect("it starts");
     let jump = ["-9000d", "+9000d", "-3600s"][round.random.usize(..3)];
     round.wait_for_a_moment();
+    let struck = is_running(&mut child);
     set(jump);
     Aftermath {
+        struck,
         outputs: vec![finish(child)],
         harmless: true,
         ..Aftermath::default()
@@ -179,8 +212,9 @@ fn let_clock_jump(round: &mut Round) -> Aftermath {
 }
 
 fn run_two(round: &mut Round, kill_one: bool) -> Result<Aftermath, String> {
-    let first = round.start("");
+    let mut first = round.start("");
     std::thread::sleep(round.moment().mul_f64(0.5));
+    let mut struck = is_running(&mut first);
     let second = round.start("");
     let mut outputs = Vec::new();
     if kill_one {
@@ -190,7 +224,7 @@ fn run_two(round: &mut Round, kill_one: bool) -> Result<Aftermath, String> {
             false => (second, first),
         };
         signal(&killed, Signal::SIGKILL);
-        finish(killed);
+        struck &= finish(killed).status.signal().is_some();
         outputs.push(finish(other));
     } else {
         outputs.extend([finish(first), finish(second)]);
@@ -205,6 +239,7 @@ fn run_two(round: &mut Round, kill_one: bool) -> Result<Aftermath, String> {
         }
     }
     Ok(Aftermath {
+        struck,
         outputs,
         harmless: true,
         ..Aftermath::default()

@@ -9,12 +9,13 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
     let Some(path) = std::env::var_os("TRISTACK_FAULT_REPORT") else {
         return;
     };
-    let mut faults: BTreeMap<Fault, [usize; 4]> = BTreeMap::new();
+    let mut faults: BTreeMap<Fault, [usize; 5]> = BTreeMap::new();
     for (fault, outcome) in outcomes {
-        let [count, finished, made, complaints] = faults.entry(*fault).or_default();
+        let [count, struck, finished, made, complaints] = faults.entry(*fault).or_default();
         *count += 1;
         match outcome {
             Ok(story) => {
+                *struck += usize::from(story.struck);
                 *finished += story.finished_before;
                 *made += story.made_after;
             }
@@ -23,11 +24,12 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
     }
     let faults = faults.into_iter().map(|(fault, counts)| {
         let (kind, name) = names(fault);
-        let [rounds, finished, made, complaints] = counts;
+        let [rounds, struck, finished, made, complaints] = counts;
         serde_json::json!({
             "kind": kind,
             "fault": name,
             "rounds": rounds,
+            "struck": struck,
             "finished_before": finished,
             "made_after": made,
             "complaints": complaints,

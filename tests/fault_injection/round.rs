@@ -26,6 +26,8 @@ pub struct Round<'a> {
 pub struct Aftermath {
     /// What the disturbed programs said.
     pub outputs: Vec<Output>,
+    /// Whether the fault came in time to disturb anything.
+    pub struck: bool,
     /// Whether they must have come to the same result as if nothing had happened.
     pub harmless: bool,
     /// Whether at least one row must have got no agreement.
@@ -39,6 +41,8 @@ pub struct Aftermath {
 /// What a round came to.
 #[derive(Debug, Clone, Copy)]
 pub struct Story {
+    /// Whether the fault came in time.
+    pub struck: bool,
     /// Runs that the disturbed programs had said were finished.
     pub finished_before: usize,
     /// Runs that were made after the fault.
@@ -75,6 +79,7 @@ impl<'a> Round<'a> {
         let made_after = round.go_on(&aftermath)?;
         round.look_for_leftovers(&aftermath)?;
         Ok(Story {
+            struck: aftermath.struck,
             finished_before,
             made_after,
         })
@@ -134,7 +139,7 @@ impl<'a> Round<'a> {
             let told = || format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
             let suspicious = text.lines().find(|line| {
                 let known = expected.contains(line);
-                !known && line.contains(",agrees,")
+                !known && line.ends_with(",agrees")
             });
             if let Some(row) = suspicious {
                 return Err(format!("a wrong agreement: {row}\n{}", told()));
@@ -167,10 +172,10 @@ impl<'a> Round<'a> {
         if whole + aftermath.damaged != entries.len() {
             return Err(format!("{whole} of {} entries are whole", entries.len()));
         }
-        let present = entries.len().min(whole + aftermath.damaged);
         let said = finished.min(self.workload.cases.len());
-        if present < said {
-            return Err(format!("{said} runs were finished, {present} are kept"));
+        if entries.len() < said {
+            let kept = entries.len();
+            return Err(format!("{said} runs were finished, {kept} are kept"));
         }
         Ok(finished)
     }
@@ -255,7 +260,9 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
     match fault {
         Fault::Engine(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
         // What hangs without an end of its own in sight must not be waited for.
-        Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs) => &all.replayed,
+        Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs | P::InterruptedTwice) => {
+            &all.replayed
+        }
         Fault::Process(P::EngineKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
             &all.replayed
         }

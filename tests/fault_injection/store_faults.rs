@@ -13,6 +13,7 @@ pub fn strike(fault: StoreFault, round: &mut Round) -> Result<Aftermath, String>
     let before = round.run("");
     let aftermath = Aftermath {
         outputs: vec![before],
+        struck: true,
         harmless: true,
         ..Aftermath::default()
     };

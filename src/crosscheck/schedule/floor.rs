@@ -2,7 +2,7 @@
 //! program that is at it.
 
 use super::orders::Order;
-use super::outbox::{Claim, Outbox, Outgoing, with_outbox};
+use super::outbox::{Claim, Outbox, Outgoing, keep, with_outbox};
 use super::{Participant, Progress, RunError, Settings};
 use crate::archive::Run;
 use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Workplace};
@@ -259,6 +259,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
         let mut own = Vec::new();
         for ((&order, address), holder) in job.orders.iter().zip(addresses).zip(holders) {
             match holder {
+                Some(_) if self.is_made_elsewhere(job.engine, order) => {}
                 Some(holder) => self.wait_later(order, holder),
                 None => {
                     if !self.is_made_meanwhile(job.engine, order, &address) {
@@ -294,6 +295,15 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
         made
     }
 
+    /// Whether another program, which is still at others, has made the run already.
+    fn is_made_elsewhere(&self, engine: &dyn Engine, order: usize) -> bool {
+        let made = !self.settings.fresh && self.fill_from_store(engine, order, |_| ());
+        if made {
+            self.advance(order);
+        }
+        made
+    }
+
     fn hand_in(
         &self,
         engine: &dyn Engine,
@@ -309,7 +319,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
             claim: Arc::clone(claim),
         };
         if let Err(refused) = outbox.send(outgoing) {
-            // There is nobody to keep it; it counts all the same.
+            keep(&refused.0);
             self.settle(refused.0);
         }
     }

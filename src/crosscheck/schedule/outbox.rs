@@ -21,6 +21,9 @@ pub(super) struct Claim<'a> {
 
 impl Drop for Claim<'_> {
     fn drop(&mut self) {
+        if self.addresses.is_empty() {
+            return;
+        }
         if let Err(error) = self.store.release(&self.addresses) {
             let message = format!("other programs may wait for this one to end: {error}");
             self.progress.warn(&message);
@@ -45,16 +48,20 @@ pub(super) fn with_outbox<'a>(
     work: impl FnOnce(&Outbox<'a>) + Send,
 ) {
     let (outbox, inbox) = sync_channel(CAPACITY);
-    let inbox = Mutex::new(inbox);
+    // The writers alone own it: if they are gone, the outbox says so instead of waiting for them.
+    let inbox = Arc::new(Mutex::new(inbox));
+    let kept = &kept;
     std::thread::scope(|threads| {
         for _ in 0..WRITERS {
-            threads.spawn(|| {
+            let inbox = Arc::clone(&inbox);
+            threads.spawn(move || {
                 while let Some(outgoing) = next(&inbox) {
                     keep(&outgoing);
                     kept(outgoing);
                 }
             });
         }
+        drop(inbox);
         work(&outbox);
         drop(outbox);
     });
@@ -65,7 +72,7 @@ fn next<'a>(inbox: &Mutex<Receiver<Outgoing<'a>>>) -> Option<Outgoing<'a>> {
     inbox.recv().ok()
 }
 
-fn keep(outgoing: &Outgoing) {
+pub(super) fn keep(outgoing: &Outgoing) {
     let Claim {
         store, progress, ..
     } = outgoing.claim.as_ref();

@@ -57,8 +57,9 @@ impl<'a, 'f> Lanes<'a, 'f> {
     /// Reports what nobody wanted to begin any more.
     pub(super) fn give_up_waiting(&mut self) {
         while let Some(index) = self.waiting.pop_front() {
-            let interrupted = failure(self.cases[index], FailureKind::Interrupted);
-            (self.finished)(index, Err(interrupted));
+            let late = self.late().map(FailureKind::TimedOut);
+            let kind = late.unwrap_or(FailureKind::Interrupted);
+            (self.finished)(index, Err(failure(self.cases[index], kind)));
         }
     }
 

@@ -10,6 +10,7 @@ use crate::crosscheck::{
 };
 use crate::engine::EngineName;
 use crate::reproduction::readings_to_record;
+use crate::stack::shown;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -110,7 +111,7 @@ fn record_readings(participant: &Participant, settings: &Settings) -> Result<Exi
             let directory = directory.join("readings");
             eprintln!(
                 "{count} readings of {name} recorded under {}",
-                directory.display()
+                shown(&directory)
             );
             Ok(ExitStatus::Success)
         }
@@ -140,7 +141,7 @@ fn record_runs<W: Workload>(
             let count = runs.len();
             eprintln!(
                 "{count} runs of {name} recorded under {}",
-                directory.display()
+                shown(&directory)
             );
             Ok(ExitStatus::Success)
         }
@@ -161,7 +162,7 @@ fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<Exi
         Ok(probe) => {
             settings.recorded.replace_probe(name, &probe)?;
             let directory = reference_directory();
-            eprintln!("probe of {name} recorded under {}", directory.display());
+            eprintln!("probe of {name} recorded under {}", shown(&directory));
             Ok(ExitStatus::Success)
         }
         Err(error) => {

@@ -2,7 +2,7 @@
 
 use super::EngineName;
 use crate::archive::ArchiveError;
-use crate::stack::InvalidValue;
+use crate::stack::{InvalidValue, shown};
 use crate::trace::SeriesError;
 use std::path::PathBuf;
 use std::process::ExitStatus;
@@ -87,7 +87,7 @@ impl Failure {
 fn context(run_directory: &Option<PathBuf>, last_lines: &[String]) -> String {
     let mut text = String::new();
     if let Some(directory) = run_directory {
-        text += &format!("\n  run directory: {}", directory.display());
+        text += &format!("\n  run directory: {}", shown(directory));
     }
     for line in last_lines {
         text += &format!("\n  | {line}");

@@ -56,8 +56,16 @@ impl ProbeRecord {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(ArchiveError::reading(path))?,
         };
+        Self::parse(&text, path).map(Some)
+    }
+
+    /// Reads the record in the `text` of the file at `path`.
+    ///
+    /// # Errors
+    /// If it is damaged.
+    pub fn parse(text: &[u8], path: &Path) -> Result<Self, ArchiveError> {
         let record: Self =
-            serde_json::from_slice(&text).map_err(|error| ArchiveError::Provenance {
+            serde_json::from_slice(text).map_err(|error| ArchiveError::Provenance {
                 path: path.to_owned(),
                 message: error.to_string(),
             })?;
@@ -69,7 +77,7 @@ impl ProbeRecord {
                 }
             })?;
         }
-        Ok(Some(record))
+        Ok(record)
     }
 
     /// Writes the record to `path`.

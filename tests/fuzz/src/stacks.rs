@@ -9,6 +9,9 @@ use tristack::theory::{Predictions, quasistatic_limit};
 
 const NUMBERS: usize = 8;
 
+/// Of the domain over which the theories are tested (tests/theory_domain.rs).
+const SMALLEST_RATIO: f64 = 1e-3;
+
 /// Eight numbers: friction, cylinder friction, stiffness, stiffness ratio, both arms, wall speed, time step.
 pub fn check(data: &[u8]) {
     let mut numbers = [0.3, 0.7, 1e4, 2.5, 0.0, 0.0, 1e-5, 0.1];
@@ -36,6 +39,10 @@ pub fn check(data: &[u8]) {
         floor_arm,
         ..Convention::PAPER
     };
+    // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.
+    if stiffness_ratio < SMALLEST_RATIO {
+        return;
+    }
     if stack.validate().is_err() || convention.validate().is_err() {
         return;
     }

@@ -22,8 +22,11 @@ pub type Seed = (String, Vec<u8>);
 /// What is done with some bytes.
 pub type Check = fn(&[u8]);
 
+/// Inputs to start from.
+pub type Seeds = fn() -> Vec<Seed>;
+
 /// Name, check and seeds of every target.
-pub const TARGETS: [(&str, Check, fn() -> Vec<Seed>); 9] = [
+pub const TARGETS: [(&str, Check, Seeds); 9] = [
     ("case", case::check, case::seeds),
     ("options", options::check, options::seeds),
     ("claims", claims::check, claims::seeds),

@@ -1,10 +1,9 @@
 //! Parsers of everything that comes from outside, under arbitrary and under slightly damaged input: they never
-//! panic, and what they accept is sound. What that means stands in tests/fuzz/src/, one file a family, where the
+//! panic, and what they accept is sound. What that means stands in tests/soundness/, one file a family, where the
 //! long runs of tests/fuzz/run start from as well.
 
 #[allow(dead_code)] // The targets of cargo-fuzz use the rest.
-#[path = "fuzz/src/lib.rs"]
-mod fuzz;
+mod soundness;
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
@@ -106,7 +105,7 @@ fn numbers(input: &[u8]) -> Vec<std::ops::Range<usize>> {
 
 /// Holds `target` against arbitrary bytes and text, and against its seeds, changed.
 fn hold(target: &str, cases: u32) {
-    let found = fuzz::TARGETS.iter().find(|(name, ..)| *name == target);
+    let found = soundness::TARGETS.iter().find(|(name, ..)| *name == target);
     let (_, check, seeds) = found.expect("a target of that name");
     let seeds: Vec<Vec<u8>> = seeds().into_iter().map(|(_, input)| input).collect();
     seeds.iter().for_each(|seed| check(seed));

@@ -1,7 +1,7 @@
 //! What must hold of every parser, whatever it is given: it returns, and what it accepts is sound.
 //!
 //! Each module has a `check` of some bytes, which panics if something does not hold, and `seeds`, valid inputs
-//! to start from. `fuzz_targets/` hands them to libFuzzer, `tests/parsers.rs` to proptest.
+//! to start from. `tests/fuzz/` hands them to libFuzzer, `tests/parsers.rs` to proptest.
 
 pub mod case;
 pub mod checkpoints;

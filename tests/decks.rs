@@ -1,10 +1,15 @@
 //! What the decks of the external codes are told, and which deck it is.
 
 use insta::assert_snapshot;
+use proptest::prelude::*;
+use proptest::sample::select;
 use tristack::crosscheck::{Workload, plan};
 use tristack::engine::{EngineName, ParameterFile, Task};
 use tristack::reproduction::plan_preparation;
-use tristack::stack::Stack;
+use tristack::stack::{
+    Case, ContactTest, Convention, Launch, Preparation, Protocol, Pyramid, Sampling, SideWalls,
+    Stack,
+};
 
 fn parameters() -> serde_json::Value {
     let convention = EngineName::Yade.convention();
@@ -73,4 +78,132 @@ fn names_of_variables(text: &str) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Numbers that a valid case can be made of, as far as they go.
+fn cases() -> impl Strategy<Value = Case> {
+    let stack = (1e-6..1e3, 1e-6..1e3, 0.0..8.0, -3.0..6.0).prop_map(
+        |(floor_friction, cylinder_friction, stiffness, ratio): (f64, f64, f64, f64)| Stack {
+            floor_friction,
+            cylinder_friction,
+            stiffness: 10f64.powf(stiffness),
+            stiffness_ratio: 10f64.powf(ratio),
+        },
+    );
+    let speeds = (-9.0..-2.0, 1e-3..1.0, 0.0..1.0, prop::option::of(0.0..0.5));
+    (stack, speeds, 1e-3..1.0, select(&EngineName::ALL[..])).prop_map(
+        |(stack, (speed, step, fine, push), restitution, engine)| {
+            let wall_travel: f64 = 0.5;
+            let wall_speed = 10f64.powf(speed);
+            let preparation = match push {
+                Some(push) => Preparation::SideWalls(SideWalls::paper(push, stack.epsilon())),
+                None => Preparation::GravityRamp {
+                    ramp_time: 100.0 * step,
+                    rest_time: 1e4,
+                },
+            };
+            Case {
+                stack,
+                convention: Convention {
+                    restitution,
+                    ..engine.convention()
+                },
+                protocol: Protocol {
+                    preparation,
+                    time_step: step * stack.longest_time_step(),
+                    wall_speed,
+                    wall_travel,
+                    sampling: Sampling {
+                        coarse_interval: wall_travel / wall_speed / 60.0,
+                        fine_from_travel: fine * wall_travel,
+                        fine_interval: wall_travel / wall_speed / 1e3,
+                    },
+                    shortcuts: None,
+                },
+            }
+        },
+    )
+}
+
+fn is_name(word: &str) -> bool {
+    let plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
+    word.starts_with(|first: char| first.is_ascii_lowercase()) && word.bytes().all(plain)
+}
+
+/// Digits, sign, point and exponent, and nothing that a deck could take for something else.
+fn is_plain_number(word: &str) -> bool {
+    let allowed = |byte: u8| byte.is_ascii_digit() || b"+-.e".contains(&byte);
+    word.bytes().all(allowed) && word.parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+/// Nothing but names that the program chose, and plain numbers, in either format.
+fn is_typed(parameters: &serde_json::Value) -> bool {
+    let json: serde_json::Value =
+        serde_json::from_str(&ParameterFile::Json.content(parameters)).expect("JSON");
+    let mut named = json.as_object().expect("an object").iter();
+    let variables = ParameterFile::Lammps.content(parameters);
+    let typed = |line: &str| match line.split(' ').collect::<Vec<_>>()[..] {
+        ["variable", name, "string", number] => is_name(name) && is_plain_number(number),
+        _ => false,
+    };
+    named.all(|(name, value)| is_name(name) && is_plain_number(&value.to_string()))
+        && variables.lines().all(typed)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+
+    #[test]
+    fn parameters_of_every_valid_case_are_plain_numbers(case in cases()) {
+        prop_assume!(case.validate().is_ok());
+        prop_assert!(is_typed(&case.parameters()));
+    }
+
+    #[test]
+    fn parameters_of_every_pyramid_are_plain_numbers(rows in 1u32..20, case in cases()) {
+        let pyramid = Pyramid::touching(rows, case.stack.stiffness, case.convention);
+        prop_assert!(is_typed(&pyramid.parameters()));
+        for (name, content) in pyramid.files() {
+            prop_assert_eq!(name, "cylinders.data");
+            const WORDS: [&str; 12] = [
+                "atoms", "atom", "types", "xlo", "xhi", "ylo", "yhi", "zlo", "zhi", "Atoms", "", "\n",
+            ];
+            // The first line is a title.
+            let mut words = content.lines().skip(1).flat_map(str::split_whitespace);
+            prop_assert!(words.all(|word| WORDS.contains(&word) || is_plain_number(word)));
+        }
+    }
+
+    #[test]
+    fn parameters_of_every_micro_test_are_plain_numbers(x in -1e3..1e3f64, spin in -1e3..1e3f64, steps in 0u64..1000) {
+        let test = ContactTest {
+            convention: Convention::PAPER,
+            stiffness_ratio: 2.5,
+            floor_friction: 0.3,
+            cylinder_friction: 0.7,
+            time_step: 0.1,
+            steps,
+            wall_height: x.abs() + 3.0,
+            wall_speed: 0.0,
+            launches: [Launch { spin, ..Launch::at(x, 1.0) }, Launch::at(x + 3.0, 1.0)],
+        };
+        prop_assert!(is_typed(&test.parameters()));
+    }
+}
+
+#[test]
+fn text_in_a_parameter_file_would_be_noticed() {
+    for value in ["\"1; shell ls\"", "null", "true", "[1]", "\"1\""] {
+        let value: serde_json::Value = serde_json::from_str(value).expect("JSON");
+        assert!(
+            !is_typed(&serde_json::json!({ "gravity": value })),
+            "{value}"
+        );
+    }
+    assert!(!is_typed(
+        &serde_json::json!({ "gravity string 1\nshell": 1.0 })
+    ));
+    assert!(is_typed(
+        &serde_json::json!({ "gravity": 1e-300, "steps": 3 })
+    ));
 }

@@ -1,14 +1,15 @@
 //! A long native run that is interrupted goes on from there, and ends with the same bits.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tristack::archive::Run;
+use tristack::archive::{Run, seal, unseal};
 use tristack::crosscheck::plan;
 use tristack::engine::{EngineName, Failure, Interrupt, Workplace};
-use tristack::stack::{Case, Convention, Stack};
+use tristack::stack::{Case, Convention, Preparation, Stack};
 use tristack::store::Store;
+use tristack::trace::Trace;
 
 /// Some 1e7 steps each.
 fn long_cases(count: usize) -> Vec<Case> {
@@ -132,4 +133,83 @@ fn a_damaged_checkpoint_is_not_believed() {
     let (again, first) = outcomes(&cases, directory.path(), u64::MAX);
     assert!(again[0].is_ok());
     assert!(first < 100_000, "from the start");
+}
+
+/// It would have led to a series with missing rows, or to numbers of another scene.
+#[test]
+fn a_checkpoint_that_does_not_fit_its_case_is_not_believed() {
+    type Change = fn(&mut serde_json::Value);
+    let changes: [Change; 6] = [
+        |kept| kept["checkpoint"]["step"] = u64::MAX.into(),
+        |kept| kept["checkpoint"]["step"] = 0.into(),
+        |kept| kept["checkpoint"]["numbers"] = serde_json::json!([1.0]),
+        |kept| kept["checkpoint"]["samples"] = serde_json::json!([]),
+        |kept| kept["checkpoint"]["samples"][0]["step"] = 1.into(),
+        |kept| kept["checkpoint"]["samples"][0]["time"] = 0.5.into(),
+    ];
+    let case = slow_start();
+    let (expected, checkpoint) = kept_run(&case);
+    for change in changes {
+        let mut damaged = checkpoint.clone();
+        change(&mut damaged);
+        assert!(damaged != checkpoint);
+        assert!(taken_up(&case, &damaged) == expected.trace);
+    }
+}
+
+/// It panicked.
+#[test]
+fn a_checkpoint_may_claim_any_duration() {
+    let case = slow_start();
+    let (expected, checkpoint) = kept_run(&case);
+    for seconds in [-1.0, 1e300, -1e300, 0.0, 1.8e19] {
+        let mut damaged = checkpoint.clone();
+        damaged["seconds"] = seconds.into();
+        assert!(taken_up(&case, &damaged) == expected.trace);
+    }
+}
+
+/// A case with a checkpoint early in its compression: there is one after each 65536 steps.
+fn slow_start() -> Case {
+    let stack = Stack::paper(0.3, 1e2);
+    let mut case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+    case.protocol.preparation = Preparation::GravityRamp {
+        ramp_time: 6000.0,
+        rest_time: 400.0,
+    };
+    case
+}
+
+/// The run of `case`, and what is kept of it when it is interrupted.
+fn kept_run(case: &Case) -> (Run, serde_json::Value) {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (mut undisturbed, _) = outcomes(&[*case], directory.path(), u64::MAX);
+    let (interrupted, _) = outcomes(&[*case], directory.path(), 0);
+    assert!(interrupted[0].is_err());
+    let file = only_file(directory.path());
+    let sealed = fs::read(&file).expect("a checkpoint");
+    let text = unseal(&file, &sealed).expect("its digest");
+    let kept: serde_json::Value = serde_json::from_slice(text).expect("JSON");
+    assert!(
+        !kept["checkpoint"]["samples"]
+            .as_array()
+            .expect("rows")
+            .is_empty()
+    );
+    (undisturbed.remove(0).expect("a run"), kept)
+}
+
+/// The series of `case`, taken up from `kept`.
+fn taken_up(case: &Case, kept: &serde_json::Value) -> Trace {
+    let directory = tempfile::tempdir().expect("a directory");
+    assert!(outcomes(&[*case], directory.path(), 0).0[0].is_err());
+    let sealed = seal(kept.to_string().as_bytes());
+    fs::write(only_file(directory.path()), sealed).expect("a checkpoint");
+    let (mut taken_up, _) = outcomes(&[*case], directory.path(), u64::MAX);
+    taken_up.remove(0).expect("a run").trace
+}
+
+fn only_file(directory: &Path) -> PathBuf {
+    let mut entries = fs::read_dir(directory).expect("a directory").flatten();
+    entries.next().expect("a file").path()
 }

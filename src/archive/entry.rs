@@ -3,7 +3,7 @@
 use super::Provenance;
 use super::checksums::{CHECKSUMS, check, checksums};
 use super::draft::{parent, remove_abandoned, sync_directory, write_synced};
-use crate::stack::{Case, CaseError};
+use crate::stack::{Case, CaseError, shown};
 use crate::trace::{SeriesError, Trace};
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
 use std::fs;
@@ -30,7 +30,7 @@ pub struct Run {
 #[derive(Debug, Error)]
 pub enum ArchiveError {
     /// A file or directory could not be read or written.
-    #[error("cannot {action} {}: {source}", path.display())]
+    #[error("cannot {action} {}: {source}", shown(path))]
     Io {
         /// "read" or "write".
         action: &'static str,
@@ -40,7 +40,10 @@ pub enum ArchiveError {
         source: std::io::Error,
     },
     /// A file is not the one that was written.
-    #[error("{}: its SHA-256 is {found}, but was {expected} when it was written", path.display())]
+    #[error(
+        "{}: its SHA-256 is {found}, but was {expected} when it was written",
+        shown(path)
+    )]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -53,7 +56,7 @@ pub enum ArchiveError {
     #[error(transparent)]
     Case(#[from] CaseError),
     /// `series.csv` is not the series of the case.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Series {
         /// The file.
         path: PathBuf,
@@ -61,7 +64,7 @@ pub enum ArchiveError {
         source: SeriesError,
     },
     /// `provenance.json` cannot be understood.
-    #[error("{}: {message}", path.display())]
+    #[error("{}: {message}", shown(path))]
     Provenance {
         /// The file.
         path: PathBuf,
@@ -132,7 +135,7 @@ impl Archive {
             check(&checksums, &directory, file, &content)?;
             Ok::<_, ArchiveError>(content)
         };
-        let case = Case::parse(&directory.join(CASE), &checked(CASE)?)?;
+        let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
         let trace = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
         let provenance = parse_provenance(&directory.join(PROVENANCE), &checked(PROVENANCE)?)?;
         Ok(Some(Run {

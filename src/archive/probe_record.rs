@@ -56,16 +56,16 @@ impl ProbeRecord {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(ArchiveError::reading(path))?,
         };
-        Self::parse(path, &text).map(Some)
+        Self::parse(&text, path).map(Some)
     }
 
-    /// Reads a record from the content of the file at `path`.
+    /// Reads the record in the `text` of the file at `path`.
     ///
     /// # Errors
     /// If it is damaged.
-    pub fn parse(path: &Path, content: &[u8]) -> Result<Self, ArchiveError> {
+    pub fn parse(text: &[u8], path: &Path) -> Result<Self, ArchiveError> {
         let record: Self =
-            serde_json::from_slice(content).map_err(|error| ArchiveError::Provenance {
+            serde_json::from_slice(text).map_err(|error| ArchiveError::Provenance {
                 path: path.to_owned(),
                 message: error.to_string(),
             })?;

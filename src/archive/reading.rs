@@ -47,13 +47,30 @@ impl Reading {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
             read => read.map_err(ArchiveError::reading(path))?,
         };
+        Self::parse_all(&text, path)
+    }
+
+    /// The readings in the `text` of the file at `path`.
+    ///
+    /// # Errors
+    /// If it is damaged; the error names the line.
+    pub fn parse_all(text: &str, path: &Path) -> Result<Vec<Self>, ArchiveError> {
         let parsed = text.lines().enumerate().map(|(index, line)| {
-            serde_json::from_str(line).map_err(|error| ArchiveError::Provenance {
+            Self::parse(line).map_err(|message| ArchiveError::Provenance {
                 path: path.to_owned(),
-                message: format!("line {}: {error}", index + 1),
+                message: format!("line {}: {message}", index + 1),
             })
         });
         parsed.collect()
+    }
+
+    fn parse(line: &str) -> Result<Self, String> {
+        let reading: Self = serde_json::from_str(line).map_err(|error| error.to_string())?;
+        reading
+            .case
+            .validate()
+            .map_err(|invalid| invalid.to_string())?;
+        Ok(reading)
     }
 
     /// Writes `readings` to the file at `path`, in place of an older one.

@@ -176,7 +176,7 @@ impl Claim {
         }
         if let Some(allowed) = self
             .allowed
-            .filter(|allowed| allowed.is_nan() || *allowed <= 0.0)
+            .filter(|allowed| !(allowed.is_finite() && *allowed > 0.0))
         {
             return Err(Wrong::new("allowed", allowed, "a number above 0"));
         }
@@ -199,6 +199,11 @@ impl Claim {
         if erratum.set.is_empty() || self.check.is_none() {
             let accepted = "given, with a check that tests it";
             return Err(Wrong::new("erratum.set", "absent", accepted));
+        }
+        let infinite = erratum.set.iter().find(|(_, value)| !value.is_finite());
+        if let Some((name, value)) = infinite {
+            let key = format!("erratum.set.{name}");
+            return Err(Wrong::new(&key, value, "a finite number"));
         }
         let unknown = erratum
             .set

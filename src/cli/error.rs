@@ -7,9 +7,10 @@ use crate::crosscheck::{Judgement, NoYield};
 use crate::engine::{EngineName, Failure, FailureKind};
 use crate::report::PdfError;
 use crate::reproduction::ReproductionError;
-use crate::stack::{CaseError, InvalidValue};
+use crate::stack::{CaseError, InvalidValue, shown};
 use crate::store::StoreError;
 use crate::verdict::Verdict;
+use std::path::Path;
 use thiserror::Error;
 
 /// The exit status of the program.
@@ -79,7 +80,7 @@ pub enum CliError {
     #[error(transparent)]
     Case(#[from] CaseError),
     /// Something cannot be written or read.
-    #[error(transparent)]
+    #[error("{}", in_one_line(.0))]
     Files(#[from] ArchiveError),
     /// The store cannot be used.
     #[error(transparent)]
@@ -99,6 +100,14 @@ pub enum CliError {
     /// An engine failed.
     #[error(transparent)]
     Engine(#[from] Box<Failure>),
+}
+
+/// Paths may hold anything. What a parser says of a case file has lines of its own.
+fn in_one_line(error: &ArchiveError) -> String {
+    match error {
+        ArchiveError::Case(error) => error.to_string(),
+        _ => shown(Path::new(&error.to_string())),
+    }
 }
 
 impl From<BenchError> for CliError {

@@ -63,6 +63,14 @@ enum Command {
     Guard(guard::Arguments),
 }
 
+/// Reads the command line `arguments`, the first of which is the program, and does nothing.
+///
+/// # Errors
+/// What [`run`] would print, also where help is asked for.
+pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::Error> {
+    Cli::try_parse_from(arguments).map(drop)
+}
+
 /// Runs the command line `arguments`, the first of which is the program.
 ///
 /// # Errors

@@ -14,6 +14,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// Stacks that one command takes. Lists of frictions and stiffnesses of a thousand values each still go.
+const MOST_STACKS: usize = 1_000_000;
+
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -47,6 +50,28 @@ impl StackOptions {
         };
         stack.validate().map_err(as_flag)?;
         Ok(stack)
+    }
+
+    /// The stacks with every combination of `frictions` and `stiffnesses`, friction by friction for each
+    /// stiffness, their values checked.
+    pub fn stacks(
+        &self,
+        frictions: &[f64],
+        stiffnesses: &[f64],
+    ) -> Result<Vec<Stack>, InvalidValue> {
+        let count = frictions.len().saturating_mul(stiffnesses.len());
+        if count > MOST_STACKS {
+            return Err(InvalidValue {
+                key: "--mu, --stiffness".to_owned(),
+                value: format!("{count} combinations"),
+                accepted: format!("at most {MOST_STACKS} combinations"),
+            });
+        }
+        let stacks = stiffnesses.iter().flat_map(|&stiffness| {
+            let frictions = frictions.iter();
+            frictions.map(move |&mu| self.stack(mu, stiffness))
+        });
+        stacks.collect()
     }
 }
 

@@ -11,6 +11,7 @@ use crate::crosscheck::{
 };
 use crate::engine::EngineName;
 use crate::reproduction::readings_to_record;
+use crate::stack::shown;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -111,7 +112,7 @@ fn record_readings(participant: &Participant, settings: &Settings) -> Result<Exi
             let directory = directory.join("readings");
             tell!(
                 "{count} readings of {name} recorded under {}",
-                directory.display()
+                shown(&directory)
             );
             Ok(ExitStatus::Success)
         }
@@ -141,7 +142,7 @@ fn record_runs<W: Workload>(
             let count = runs.len();
             tell!(
                 "{count} runs of {name} recorded under {}",
-                directory.display()
+                shown(&directory)
             );
             Ok(ExitStatus::Success)
         }
@@ -162,7 +163,7 @@ fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<Exi
         Ok(probe) => {
             settings.recorded.replace_probe(name, &probe)?;
             let directory = reference_directory();
-            tell!("probe of {name} recorded under {}", directory.display());
+            tell!("probe of {name} recorded under {}", shown(&directory));
             Ok(ExitStatus::Success)
         }
         Err(error) => {

@@ -10,6 +10,7 @@ use crate::crosscheck::Participant;
 use crate::engine::EngineName;
 use crate::report::{Origin, ReportFile, report_files};
 use crate::reproduction::{Reproduction, Scope, examined_points, reproduce};
+use crate::stack::shown;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -126,7 +127,7 @@ fn conclude(
         count(ClaimVerdict::Fails),
         count(ClaimVerdict::Untestable)
     );
-    tell!("{}", directory.join("report.html").display());
+    tell!("{}", shown(&directory.join("report.html")));
     let curves = ExitStatus::of(&reproduction.yield_curves);
     curves.max(ExitStatus::of(&reproduction.scaling))
 }

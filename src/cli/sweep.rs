@@ -10,7 +10,6 @@ use crate::archive::write_atomically;
 use crate::crosscheck::{Judgement, Measurement, measure, plan};
 use crate::engine::EngineName;
 use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_table};
-use crate::stack::{InvalidValue, Stack};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -91,18 +90,6 @@ fn rounded(value: f64) -> f64 {
     (value * 1e12).round() / 1e12
 }
 
-impl Arguments {
-    /// Every stack of the sweep, its values checked.
-    fn stacks(&self) -> Result<Vec<Stack>, InvalidValue> {
-        let stiffnesses = self.stiffness.iter();
-        let stacks = stiffnesses.flat_map(|&stiffness| {
-            let frictions = self.mu.0.iter();
-            frictions.map(move |&mu| self.stack.stack(mu, stiffness))
-        });
-        stacks.collect()
-    }
-}
-
 /// Its row and notes alone are printed.
 fn without_runs(judgement: Judgement) -> Judgement {
     Judgement {
@@ -117,7 +104,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let participants = participants(&[arguments.engine])?;
-    let stacks = arguments.stacks()?;
+    let stacks = arguments
+        .stack
+        .stacks(&arguments.mu.0, &arguments.stiffness)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }

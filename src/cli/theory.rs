@@ -37,14 +37,13 @@ pub struct Arguments {
 /// Prints the predictions for every combination of friction and stiffness.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(EngineName::Native)?;
-    let mut predictions = Vec::new();
-    for &stiffness in &arguments.stiffness {
-        for &mu in &arguments.mu {
-            let stack = arguments.stack.stack(mu, stiffness)?;
-            let (pair, floor) = (convention.pair_arm, convention.floor_arm);
-            predictions.push(Predictions::new(&stack, pair, floor));
-        }
-    }
+    let stacks = arguments
+        .stack
+        .stacks(&arguments.mu, &arguments.stiffness)?;
+    let (pair, floor) = (convention.pair_arm, convention.floor_arm);
+    let predictions = stacks.iter();
+    let predictions = predictions.map(|stack| Predictions::new(stack, pair, floor));
+    let predictions: Vec<Predictions> = predictions.collect();
     super::print(&match arguments.format {
         Format::Table => theory_table(&predictions).into_bytes(),
         Format::Json => theory_json(&predictions).into_bytes(),

@@ -5,7 +5,7 @@ use super::schedule::{Participant, Progress, Settings};
 use crate::archive::{Answer, ArchiveError, Identity, ProbeRecord, Provenance};
 use crate::engine::{Engine, EngineName, Failure, Workplace};
 use crate::probe::{Finding, probe};
-use crate::stack::{ContactTest, sha256_hex};
+use crate::stack::{ContactTest, sha256_hex, shown};
 use crate::verdict::Verdict;
 use std::time::Instant;
 use thiserror::Error;
@@ -102,7 +102,7 @@ pub fn record_probe(
                 let aside = settings.store.put_probe_aside(&address)?;
                 progress.warn(&format!(
                     "damaged probe in the store, made anew: {error}; it is now {}",
-                    aside.display()
+                    shown(&aside)
                 ));
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::archive::{Archive, ArchiveError, ProbeRecord, Provenance, Reading, Run};
 use crate::engine::EngineName;
-use crate::stack::Case;
+use crate::stack::{Case, shown};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -16,7 +16,7 @@ pub struct Recorded {
 #[derive(Debug, Error)]
 pub enum RecordedError {
     /// Nobody recorded it.
-    #[error("{engine} is not installed, and there is no recorded run at {}; install it ({}), record it where it is installed (tristack record --engines {engine}), or let TRISTACK_REFERENCE name the directory of the recorded runs", path.display(), engine.installation_hint())]
+    #[error("{engine} is not installed, and there is no recorded run at {}; install it ({}), record it where it is installed (tristack record --engines {engine}), or let TRISTACK_REFERENCE name the directory of the recorded runs", shown(path), engine.installation_hint())]
     Absent {
         /// The engine.
         engine: EngineName,
@@ -24,7 +24,10 @@ pub enum RecordedError {
         path: PathBuf,
     },
     /// It was made with another deck than today's.
-    #[error("the recorded run {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --engines {engine}", path.display())]
+    #[error(
+        "the recorded run {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --engines {engine}",
+        shown(path)
+    )]
     OtherDeck {
         /// The engine.
         engine: EngineName,

@@ -7,7 +7,7 @@ use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
 use crate::stack::{Case, Convention, Preparation};
-use crate::trace::{Sample, SeriesError, Trace};
+use crate::trace::{DropWatch, Sample, SeriesError, Trace};
 use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ pub struct OpenRun {
     pub index: usize,
     /// What is run.
     pub case: Case,
-    /// How far it has come before; `None` at the start.
+    /// How far it has come before; `None` at the start. One that does not fit the case is not believed.
     pub checkpoint: Option<Checkpoint>,
 }
 
@@ -31,6 +31,29 @@ pub struct Checkpoint {
     pub samples: Vec<Sample>,
     /// Every number of the scene.
     pub numbers: Vec<f64>,
+}
+
+impl Checkpoint {
+    /// Whether a run of `case` can have come to this: exactly the rows that are taken before the step, and as
+    /// many numbers as there are in its scene. Whether they are the right numbers cannot be told.
+    pub fn fits(&self, case: &Case) -> bool {
+        let schedule = case.protocol.schedule();
+        let done = self.step.saturating_sub(schedule.preparation.total());
+        let taken = schedule.sampled_steps().take_while(|&row| row < done);
+        let mut watch = DropWatch::new(schedule.stop_at_drop);
+        let mut fine = self
+            .samples
+            .iter()
+            .filter(|row| row.step >= schedule.fine_from_step);
+        let is_sound =
+            |row: &Sample| row.is_finite() && row.time == row.step as f64 * case.protocol.time_step;
+        self.step <= schedule.total_steps()
+            && self.samples.iter().map(|row| row.step).eq(taken)
+            && self.samples.iter().all(is_sound)
+            && !fine.any(|row| watch.has_dropped(row.wall_force))
+            && self.numbers.len() == stack(case, 0.0).numbers(0).len()
+            && self.numbers.iter().all(|number| number.is_finite())
+    }
 }
 
 /// Where runs come from, and where their series go.
@@ -169,7 +192,8 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
         let run = self.next.take().or_else(|| self.queue.next())?;
         assert_eq!(LaneKind::of(&run.case), self.kind, "one kind for all lanes");
         let mut fresh = stack(&run.case, stack_of_all.time_step);
-        let (step, samples) = match run.checkpoint {
+        let kept = run.checkpoint.filter(|kept| kept.fits(&run.case));
+        let (step, samples) = match kept {
             Some(checkpoint) => {
                 fresh.set_numbers(&checkpoint.numbers);
                 (checkpoint.step, checkpoint.samples)

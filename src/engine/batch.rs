@@ -1,5 +1,6 @@
 //! Tasks for one process of an external code: run directories, the runner, blame, outcomes read back.
 
+use super::deck::only_numbers;
 use super::external::ExternalEngine;
 use super::process::{Ending, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
 use super::task::{Deck, Task};
@@ -117,11 +118,9 @@ impl<'a, T: Task> Batch<'a, T> {
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
-            let file = adapter.parameter_file;
-            write(
-                &directory.join(file.name()),
-                &file.content(&task.parameters()),
-            )?;
+            let (file, parameters) = (adapter.parameter_file, task.parameters());
+            only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
+            write(&directory.join(file.name()), &file.content(&parameters))?;
             for (name, content) in task.files() {
                 write(&directory.join(name), &content)?;
             }

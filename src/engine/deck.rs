@@ -1,6 +1,8 @@
 //! What a deck has to be told, under the same names in every code.
 
-use crate::stack::{Case, ContactTest, Convention, Launch, PreparationSteps, Pyramid};
+use crate::stack::{
+    Case, ContactTest, Convention, InvalidValue, Launch, PreparationSteps, Pyramid,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -27,6 +29,23 @@ impl ContactParameters {
             damping_tangential: convention.damping(tangential_stiffness),
         }
     }
+}
+
+/// Refuses parameters that are no numbers: those of a micro-test are measured, and a code that reports nonsense
+/// could have led to an infinite one.
+///
+/// # Errors
+/// It names the first such parameter.
+pub fn only_numbers(parameters: &serde_json::Value) -> Result<(), InvalidValue> {
+    let mut named = parameters.as_object().into_iter().flatten();
+    let other = named.find(|(_, value)| !value.is_number());
+    other.map_or(Ok(()), |(name, value)| {
+        Err(InvalidValue {
+            key: name.clone(),
+            value: value.to_string(),
+            accepted: "a finite number".to_owned(),
+        })
+    })
 }
 
 /// The parameters of a case as the decks of the external codes read them.

@@ -2,7 +2,7 @@
 
 use super::EngineName;
 use crate::archive::ArchiveError;
-use crate::stack::InvalidValue;
+use crate::stack::{InvalidValue, shown};
 use crate::trace::SeriesError;
 use std::path::PathBuf;
 use std::process::ExitStatus;
@@ -22,7 +22,7 @@ pub enum FailureKind {
     #[error("cannot start the program: {0}")]
     Start(std::io::Error),
     /// The program is not the one whose version and hash were taken at the start.
-    #[error("{} was replaced while it was in use; start again", .0.display())]
+    #[error("{} was replaced while it was in use; start again", shown(.0))]
     Replaced(PathBuf),
     /// The program ended before the case was done.
     #[error("the program ended without a series: {0}")]
@@ -90,7 +90,7 @@ impl Failure {
 fn context(run_directory: &Option<PathBuf>, last_lines: &[String]) -> String {
     let mut text = String::new();
     if let Some(directory) = run_directory {
-        text += &format!("\n  run directory: {}", directory.display());
+        text += &format!("\n  run directory: {}", shown(directory));
     }
     for line in last_lines {
         text += &format!("\n  | {line}");

@@ -11,6 +11,9 @@ use std::time::Duration;
 /// A program that takes longer to say its version does not say it at all.
 const LONGEST_ANSWER: Duration = Duration::from_secs(5);
 
+/// A version in characters: it stands in tables.
+const LONGEST_VERSION: usize = 100;
+
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Installation {
@@ -127,14 +130,22 @@ fn own_version(program: &Path, question: &VersionQuestion, environment: Environm
     let mut command = vec![program.as_os_str().to_owned()];
     command.extend(question.arguments.iter().map(OsString::from));
     let text = answer(command, environment).unwrap_or_default();
-    let first = text.lines().find(|line| !line.trim().is_empty());
-    first
-        .map_or("unknown", |line| {
-            let line = line.trim();
-            let rest = line.strip_prefix(question.before_version).unwrap_or(line);
-            rest.split(',').next().unwrap_or(rest)
-        })
-        .to_owned()
+    version_in_answer(&text, question.before_version)
+}
+
+/// The version in what a program answers when asked for it: the first line, as far as it goes from
+/// `before_version` to a comma; `unknown` if there is nothing readable.
+pub fn version_in_answer(answer: &str, before_version: &str) -> String {
+    let first = answer.lines().find(|line| !line.trim().is_empty());
+    let line = first.unwrap_or_default().trim();
+    let rest = line.strip_prefix(before_version).unwrap_or(line);
+    let version = rest.split(',').next().unwrap_or(rest);
+    let readable = version.chars().filter(|char| !char.is_control());
+    let version: String = readable.take(LONGEST_VERSION).collect();
+    match version.trim() {
+        "" => "unknown".to_owned(),
+        version => version.to_owned(),
+    }
 }
 
 /// What a command that succeeds writes to its standard output.

@@ -22,8 +22,11 @@ pub use deck::{
 };
 pub use failure::{Failure, FailureKind};
 pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
+pub use installation::version_in_answer;
 pub use process::Interrupt;
+pub use pyramid_log::pyramid_in_log;
 pub use task::{ParameterFile, Task};
+pub use thermo_log::{motion_in_log, series_in_log};
 
 use crate::archive::{Identity, Run};
 use crate::stack::{Case, ContactTest, Convention, InvalidValue, Preparation, Pyramid, sha256_hex};

@@ -14,16 +14,28 @@ pub fn read_pyramid(
     name: &str,
     pyramid: &Pyramid,
 ) -> Result<PyramidRun, SeriesError> {
-    let seconds = last_loop_time(&read(directory, name)?)?;
-    let centres = centres(&read(directory, CENTRES)?)?;
-    PyramidRun::new(centres, seconds, pyramid.cylinder_count())
+    let [log, dump] = [read(directory, name)?, read(directory, CENTRES)?];
+    pyramid_in_log(&log, &dump, pyramid)
 }
 
-fn read(directory: &Path, name: &str) -> Result<String, SeriesError> {
-    let text = std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
+fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
+    std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
         message: format!("cannot read {name}: {error}"),
-    })?;
-    Ok(String::from_utf8_lossy(&text).into_owned())
+    })
+}
+
+/// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
+///
+/// # Errors
+/// If the log says no time, or the dump does not hold the cylinders of the pyramid.
+pub fn pyramid_in_log(
+    log: &[u8],
+    dump: &[u8],
+    pyramid: &Pyramid,
+) -> Result<PyramidRun, SeriesError> {
+    let seconds = last_loop_time(&String::from_utf8_lossy(log))?;
+    let centres = centres(&String::from_utf8_lossy(dump))?;
+    PyramidRun::new(centres, seconds, pyramid.cylinder_count())
 }
 
 /// Seconds in `Loop time of 0.4218 on 1 procs for 2000 steps with 990 atoms`.

@@ -5,17 +5,14 @@ use crate::trace::{Motion, Sample, SeriesError, Trace};
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// Reads the series of `case` from the last table of the log `name` in `directory`, whose header begins
-/// with the two words `header`. Further words of the header do not count: LIGGGHTS cuts them to eight
-/// characters.
+/// Reads the series of `case` from the log `name` in `directory`, as [`series_in_log`].
 pub fn read_series(
     directory: &Path,
     name: &str,
     header: [&str; 2],
     case: &Case,
 ) -> Result<Trace, SeriesError> {
-    let samples: Vec<Sample> = last_table(&read(directory, name)?, header)?;
-    Trace::new(samples, &case.protocol.schedule(), case.protocol.time_step)
+    series_in_log(&read(directory, name)?, header, case)
 }
 
 /// Reads the motion of a micro-test in the same way.
@@ -25,14 +22,38 @@ pub fn read_motion(
     header: [&str; 2],
     test: &ContactTest,
 ) -> Result<Motion, SeriesError> {
-    Motion::new(last_table(&read(directory, name)?, header)?, test.steps)
+    motion_in_log(&read(directory, name)?, header, test)
 }
 
-fn read(directory: &Path, name: &str) -> Result<String, SeriesError> {
-    let log = std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
+fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
+    std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
         message: format!("cannot read {name}: {error}"),
-    })?;
-    Ok(String::from_utf8_lossy(&log).into_owned())
+    })
+}
+
+/// The series of `case` in the last table of a log of LAMMPS or LIGGGHTS whose header begins with the two
+/// words `header`. Further words of the header do not count: LIGGGHTS cuts them to eight characters.
+///
+/// # Errors
+/// If there is no such table, or it is not the series of the case.
+pub fn series_in_log(log: &[u8], header: [&str; 2], case: &Case) -> Result<Trace, SeriesError> {
+    let samples: Vec<Sample> = last_table(&String::from_utf8_lossy(log), header)?;
+    Trace::new(samples, &case.protocol.schedule(), case.protocol.time_step)
+}
+
+/// The motion of a micro-test in such a table.
+///
+/// # Errors
+/// If there is no such table, or it is not the motion of the micro-test.
+pub fn motion_in_log(
+    log: &[u8],
+    header: [&str; 2],
+    test: &ContactTest,
+) -> Result<Motion, SeriesError> {
+    Motion::new(
+        last_table(&String::from_utf8_lossy(log), header)?,
+        test.steps,
+    )
 }
 
 /// The rows between the header and `Loop time`.

@@ -16,6 +16,8 @@ const SIDESTEP: f64 = 0.055;
 const LETTER_DISTANCE: f64 = 0.13;
 /// Half the width of a panel at least, in r.
 const NARROWEST: f64 = 2.35;
+/// Half the width of a panel at most. A stack that is wider has exploded, and its cylinders are far outside.
+const WIDEST: f64 = 20.0;
 /// A stack whose force is below this part of the largest collapses.
 const FALLEN: f64 = 0.75;
 const ABOVE_WALL: f64 = 0.3;
@@ -94,10 +96,12 @@ pub fn run_svg(engine: &str, case: &Case, frames: &Frames) -> String {
 pub fn stack_svg(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> String {
     let frame_width = |panel: &StackPanel| reach(panel.frame) + 0.25;
     let half_width = panels.iter().map(frame_width).fold(NARROWEST, f64::max);
+    let half_width = half_width.min(WIDEST);
     let highest = panels
         .iter()
         .map(|panel| top(panel.frame))
-        .fold(2.0, f64::max);
+        .fold(2.0, f64::max)
+        .min(2.0 * WIDEST);
     let panel_width = 2.0 * half_width * SCALE;
     let floor = TITLE_HEIGHT + (highest + ABOVE_WALL) * SCALE;
     let below = floor + BELOW_FLOOR * SCALE;

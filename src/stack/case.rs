@@ -1,6 +1,6 @@
 //! A case: everything that a code has to be told to produce one time series.
 
-use super::{Convention, InvalidValue, Preparation, Protocol, Stack, sha256_hex};
+use super::{Convention, InvalidValue, Preparation, Protocol, Stack, sha256_hex, shown};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -21,7 +21,7 @@ pub struct Case {
 #[derive(Debug, Error)]
 pub enum CaseError {
     /// The file could not be read.
-    #[error("cannot read the case file {}: {source}", path.display())]
+    #[error("cannot read the case file {}: {source}", shown(path))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -29,13 +29,13 @@ pub enum CaseError {
         source: std::io::Error,
     },
     /// The file is neither named `.toml` nor `.json`.
-    #[error("the case file {} must end in .toml or .json", path.display())]
+    #[error("the case file {} must end in .toml or .json", shown(path))]
     UnknownFormat {
         /// The file.
         path: PathBuf,
     },
     /// The text is not a case: unknown, missing or mistyped key.
-    #[error("{} is not a case: {message}", path.display())]
+    #[error("{} is not a case: {message}", shown(path))]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -43,7 +43,7 @@ pub enum CaseError {
         message: String,
     },
     /// A value is out of its range.
-    #[error("in the case file {}: {invalid}", path.display())]
+    #[error("in the case file {}: {invalid}", shown(path))]
     Invalid {
         /// The file.
         path: PathBuf,
@@ -99,11 +99,11 @@ impl Case {
             path: path.to_owned(),
             source,
         })?;
-        Self::parse(path, &content)
+        Self::parse(&content, path)
     }
 
-    /// Reads and validates a case from the content of the file at `path`, whose name says how it is written.
-    pub fn parse(path: &Path, content: &[u8]) -> Result<Self, CaseError> {
+    /// Reads and validates a case from the content of the file at `path`, whose ending says the format.
+    pub fn parse(content: &[u8], path: &Path) -> Result<Self, CaseError> {
         let parsed = match path.extension().and_then(|extension| extension.to_str()) {
             Some("toml") => toml::from_slice(content).map_err(|error| error.to_string()),
             Some("json") => serde_json::from_slice(content).map_err(|error| error.to_string()),

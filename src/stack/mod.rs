@@ -12,6 +12,7 @@ mod groups;
 mod protocol;
 mod pyramid;
 mod shortcuts;
+mod shown;
 mod side_walls;
 mod validity;
 
@@ -28,5 +29,6 @@ pub use groups::{
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;
 pub use shortcuts::Shortcuts;
+pub use shown::shown;
 pub use side_walls::{SideWallSteps, SideWalls};
 pub use validity::InvalidValue;

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 /// More rows than this are some half a million cylinders.
 const MOST_ROWS: u32 = 1000;
 
+/// In each of its three phases.
+const MOST_STEPS: f64 = 1e11;
+
 /// From this spacing on, 2√3, cylinders touch those two rows below.
 const WIDEST_SPACING: f64 = 3.0;
 
@@ -119,16 +122,25 @@ impl Pyramid {
             self.time_step,
             self.longest_time_step(),
         )?;
-        at_least_one("pyramid.ramp_steps", self.ramp_steps)?;
-        at_least_one("pyramid.timed_steps", self.timed_steps)
+        within(
+            "pyramid.ramp_steps",
+            self.ramp_steps as f64,
+            1.0,
+            MOST_STEPS,
+        )?;
+        within(
+            "pyramid.rest_steps",
+            self.rest_steps as f64,
+            0.0,
+            MOST_STEPS,
+        )?;
+        within(
+            "pyramid.timed_steps",
+            self.timed_steps as f64,
+            1.0,
+            MOST_STEPS,
+        )
     }
-}
-
-fn at_least_one(key: &str, steps: u64) -> Result<(), InvalidValue> {
-    if steps > 0 {
-        return Ok(());
-    }
-    Err(InvalidValue::new(key, 0.0, "at least 1"))
 }
 
 impl std::fmt::Display for Pyramid {

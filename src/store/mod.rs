@@ -14,7 +14,7 @@ use crate::archive::{
     Archive, ArchiveError, Identity, ProbeRecord, Provenance, Run, seal, unseal,
     write_atomically_via,
 };
-use crate::stack::Case;
+use crate::stack::{Case, shown};
 use session::Session;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,7 +27,10 @@ pub enum StoreError {
     #[error(transparent)]
     Files(#[from] ArchiveError),
     /// It was made by a tristack that keeps its runs in another way.
-    #[error("{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one", path.display())]
+    #[error(
+        "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
+        shown(path)
+    )]
     OtherFormat {
         /// The file that says so.
         path: PathBuf,
@@ -37,7 +40,10 @@ pub enum StoreError {
         accepted: &'static str,
     },
     /// Somebody holds its lock and does not let go.
-    #[error("{}: locked by {holder}, which does not go on; continue or end it", path.display())]
+    #[error(
+        "{}: locked by {holder}, which does not go on; continue or end it",
+        shown(path)
+    )]
     Busy {
         /// The lock.
         path: PathBuf,
@@ -131,7 +137,7 @@ impl Store {
         match std::fs::read(&path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(ArchiveError::reading(&path)(error)),
-            Ok(sealed) => ProbeRecord::parse(&path, unseal(&path, &sealed)?).map(Some),
+            Ok(sealed) => ProbeRecord::parse(unseal(&path, &sealed)?, &path).map(Some),
         }
     }
 

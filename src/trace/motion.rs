@@ -76,6 +76,13 @@ impl MotionRow {
     }
 }
 
+/// One for every step and one for the beginning.
+fn planned_rows(steps: u64) -> usize {
+    usize::try_from(steps)
+        .unwrap_or(usize::MAX)
+        .saturating_add(1)
+}
+
 /// A checked motion: one row for every step, finite numbers only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -104,7 +111,7 @@ impl Motion {
                 });
             }
         }
-        let expected = steps as usize + 1;
+        let expected = planned_rows(steps);
         if rows.len() != expected {
             return Err(SeriesError::Truncated {
                 found: rows.len(),
@@ -126,6 +133,8 @@ impl Motion {
                 message: error.to_string(),
             })
         });
+        // One row too many is refused; what comes after it need not be kept for that.
+        let rows = rows.take(planned_rows(steps).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, steps)
     }
 

@@ -15,7 +15,7 @@ impl PyramidRun {
     /// of wall time.
     ///
     /// # Errors
-    /// If there are not `count` cylinders, or something is not finite.
+    /// If there are not `count` cylinders, something is not finite, or the time is negative.
     pub fn new(
         centres: Vec<[f64; 2]>,
         timed_seconds: f64,
@@ -34,7 +34,7 @@ impl PyramidRun {
                 message: format!("the centre is {:?}", centres[index]),
             });
         }
-        if !timed_seconds.is_finite() {
+        if !(timed_seconds.is_finite() && timed_seconds >= 0.0) {
             return Err(SeriesError::Absent {
                 message: format!("the timed steps took {timed_seconds} seconds"),
             });

@@ -52,6 +52,11 @@ impl Sample {
         (2.0 - (dx * dx + dy * dy).sqrt()).max(0.0)
     }
 
+    /// Whether every value is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.values().into_iter().all(f64::is_finite)
+    }
+
     fn values(&self) -> [f64; 15] {
         [
             self.time,
@@ -151,13 +156,22 @@ pub enum SeriesError {
         expected: f64,
     },
     /// The series ends early, or has rows beyond its end.
-    #[error("the series has {found} rows, but must have {expected}")]
+    #[error("the series has {found} rows{}, but must have {expected}", or_more(*found, *expected))]
     Truncated {
-        /// Rows found.
+        /// Rows found; of those beyond the end one at least.
         found: usize,
         /// Rows planned.
         expected: usize,
     },
+}
+
+fn planned_rows(schedule: &Schedule) -> usize {
+    usize::try_from(schedule.rows()).unwrap_or(usize::MAX)
+}
+
+/// Rows beyond the end are not all counted.
+fn or_more(found: usize, expected: usize) -> &'static str {
+    if found > expected { " or more" } else { "" }
 }
 
 /// Whether the last row, and none before, is the one that ends the run.
@@ -183,11 +197,10 @@ impl Trace {
         schedule: &Schedule,
         time_step: f64,
     ) -> Result<Self, SeriesError> {
-        let planned: Vec<u64> = schedule.sampled_steps().collect();
-        for (index, sample) in samples.iter().enumerate() {
-            let row = index + 1;
+        let mut planned = schedule.sampled_steps();
+        for (row, sample) in (1..).zip(&samples) {
             check_finite(row, sample)?;
-            let Some(&expected) = planned.get(index) else {
+            let Some(expected) = planned.next() else {
                 break;
             };
             if sample.step != expected {
@@ -199,11 +212,9 @@ impl Trace {
             }
             check_time(row, sample, time_step)?;
         }
-        if samples.len() != planned.len() && !ends_with_the_drop(&samples, schedule) {
-            return Err(SeriesError::Truncated {
-                found: samples.len(),
-                expected: planned.len(),
-            });
+        let (found, expected) = (samples.len(), planned_rows(schedule));
+        if found > expected || (found < expected && !ends_with_the_drop(&samples, schedule)) {
+            return Err(SeriesError::Truncated { found, expected });
         }
         Ok(Self { samples })
     }
@@ -225,11 +236,11 @@ impl Trace {
                 found: header.iter().collect::<Vec<_>>().join(","),
             });
         }
-        let mut samples = Vec::new();
-        for (index, row) in reader.deserialize().enumerate() {
-            samples.push(row.map_err(|error| garbled(index + 1, error))?);
-        }
-        Self::new(samples, schedule, time_step)
+        let rows = (1..).zip(reader.deserialize());
+        let rows = rows.map(|(index, row)| row.map_err(|error| garbled(index, error)));
+        // One row too many is refused; what comes after it need not be kept for that.
+        let rows = rows.take(planned_rows(schedule).saturating_add(1));
+        Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)
     }
 
     /// The trace in the shared CSV format, every number in its shortest exact form.

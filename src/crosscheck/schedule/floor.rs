@@ -6,7 +6,7 @@ use super::outbox::{Claim, Outbox, Outgoing, keep, with_outbox};
 use super::{Participant, Progress, RunError, Settings};
 use crate::archive::Run;
 use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Workplace};
-use crate::stack::Case;
+use crate::stack::{Case, shown};
 use crate::store::Holder;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -282,7 +282,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
     fn is_made_meanwhile(&self, engine: &dyn Engine, order: usize, address: &str) -> bool {
         let put_aside = |error| {
             let place = match self.settings.store.put_aside(address) {
-                Ok(place) => format!("it is now {}", place.display()),
+                Ok(place) => format!("it is now {}", shown(&place)),
                 Err(error) => error.to_string(),
             };
             let message = format!("damaged run in the store, computed anew: {error}; {place}");

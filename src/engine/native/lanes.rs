@@ -100,6 +100,12 @@ impl<'a, 'f> Lanes<'a, 'f> {
     }
 }
 
+/// A duration that was read from a file, which may say anything.
+fn duration(seconds: f64) -> Duration {
+    const LONGEST: f64 = 1e10;
+    Duration::try_from_secs_f64(seconds.min(LONGEST)).unwrap_or_default()
+}
+
 impl RunQueue for Lanes<'_, '_> {
     fn next(&mut self) -> Option<OpenRun> {
         if self.workplace.interrupt.requested() {
@@ -109,8 +115,9 @@ impl RunQueue for Lanes<'_, '_> {
         self.share_time();
         let checkpoints = self.checkpoints.as_ref();
         let unfinished = checkpoints.and_then(|kept| kept.take_up(&self.address(index)));
+        let unfinished = unfinished.filter(|kept| kept.checkpoint.fits(&self.cases[index]));
         let seconds = unfinished.as_ref().map_or(0.0, |kept| kept.seconds);
-        self.open.insert(index, Duration::from_secs_f64(seconds));
+        self.open.insert(index, duration(seconds));
         Some(OpenRun {
             index,
             case: self.cases[index],

@@ -1,0 +1,6 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(
+    init: tristack_fuzz::write_seeds("options"),
+    |data: &[u8]| tristack_fuzz::options::check(data)
+);

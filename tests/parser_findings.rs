@@ -1,0 +1,254 @@
+//! What was wrong in the handling of input and has been mended, one test a finding
+//! (reference/reliability/fuzz.json tells which).
+
+mod common;
+
+use common::{Bench, standard_error};
+use std::ffi::OsString;
+use std::path::Path;
+use tristack::archive::{ProbeRecord, Reading};
+use tristack::claims::Register;
+use tristack::crosscheck::plan;
+use tristack::dem::{Checkpoint, compress_stack, run_contact_test};
+use tristack::engine::{EngineName, Interrupt, Workplace, pyramid_in_log, version_in_answer};
+use tristack::report::run_svg;
+use tristack::stack::{Case, ContactTest, Convention, Launch, Pyramid, Stack};
+use tristack::trace::{Frames, Motion, SeriesError, Trace};
+
+/// A run of some hundred steps.
+fn short_case() -> Case {
+    let mut case = plan(
+        EngineName::Native,
+        &Stack::paper(0.3, 1e2),
+        Convention::PAPER,
+    )
+    .cases[0];
+    case.protocol.wall_travel *= 0.01;
+    case.protocol.sampling.fine_from_travel = 0.0;
+    case
+}
+
+fn short_test() -> ContactTest {
+    ContactTest {
+        convention: Convention::PAPER,
+        stiffness_ratio: 2.5,
+        floor_friction: 0.3,
+        cylinder_friction: 0.7,
+        time_step: 0.1,
+        steps: 3,
+        wall_height: 4.5,
+        wall_speed: 0.0,
+        launches: [Launch::at(0.0, 0.99), Launch::at(6.0, 2.0)],
+    }
+}
+
+/// It overflowed: a panic, or a record without rows that passed for one of 2⁶⁴ − 1 steps.
+#[test]
+fn a_motion_of_2_to_the_64_steps_is_refused() {
+    let motion = run_contact_test(&short_test()).expect("a finite motion");
+    let refusal = Motion::new(motion.rows().to_vec(), u64::MAX).unwrap_err();
+    assert!(matches!(refusal, SeriesError::Truncated { found: 4, .. }));
+    assert!(Motion::new(Vec::new(), u64::MAX).is_err());
+}
+
+/// Every row was kept until the end of the file.
+#[test]
+fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
+    let case = short_case();
+    let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
+    let csv = compress_stack(&case, || true)
+        .expect("a finite series")
+        .to_csv();
+    let text = String::from_utf8(csv).expect("text");
+    let last = text.lines().last().expect("a row");
+    let rows = usize::try_from(schedule.rows()).expect("few");
+    let long = format!("{text}{}", format!("{last}\n").repeat(1000));
+    let refusal = Trace::read(long.as_bytes(), &schedule, time_step).unwrap_err();
+    let SeriesError::Truncated { found, expected } = refusal else {
+        panic!("{refusal}");
+    };
+    assert_eq!((found, expected), (rows + 1, rows));
+}
+
+/// What was out of its range was taken for recorded.
+#[test]
+fn a_reading_of_an_impossible_case_is_refused_with_its_line() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/readings/liggghts.jsonl");
+    let text = std::fs::read_to_string(&path).expect("readings");
+    let line = text.lines().next().expect("a reading");
+    assert_eq!(Reading::parse_all(line, &path).expect("a reading").len(), 1);
+    let time_step = line.find("\"time_step\":").expect("a time step") + "\"time_step\":".len();
+    let impossible = format!("{line}\n{}9{}", &line[..time_step], &line[time_step..]);
+    let message = Reading::parse_all(&impossible, &path)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("line 2") && message.contains("protocol.time_step"),
+        "{message}"
+    );
+}
+
+/// They were accepted, and led to claims that hold by infinite deviation.
+#[test]
+fn infinite_numbers_in_the_register_of_claims_are_refused() {
+    let claim = |change: &str| {
+        let text =
+            format!("[[claim]]\nid = 'a'\nplace = 'p'\nstatement = 's'\nkind = 'number'\n{change}");
+        Register::from_toml(&text, "my.toml").map_err(|error| error.to_string())
+    };
+    let message = claim("check = 'quintic'\nallowed = inf").unwrap_err();
+    assert!(message.contains("`allowed` is inf"), "{message}");
+    for value in ["inf", "-inf", "nan"] {
+        let set = format!("[claim.erratum]\ntext = 't'\nset = {{ stack_weights = {value} }}");
+        let message = claim(&format!("check = 'quintic'\n{set}")).unwrap_err();
+        assert!(message.contains("`erratum.set.stack_weights`"), "{message}");
+    }
+}
+
+/// The picture had a hatch every tenth of a radius, however wide the stack: 10¹³ of them, until memory ended.
+#[test]
+fn the_picture_of_a_stack_that_exploded_stays_small() {
+    let case = short_case();
+    let mut rows = compress_stack(&case, || true)
+        .expect("a finite series")
+        .samples()
+        .to_vec();
+    for far in [1e12, -1e300, f64::MAX] {
+        rows.last_mut().expect("a row").x2 = far;
+        rows.last_mut().expect("a row").y1 = far.abs();
+        let trace = Trace::new(
+            rows.clone(),
+            &case.protocol.schedule(),
+            case.protocol.time_step,
+        );
+        let frames = Frames::of_trace(&trace.expect("finite"), case.protocol.wall_speed);
+        assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
+    }
+}
+
+/// An empty answer, or one of control characters, stood as it was in tables and addresses.
+#[test]
+fn the_version_in_an_answer_is_readable_and_short() {
+    let before = "Yade version: ";
+    for nothing in ["", "\n \n", "\u{1b}\u{7}", ", 2023", "\u{0}"] {
+        assert_eq!(version_in_answer(nothing, before), "unknown", "{nothing:?}");
+    }
+    assert_eq!(
+        version_in_answer("\nYade version: 2023.02a, x\n", before),
+        "2023.02a"
+    );
+    assert_eq!(
+        version_in_answer("Yade version: 1\u{1b}[31m", before),
+        "1[31m"
+    );
+    assert_eq!(version_in_answer(&"9".repeat(100_000), before).len(), 100);
+}
+
+/// Sums of steps overflowed.
+#[test]
+fn a_pyramid_that_would_take_for_ever_is_refused() {
+    let pyramid = Pyramid::touching(2, 100.0, Convention::PAPER);
+    for endless in [
+        Pyramid {
+            ramp_steps: u64::MAX,
+            ..pyramid
+        },
+        Pyramid {
+            rest_steps: u64::MAX,
+            ..pyramid
+        },
+        Pyramid {
+            timed_steps: u64::MAX,
+            ..pyramid
+        },
+    ] {
+        let message = endless.validate().unwrap_err().to_string();
+        assert!(
+            message.contains("_steps` is") && message.contains("1e11"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn steps_that_took_less_than_no_time_are_refused() {
+    let pyramid = Pyramid::touching(1, 100.0, Convention::PAPER);
+    let dump = b"ITEM: ATOMS id x y\n1 0 1\n";
+    assert!(pyramid_in_log(b"Loop time of 1 on 1 procs", dump, &pyramid).is_ok());
+    assert!(pyramid_in_log(b"Loop time of -1 on 1 procs", dump, &pyramid).is_err());
+}
+
+/// They reached the deck as `null`.
+#[test]
+fn a_micro_test_with_a_number_that_is_none_is_not_put() {
+    for name in common::installed(&[EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]) {
+        let directory = tempfile::tempdir().expect("a directory");
+        let interrupt = Interrupt::new();
+        let mut test = ContactTest {
+            convention: name.convention(),
+            ..short_test()
+        };
+        test.launches[0].spin = f64::INFINITY;
+        let engine = name.find().expect("it is installed");
+        let failure = engine
+            .probe(&[test], &Workplace::new(directory.path(), &interrupt))
+            .expect_err("it cannot be put");
+        let message = failure.to_string();
+        assert!(
+            message.contains("`spin1` is null, but must be a finite number"),
+            "{message}"
+        );
+    }
+}
+
+/// The product of two lists has no bound of its own.
+#[test]
+fn too_many_combinations_of_friction_and_stiffness_are_refused_at_once() {
+    let bench = Bench::without_engines();
+    let list = |value: &str| vec![value; 1001].join(",");
+    for command in ["theory", "sweep --engine native"] {
+        let mu = match command {
+            "theory" => list("0.3"),
+            _ => "0.1:0.5:0.0004".to_owned(),
+        };
+        let line = format!("{command} --mu {mu} --stiffness {}", list("100"));
+        let message = standard_error(&mut bench.tristack(&line));
+        assert!(message.contains("1002001 combinations"), "{message}");
+        bench.tristack(&line).assert().code(1);
+    }
+}
+
+#[test]
+fn a_case_file_that_is_not_text_is_refused_by_name() {
+    let bench = Bench::without_engines();
+    std::fs::write(bench.path("case.json"), b"{\"stack\xff\":").expect("a file");
+    let line = "simulate --engine native --case case.json";
+    let message = standard_error(&mut bench.tristack(line));
+    assert!(
+        message.starts_with("error: case.json is not a case: invalid unicode"),
+        "{message}"
+    );
+    bench.tristack(line).assert().code(1);
+}
+
+/// A record nested so deeply that reading it takes all of the stack is refused by the parser.
+#[test]
+fn deep_nesting_ends_no_parser() {
+    let deep = "[".repeat(200_000);
+    let path = Path::new("case.json");
+    assert!(Case::parse(deep.as_bytes(), path).is_err());
+    assert!(Case::parse(format!("a = {deep}").as_bytes(), Path::new("case.toml")).is_err());
+    assert!(Register::from_toml(&format!("claim = {deep}"), "my.toml").is_err());
+    assert!(ProbeRecord::parse(deep.as_bytes(), path).is_err());
+    assert!(serde_json::from_str::<Checkpoint>(&deep).is_err());
+}
+
+/// Lists of options are no shorter than the command line.
+#[test]
+fn a_long_command_line_is_read_in_no_time() {
+    let start = std::time::Instant::now();
+    let long = "1,".repeat(60_000) + "x";
+    let line = ["tristack", "theory", "--mu", &long, "--stiffness", &long];
+    assert!(tristack::cli::check(line.map(OsString::from)).is_err());
+    assert!(start.elapsed().as_secs() < 1);
+}

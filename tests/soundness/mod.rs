@@ -1,0 +1,69 @@
+//! What must hold of every parser, whatever it is given: it returns, and what it accepts is sound.
+//!
+//! Each module has a `check` of some bytes, which panics if something does not hold, and `seeds`, valid inputs
+//! to start from. `tests/fuzz/` hands them to libFuzzer, `tests/parsers.rs` to proptest.
+
+pub mod case;
+pub mod checkpoints;
+pub mod claims;
+pub mod logs;
+pub mod options;
+pub mod probes;
+pub mod records;
+pub mod scenes;
+pub mod series;
+pub mod stacks;
+
+use std::path::PathBuf;
+
+/// An input by its name.
+pub type Seed = (String, Vec<u8>);
+
+/// What is done with some bytes.
+pub type Check = fn(&[u8]);
+
+/// Inputs to start from.
+pub type Seeds = fn() -> Vec<Seed>;
+
+/// Name, check and seeds of every target.
+pub const TARGETS: [(&str, Check, Seeds); 9] = [
+    ("case", case::check, case::seeds),
+    ("options", options::check, options::seeds),
+    ("claims", claims::check, claims::seeds),
+    ("series", series::check, series::seeds),
+    ("logs", logs::check, logs::seeds),
+    ("records", records::check, records::seeds),
+    ("probes", probes::check, probes::seeds),
+    ("checkpoints", checkpoints::check, checkpoints::seeds),
+    ("stacks", stacks::check, stacks::seeds),
+];
+
+/// Writes the seeds of `target` into the directory that `FUZZ_SEEDS` names, if it names one.
+pub fn write_seeds(target: &str) {
+    let Some(directory) = std::env::var_os("FUZZ_SEEDS").map(PathBuf::from) else {
+        return;
+    };
+    let (.., seeds) = TARGETS
+        .iter()
+        .find(|(name, ..)| *name == target)
+        .expect("a target");
+    for (name, content) in seeds() {
+        std::fs::write(directory.join(name), content).expect("a seed is written");
+    }
+}
+
+/// The recorded runs of the project.
+fn reference() -> PathBuf {
+    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    [own.join("reference"), own.join("../../reference")]
+        .into_iter()
+        .find(|directory| directory.is_dir())
+        .expect("the recorded runs are there")
+}
+
+/// `text` behind the byte that says what it is.
+fn marked(kind: u8, text: impl AsRef<[u8]>) -> Vec<u8> {
+    let mut input = vec![kind];
+    input.extend(text.as_ref());
+    input
+}

@@ -1,0 +1,94 @@
+//! The command line: flags, lists, ranges, quantities with units, names; and forecasts of what is accepted.
+
+use super::Seed;
+use std::ffi::OsString;
+use std::os::unix::ffi::OsStringExt;
+use tristack::experiment::{
+    ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
+};
+
+/// Part of the inputs that is read as a command line, which takes a thousand times longer than its words.
+const COMMAND_LINES: usize = 32;
+
+/// One argument a line.
+pub fn check(data: &[u8]) {
+    let lines = data.split(|&byte| byte == b'\n');
+    if data.len().is_multiple_of(COMMAND_LINES) {
+        let arguments = lines.clone().map(|line| OsString::from_vec(line.to_vec()));
+        let program = std::iter::once(OsString::from("tristack"));
+        if let Err(refusal) = tristack::cli::check(program.chain(arguments)) {
+            assert!(!refusal.to_string().is_empty());
+        }
+    }
+    let words: Vec<&str> = lines
+        .filter_map(|line| std::str::from_utf8(line).ok())
+        .collect();
+    for word in &words {
+        for read in [modulus, density, length, mass] {
+            assert!(
+                read(word).is_ok_and(is_usable) || read(word).is_err_and(|why| !why.is_empty())
+            );
+        }
+    }
+    check_forecast(&words);
+}
+
+fn is_usable(value: f64) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+/// A forecast from the first quantities of every kind, where there are some.
+fn check_forecast(words: &[&str]) {
+    let first =
+        |read: fn(&str) -> Result<f64, String>| words.iter().find_map(|word| read(word).ok());
+    let (Some(youngs_modulus), Some(density)) = (first(modulus), first(density)) else {
+        return;
+    };
+    let radius = first(length).unwrap_or(0.01);
+    let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
+    let number = |index: usize, otherwise: f64| numbers.get(index).copied().unwrap_or(otherwise);
+    let cylinder = Cylinder {
+        youngs_modulus,
+        poisson_ratio: number(1, 0.5),
+        density,
+        radius,
+        length: words
+            .iter()
+            .rev()
+            .find_map(|word| length(word).ok())
+            .unwrap_or(radius),
+    };
+    let experiment = Experiment {
+        mu_uncertainty: number(2, 0.0),
+        ..Experiment::new(cylinder, number(0, 0.3))
+    };
+    for estimate in ContactEstimate::ALL {
+        if let Err(refusal) = Forecast::new(&experiment, estimate) {
+            assert!(!refusal.to_string().is_empty());
+        }
+    }
+}
+
+pub fn seeds() -> Vec<Seed> {
+    let lines = [
+        "theory|--mu|0.3,critical|--stiffness|1e4,1e5|--pair-arm|-0.5|--format|json",
+        "simulate|--engine|native|--mu|0.2|--stiffness|1e2|--preparation|side-walls|--push|0.005|--dt|0.1",
+        "simulate|--engine|yade|--case|case.toml|--out|run|--time-limit|10",
+        "sweep|--engine|lammps|--mu|0.1:0.5:0.05|--stiffness|1e2,1e3|--kappa|2.5|--mu-d|0.7|--jobs|2",
+        "crosscheck|--profile|paper|--engines|native,yade-wall|--shortcuts|--store|store",
+        "crosscheck|--explain|yade/0.3/100",
+        "predict|--youngs|1 MPa|--density|1000 kg/m3|--radius|1 cm|--length|40mm|--mu|0.3|--mu-uncertainty|0.05",
+        "predict|--youngs|1 GPa|--mass|21.9 g|--radius|20 mm|--length|0.04m|--poisson|0.3|--mu|0.3|--contact|hertz",
+        "regimes|--points|13|--kappa|2.5|--jobs|1",
+        "bench|--engines|native|--repeats|3|--pyramids",
+        "trajectories|--engines|lammps",
+        "report|--out|results",
+    ];
+    let seed = |(index, line): (usize, &str)| {
+        (
+            format!("line-{index}"),
+            line.replace('|', "\n").into_bytes(),
+        )
+    };
+    lines.into_iter().enumerate().map(seed).collect()
+}

@@ -1,0 +1,133 @@
+//! Series and motions in CSV, and everything that is made of a series: what YADE delivers, and what the store
+//! keeps of every code.
+
+use super::scenes::{case_with_shortcuts, short_case, short_test};
+use super::{Seed, marked};
+use tristack::dem::{compress_stack, run_contact_test};
+use tristack::report::{run_svg, vtk_series};
+use tristack::stack::Case;
+use tristack::trace::{Frames, Motion, Trace, YieldEstimates};
+
+/// A picture of a wide stack takes some 100 kB.
+const LARGEST_PICTURE: usize = 1_000_000;
+
+pub fn check(data: &[u8]) {
+    let Some((&kind, text)) = data.split_first() else {
+        return;
+    };
+    match kind % 3 {
+        0 => check_series(text, &short_case()),
+        1 => check_series(text, &case_with_shortcuts()),
+        _ => check_motion(text),
+    }
+}
+
+fn check_series(text: &[u8], case: &Case) {
+    let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
+    match Trace::read(text, &schedule, time_step) {
+        Ok(trace) => {
+            let again = Trace::read(&trace.to_csv()[..], &schedule, time_step);
+            assert_eq!(again.expect("its own CSV is a series"), trace);
+            is_sound(&trace, case);
+            // Pictures take a hundred times longer.
+            if text.len().is_multiple_of(16) {
+                can_be_drawn(&trace, case);
+            }
+        }
+        Err(refusal) => assert!(!refusal.to_string().is_empty()),
+    }
+}
+
+/// What is accepted is finite, lies at the planned steps, and can be read.
+pub fn is_sound(trace: &Trace, case: &Case) {
+    let planned = case.protocol.schedule();
+    let rows = trace.samples();
+    assert!(rows.len() as u64 <= planned.rows());
+    assert!(
+        rows.iter()
+            .zip(planned.sampled_steps())
+            .all(|(row, step)| row.step == step)
+    );
+    let finite = |value: f64| value.is_finite();
+    assert!(
+        rows.iter()
+            .all(|row| finite(row.wall_force) && finite(row.y1) && finite(row.floor_t3))
+    );
+    let estimates = YieldEstimates::read(trace, &case.stack);
+    assert!(
+        estimates
+            .sliding_friction
+            .is_none_or(|friction| friction > 0.0)
+    );
+}
+
+fn can_be_drawn(trace: &Trace, case: &Case) {
+    let frames = Frames::of_trace(trace, case.protocol.wall_speed);
+    assert!(run_svg("yade", case, &frames).len() < LARGEST_PICTURE);
+    assert_eq!(
+        vtk_series(&frames, case.stack.epsilon()).len(),
+        2 * trace.samples().len() + 1
+    );
+}
+
+fn check_motion(text: &[u8]) {
+    let steps = short_test().steps;
+    if let Ok(motion) = Motion::read(text, steps) {
+        let rows = motion.rows();
+        assert_eq!(rows.len() as u64, steps + 1);
+        assert!(
+            rows.iter()
+                .all(|row| row.torque2.is_finite() && row.x1.is_finite())
+        );
+    }
+}
+
+pub fn seeds() -> Vec<Seed> {
+    let series = |case: &Case| {
+        let trace = compress_stack(case, || true).expect("a finite series");
+        trace.to_csv()
+    };
+    vec![
+        ("series".to_owned(), marked(0, series(&short_case()))),
+        (
+            "shortcuts".to_owned(),
+            marked(1, series(&case_with_shortcuts())),
+        ),
+        ("motion".to_owned(), marked(2, motion_csv())),
+    ]
+}
+
+/// The motion of the short test, comma by comma.
+fn motion_csv() -> String {
+    let motion = run_contact_test(&short_test()).expect("a finite motion");
+    let rows = serde_json::to_value(motion.rows()).expect("rows of numbers");
+    let rows = rows.as_array().expect("rows");
+    let header = MOTION_COLUMNS.join(",") + "\n";
+    let lines = rows.iter().map(|row| {
+        let cells = MOTION_COLUMNS.map(|name| row[name].to_string());
+        cells.join(",") + "\n"
+    });
+    header + &lines.collect::<String>()
+}
+
+/// In the order of the file.
+pub const MOTION_COLUMNS: [&str; 18] = [
+    "step",
+    "x1",
+    "y1",
+    "vx1",
+    "vy1",
+    "spin1",
+    "fx1",
+    "fy1",
+    "torque1",
+    "x2",
+    "y2",
+    "vx2",
+    "vy2",
+    "spin2",
+    "fx2",
+    "fy2",
+    "torque2",
+    "wall_force",
+];

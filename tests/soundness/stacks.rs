@@ -1,0 +1,83 @@
+//! Whatever numbers a stack and a protocol are made of: they are refused, or every theory and every plan
+//! copes with them.
+
+use super::Seed;
+use tristack::crosscheck::protocol_at_speed;
+use tristack::engine::{EngineName, Task};
+use tristack::stack::{Case, Convention, Stack};
+use tristack::theory::{Predictions, quasistatic_limit};
+
+const NUMBERS: usize = 8;
+
+/// Of the domain over which the theories are tested (tests/theory_domain.rs).
+const SMALLEST_RATIO: f64 = 1e-3;
+
+/// Eight numbers: friction, cylinder friction, stiffness, stiffness ratio, both arms, wall speed, time step.
+pub fn check(data: &[u8]) {
+    let mut numbers = [0.3, 0.7, 1e4, 2.5, 0.0, 0.0, 1e-5, 0.1];
+    for (number, bytes) in numbers.iter_mut().zip(data.chunks_exact(size_of::<f64>())) {
+        *number = f64::from_le_bytes(bytes.try_into().expect("eight bytes"));
+    }
+    let [
+        floor_friction,
+        cylinder_friction,
+        stiffness,
+        stiffness_ratio,
+        pair_arm,
+        floor_arm,
+        speed,
+        step,
+    ] = numbers;
+    let stack = Stack {
+        floor_friction,
+        cylinder_friction,
+        stiffness,
+        stiffness_ratio,
+    };
+    let convention = Convention {
+        pair_arm,
+        floor_arm,
+        ..Convention::PAPER
+    };
+    // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.
+    if stiffness_ratio < SMALLEST_RATIO {
+        return;
+    }
+    if stack.validate().is_err() || convention.validate().is_err() {
+        return;
+    }
+    Predictions::new(&stack, pair_arm, floor_arm);
+    let limit = quasistatic_limit(&stack, pair_arm, floor_arm);
+    assert!(limit.yield_force.is_none_or(f64::is_finite));
+    let Some(protocol) = protocol_at_speed(&limit, speed, step) else {
+        return;
+    };
+    let case = Case {
+        stack,
+        convention,
+        protocol,
+    };
+    if case.validate().is_ok() {
+        assert!(
+            case.parameters()
+                .as_object()
+                .is_some_and(|named| named.values().all(|one| one.is_number()))
+        );
+        assert_eq!(EngineName::Native.deck_hash(&case).len(), 64);
+    }
+}
+
+pub fn seeds() -> Vec<Seed> {
+    let stacks: [[f64; NUMBERS]; 5] = [
+        [0.3, 0.7, 1e4, 2.5, 0.0, 0.0, 1e-5, 0.1],
+        [0.12, 0.7, 1e2, 2.5, -0.5, -0.5, 1e-3, 0.1],
+        [0.5, 1.0, 1e8, 1.0, -0.5, -1.0, 1e-7, 0.01],
+        [0.267_949_192_431_122_7, 0.1, 1.0, 50.0, 0.0, 0.0, 1e-2, 0.2],
+        [1e3, 1e3, 1e3, 1e6, 1.0, 1.0, 1e-4, 1e-6],
+    ];
+    let seed = |(index, stack): (usize, [f64; NUMBERS])| {
+        let bytes = stack.iter().flat_map(|number| number.to_le_bytes());
+        (format!("stack-{index}"), bytes.collect())
+    };
+    stacks.into_iter().enumerate().map(seed).collect()
+}

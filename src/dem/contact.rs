@@ -390,12 +390,12 @@ mod tests {
     #[test]
     fn friction_times_the_normal_force_is_the_limit_also_where_that_pulls() {
         let contact = Contact {
-            separation_speed: 10.0,
+            separation_speed: 15.0,
             friction: 0.25,
             ..CONTACT
         };
         let force = paper().evaluate(&contact, &mut stretched(2.0));
-        assert_eq!((force.normal, force.tangential), (-1.0, -0.25));
+        assert_eq!((force.normal, force.tangential), (-2.0, -0.5));
     }
 
     #[test]

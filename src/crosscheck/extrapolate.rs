@@ -1,6 +1,6 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
-use super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
+use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
 use crate::trace::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
 use serde::Serialize;
 

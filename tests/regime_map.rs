@@ -190,13 +190,17 @@ fn outcomes_are_those_that_the_dem_has_shown() {
 
 #[test]
 fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
+    let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 10.0);
     let outcome = Outcome::of(&stack(0.78, 1.0, 1e2, 10.0)).unwrap();
     assert_eq!(outcome.consequence, Consequence::Softens);
     assert!(outcome.largest_force.unwrap() > outcome.end.unwrap().force * (1.0 + 1e-9));
-    // The largest force of the path is 2 max G/epsilon - 1, a maximum that a fine scan finds as well.
-    let scan = (1..100_000).map(|part| pair_overlap(f64::from(part) * 5e-6, 10.0));
-    let highest = 200.0 * scan.fold(0.0, f64::max) - 1.0;
-    assert!((outcome.largest_force.unwrap() / highest - 1.0).abs() < 1e-9);
+    // The largest force of the path is 2 max G/epsilon - 1, where the right-hand side of its equation vanishes.
+    let slope = |tangent: f64| {
+        let square = 1.0 + tangent * tangent;
+        4.0 / square - overlap(tangent) * (2.0 / square + 10.0 * square)
+    };
+    let highest = 200.0 * overlap(bracketed_root(slope, 0.3, 1.0).unwrap()) - 1.0;
+    assert!((outcome.largest_force.unwrap() / highest - 1.0).abs() < 1e-12);
 }
 
 /// Where neither friction suffices from the start, floor needs e/d = T/3 and cylinders b/a = T.

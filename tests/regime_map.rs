@@ -283,6 +283,8 @@ fn axes_reach_what_they_are_named_after() {
 
 #[test]
 fn a_map_spreads_its_values_over_the_scale_of_its_axis() {
+    let ratios = RegimeMap::standard(3.0).map(|map| map.base.stiffness_ratio);
+    assert_eq!(ratios, [3.0; 3]);
     let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5);
     let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12);
     let decades = over_stiffness.axis_values(5);

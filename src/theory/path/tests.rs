@@ -76,6 +76,20 @@ fn contact_of_the_bottom_is_closed_from_the_start_below_the_closing_stiffness_ra
     assert!(!closed(0.5, BottomContact::Ignored));
 }
 
+/// So close to κ_c the contact opens before the first place at which its change is looked for.
+#[test]
+fn a_contact_that_opens_within_round_off_of_the_start_is_open_from_there_on() {
+    let paths = (0..8).map(|units| {
+        let ratio = CLOSING_STIFFNESS_RATIO * (1.0 - f64::from(units) * f64::EPSILON);
+        path(1e2, ratio, BottomContact::Followed)
+    });
+    let closed: Vec<_> = paths.filter(|path| path.knots[0].closed).collect();
+    assert!(!closed.is_empty());
+    for path in closed {
+        assert!(path.knots[1..].iter().all(|knot| !knot.closed));
+    }
+}
+
 #[test]
 fn linear_springs_are_linear() {
     let springs = LinearSprings {

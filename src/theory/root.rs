@@ -15,6 +15,10 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     if !opposite {
         return None;
     }
+    // Otherwise its sign, which it does not have, would decide on which side the root is looked for.
+    if f1 == 0.0 {
+        return Some(high);
+    }
     let mut fraction = 0.5;
     for _ in 0..MOST_ITERATIONS {
         let x = x1 + fraction * (x2 - x1);
@@ -74,7 +78,10 @@ mod tests {
 
     #[test]
     fn an_end_may_be_the_root() {
-        assert_eq!(bracketed_root(|x| x, 0.0, 1.0), Some(0.0));
+        for sign in [1.0, -1.0] {
+            assert_eq!(bracketed_root(|x| sign * x, 0.0, 1.0), Some(0.0));
+            assert_eq!(bracketed_root(|x| sign * (x - 1.0), 0.0, 1.0), Some(1.0));
+        }
     }
 
     #[test]

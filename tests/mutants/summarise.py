@@ -83,6 +83,7 @@ def main():
         "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
         "cargo_mutants_version": version,
         "commit": commit.stdout.strip(),
+        "not_run": collections.Counter(name.split(":")[0] for name in mutants if name not in last),
         "areas": [row(area, mutants, last) for area in areas],
         "survivors": [entry for entry in reasons if entry["mutant"] in survivors],
     }

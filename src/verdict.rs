@@ -64,4 +64,26 @@ mod tests {
         assert_eq!(Verdict::of(f64::NAN, 0.0, 1.0), Verdict::Inconclusive);
         assert_eq!(Verdict::of(0.0, f64::NAN, 1.0), Verdict::Inconclusive);
     }
+
+    #[test]
+    fn what_is_just_allowed_agrees() {
+        assert_eq!(Verdict::of(1.0, 0.5, 1.0), Verdict::Agrees);
+        assert_eq!(Verdict::of(-1.0, 1.0, 1.0), Verdict::Agrees);
+        assert_eq!(Verdict::of(2.0, 2.0, 1.0), Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn the_word_in_tables_is_the_one_in_files() {
+        for (verdict, word) in [
+            (Verdict::Agrees, "agrees"),
+            (Verdict::Differs, "differs"),
+            (Verdict::Inconclusive, "inconclusive"),
+            (Verdict::NoYield, "no-yield"),
+            (Verdict::Failed, "failed"),
+            (Verdict::Missing, "missing"),
+        ] {
+            assert_eq!(verdict.to_string(), word);
+            assert_eq!(serde_json::to_value(verdict).unwrap(), word);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
-use super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
+use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
 use crate::trace::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
 use serde::Serialize;
 
@@ -235,5 +235,102 @@ mod tests {
     fn an_estimator_missing_from_one_run_is_missing() {
         let runs = estimates([1.0; 5]);
         assert_eq!(extrapolate(&runs, &STEPS, 1.0, |run| run.peak), None);
+    }
+
+    #[test]
+    fn constants_are_their_definitions() {
+        assert_eq!(LARGEST_COORDINATE, 1.0 + 3f64.sqrt());
+        assert_eq!(ROUNDING, 1.0 / 12f64.sqrt());
+    }
+
+    #[test]
+    fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
+        let budget = Budget {
+            wall_speed: 1.0,
+            time_step: 2.0,
+            preparation: 4.0,
+            sampling: 8.0,
+            round_off: 16.0,
+            print_precision: 32.0,
+            shortcuts: 64.0,
+        };
+        let parts = [
+            ("wall speed", 1.0),
+            ("time step", 2.0),
+            ("preparation", 4.0),
+            ("sampling", 8.0),
+            ("round-off", 16.0),
+            ("print precision", 32.0),
+            ("shortcuts", 64.0),
+        ];
+        assert_eq!(budget.parts(), parts);
+        assert_eq!(budget.total(), 127.0);
+    }
+
+    #[test]
+    fn rounding_walks_at_random_and_is_amplified_by_reading_and_extrapolation() {
+        let mut runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
+        for run in &mut runs {
+            run.slip.as_mut().unwrap().sensitivity = 3.0;
+        }
+        let stiffness = 1e4;
+        let result = extrapolate(&runs, &STEPS, stiffness, |run| run.slip).unwrap();
+        // Weights 1/3, -2, 8/3 of the parabola through 4 v, 2 v and v.
+        let walked: f64 = [(1e4, 1.0 / 3.0), (2e4, 2.0), (4e4, 8.0 / 3.0)]
+            .map(|(steps, weight): (f64, f64)| weight * steps.sqrt())
+            .iter()
+            .sum();
+        let one_step = (1.0 + 3f64.sqrt()) * f64::EPSILON / 12f64.sqrt() * stiffness * 3.0;
+        let printed = 5.0 * 0.5e-16 * (1.0 + 3f64.sqrt()) * stiffness * 3.0;
+        let budget = result.budget;
+        assert!((budget.round_off / (one_step * walked) - 1.0).abs() < 1e-12);
+        assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
+        // What the order is known to: the noisiest of the runs, here the longest.
+        let noise = 1e-9 + one_step * 200.0;
+        let allowance = Order::of(&[10.4, 10.2, 10.1], noise).allowance;
+        assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn shortcuts_cost_what_the_straight_line_without_them_says() {
+        let estimate = estimates([0.0; 5])[0].slip.unwrap();
+        let forces = [10.4, 10.2, 10.1, 10.2, 10.2, 10.41, 10.202];
+        let runs: Vec<YieldEstimates> = forces
+            .map(|force| YieldEstimates {
+                slip: Some(Estimate { force, ..estimate }),
+                peak: None,
+                sliding_friction: None,
+            })
+            .to_vec();
+        let budget = |count: usize| {
+            let steps = [10_000; 7];
+            let result = extrapolate(&runs[..count], &steps[..count], 1e2, |run| run.slip);
+            result.unwrap().budget
+        };
+        // |(2 * 10.202 - 10.41) - (2 * 10.2 - 10.4)|
+        assert!((budget(7).shortcuts - 0.006).abs() < 1e-12);
+        assert_eq!(budget(5).shortcuts, 0.0);
+    }
+
+    #[test]
+    fn an_order_is_observed_as_soon_as_differences_exceed_twice_the_noise() {
+        let forces = [2.0, 1.0, 0.5];
+        assert_eq!(Order::of(&forces, 0.25).observed, None);
+        assert_eq!(Order::of(&forces, 0.25).allowance, f64::INFINITY);
+        assert_eq!(Order::of(&forces, 0.249).observed, Some(1.0));
+    }
+
+    #[test]
+    fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
+        // Each of two differences of which the smaller is 0.1 may be off by 0.002.
+        let order = Order::of(&[10.4, 10.2, 10.1], 1e-3);
+        let expected = 0.05 + 2.0 * 0.02 / 2f64.ln();
+        assert!((order.allowance - expected).abs() < 1e-12);
+        let at_the_limit = |observed| Order {
+            observed: Some(observed),
+            allowance: 0.5,
+        };
+        assert!(at_the_limit(1.5).is_expected() && at_the_limit(0.5).is_expected());
+        assert!(!at_the_limit(1.5 + 1e-9).is_expected());
     }
 }

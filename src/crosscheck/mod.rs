@@ -10,6 +10,7 @@ mod profile;
 mod reading;
 mod recorded;
 mod regimes;
+mod runs;
 mod schedule;
 mod touch;
 mod trajectory;
@@ -20,9 +21,8 @@ pub use evidence::Evidence;
 pub use extrapolate::{Budget, Extrapolation, Order, extrapolate};
 pub use measure::{Judgement, measure, peak_allowance};
 pub use plan::{
-    COARSE_TIME_STEP_RUN, MIDDLE_RUN, Measurement, Method, NoYield, PAPER_TIME_STEP,
-    PAPER_WALL_SPEED, SHORT_RAMP_RUN, no_yield, plan, plan_literal, planned_protocol,
-    protocol_at_speed, yielding_frictions,
+    Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,
+    planned_protocol, protocol_at_speed, yielding_frictions,
 };
 pub use probing::{
     Findings, ProbeError, Probed, contradictions, is_contradicted, probe_all, record_probe,
@@ -34,6 +34,7 @@ pub use regimes::{
     Confirmation, Examination, Side, Survey, THREE_DIGITS, confirm, examine, examined_stacks,
     survey,
 };
+pub use runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN};
 pub use schedule::{Participant, Progress, RunError, Settings, Workload, run_all};
 pub use touch::gentle_speed;
 pub use trajectory::{

@@ -1,23 +1,11 @@
 //! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
 
+use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::gentle_speed;
 use crate::engine::EngineName;
 use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
-
-/// Wall speeds in units of the predicted displacement (see `speed_scale`), fastest first, each half the one before.
-pub const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
-
-/// Position of the run at the middle speed, with which the two further runs are compared.
-pub const MIDDLE_RUN: usize = 1;
-/// Position of the run with twice the time step.
-pub const COARSE_TIME_STEP_RUN: usize = SPEEDS.len();
-/// Position of the run with half the gravity ramp.
-pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
-
-/// Positions of the runs without shortcuts, where the others take some: at the fastest and the middle speed.
-pub const PLAIN_RUNS: [usize; 2] = [SPEEDS.len() + 2, SPEEDS.len() + 3];
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
@@ -323,6 +311,7 @@ pub fn yielding_frictions(stack: &Stack, convention: &Convention) -> Option<(f64
 
 #[cfg(test)]
 mod tests {
+    use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
     use super::*;
     use crate::stack::CRITICAL_FRICTION;
 

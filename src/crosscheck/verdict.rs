@@ -107,4 +107,10 @@ mod tests {
         assert_eq!(judge(f64::NAN, 1e-8), Verdict::Inconclusive);
         assert_eq!(judge(1e-8, f64::NAN), Verdict::Inconclusive);
     }
+
+    #[test]
+    fn a_row_says_where_it_comes_from() {
+        assert_eq!(Source::Live.as_str(), "live");
+        assert_eq!(Source::Recorded.as_str(), "recorded");
+    }
 }

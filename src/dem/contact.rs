@@ -342,4 +342,75 @@ mod tests {
         assert!((factor(SpringTransport::Projected) - 1.0 + half_square).abs() < 1e-12);
         assert!((factor(SpringTransport::Linearised) - 1.0 - half_square).abs() < 1e-12);
     }
+
+    #[test]
+    fn a_force_is_put_together_from_its_components_and_taken_apart_into_them() {
+        let normal = [0.6, 0.8];
+        let force = ContactForce {
+            normal: 2.0,
+            tangential: 5.0,
+            radius: 1.0,
+        };
+        // 2 n + 5 t with t = (-0.8, 0.6).
+        let vector: [f64; 2] = force.in_the_plane(normal);
+        assert!((vector[0] + 2.8).abs() < 1e-15 && (vector[1] - 4.6).abs() < 1e-15);
+        assert!((along(normal, vector) - 2.0).abs() < 1e-15);
+        assert!((tangential(normal, vector) - 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn damping_pulls_on_separating_surfaces_unless_that_is_excluded() {
+        let never_pulls = SpringDashpot {
+            separating_force: SeparatingForce::NeverPulls,
+            ..paper()
+        };
+        for (speed, may_pull, never) in [(-1.0, 0.7, 0.7), (1.0, 0.3, 0.3), (3.0, -0.1, 0.0)] {
+            assert!((paper().normal_force(0.5, speed) - may_pull).abs() < 1e-15);
+            assert!((never_pulls.normal_force(0.5, speed) - never).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_arm_enters_radius_and_surface_velocity() {
+        let contact = Contact {
+            arm: -0.5,
+            spin: 0.25,
+            overlap: 0.5,
+            friction: 10.0,
+            ..CONTACT
+        };
+        let mut memory = paper().forgotten(0.0);
+        let force = paper().evaluate(&contact, &mut memory);
+        assert_eq!(force.radius, 0.75);
+        // v_t = 0.5 - 0.75 * 0.25 for a time of 0.1.
+        assert!((memory.length - 0.031_25).abs() < 1e-17);
+        assert_eq!(force.normal, 0.5);
+    }
+
+    #[test]
+    fn friction_times_the_normal_force_is_the_limit_also_where_that_pulls() {
+        let contact = Contact {
+            separation_speed: 15.0,
+            friction: 0.25,
+            ..CONTACT
+        };
+        let force = paper().evaluate(&contact, &mut stretched(2.0));
+        assert_eq!((force.normal, force.tangential), (-2.0, -0.5));
+    }
+
+    #[test]
+    fn a_projected_spring_is_shortened_in_the_step_in_which_the_contact_turns() {
+        let law = SpringDashpot {
+            spring_transport: SpringTransport::Projected,
+            ..paper()
+        };
+        let turned = Contact {
+            normal: [-0.6, 0.8],
+            sliding_speed: 0.0,
+            ..CONTACT
+        };
+        let mut memory = stretched(1.0);
+        law.evaluate(&turned, &mut memory);
+        assert_eq!((memory.length, memory.normal), (0.8, [-0.6, 0.8]));
+    }
 }

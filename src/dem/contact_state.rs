@@ -81,3 +81,69 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
         self.loaded = true;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::contact::{Spring, SpringDashpot};
+    use super::*;
+    use crate::stack::Convention;
+
+    type State = ContactState<f64, Spring<f64>>;
+
+    const CONTACT: Contact<f64> = Contact {
+        normal: [0.0, 1.0],
+        overlap: 0.5,
+        separation_speed: 0.0,
+        sliding_speed: 0.5,
+        spin: 0.0,
+        friction: 10.0,
+        arm: 0.0,
+        time_step: 0.1,
+    };
+
+    fn law() -> SpringDashpot<f64> {
+        SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
+    }
+
+    fn after_one_step(touches: Touch<f64>) -> State {
+        let mut state = State::forgotten(&law(), 0.0);
+        let force = state.evaluate::<true, _>(&law(), &CONTACT, touches);
+        assert_eq!(force.normal, 0.5);
+        state
+    }
+
+    #[test]
+    fn what_touches_is_remembered_and_what_does_not_has_no_past() {
+        for touches in [Touch::Everywhere, Touch::Where(true)] {
+            let state = after_one_step(touches);
+            assert_eq!((state.memory.length, state.force.normal), (0.05, 0.5));
+        }
+        let apart = after_one_step(Touch::Where(false));
+        assert_eq!((apart.memory.length, apart.force.normal), (0.0, 0.0));
+    }
+
+    #[test]
+    fn what_parts_is_forgotten_whether_its_force_is_kept_or_not() {
+        let mut state = after_one_step(Touch::Everywhere);
+        state.part::<false, _>(&law(), 0.0);
+        assert_eq!((state.memory.length, state.loaded), (0.0, false));
+        let mut state = after_one_step(Touch::Everywhere);
+        state.part::<true, _>(&law(), 0.0);
+        assert_eq!((state.memory.length, state.force.normal), (0.0, 0.0));
+        // A force that is kept is that of this step, even where nothing was remembered.
+        let mut state = after_one_step(Touch::Everywhere);
+        state.loaded = false;
+        state.part::<true, _>(&law(), 0.0);
+        assert_eq!(state.force.normal, 0.0);
+    }
+
+    #[test]
+    fn a_state_is_taken_over_with_memory_and_force() {
+        let other = after_one_step(Touch::Everywhere);
+        let mut state = State::forgotten(&law(), 0.0);
+        state.visit(&other, &mut |own, other| *own = *other);
+        assert_eq!((state.memory.length, state.force.normal), (0.05, 0.5));
+        state.part::<false, _>(&law(), 0.0);
+        assert_eq!(state.memory.length, 0.0);
+    }
+}

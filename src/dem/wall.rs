@@ -82,3 +82,31 @@ composite!(PlaneWall {
     speed,
     friction
 });
+
+#[cfg(test)]
+mod tests {
+    use super::super::contact::{along, tangential};
+    use super::*;
+
+    #[test]
+    fn shortcuts_for_each_side_are_products_with_its_normal() {
+        let force = ContactForce {
+            normal: 2.0,
+            tangential: 5.0,
+            radius: 1.0,
+        };
+        let normals = [
+            (Facing::Up, [0.0, 1.0]),
+            (Facing::Down, [0.0, -1.0]),
+            (Facing::Left, [-1.0, 0.0]),
+            (Facing::Right, [1.0, 0.0]),
+        ];
+        for (facing, normal) in normals {
+            assert_eq!(facing.normal(1.0), normal);
+            let vector = [3.0, 7.0];
+            assert_eq!(facing.along(vector), along(normal, vector));
+            assert_eq!(facing.tangential(vector), tangential(normal, vector));
+            assert_eq!(facing.in_the_plane(&force), force.in_the_plane(normal));
+        }
+    }
+}

@@ -132,4 +132,84 @@ mod tests {
         let angle = std::f64::consts::FRAC_PI_6 + 0.3;
         assert!((half_angle_tangent(0.3) - (angle / 2.0).tan()).abs() < 1e-15);
     }
+
+    /// A path on which the floor ratio is half the parameter.
+    struct Straight;
+
+    impl Path for Straight {
+        fn stations(&self) -> Vec<f64> {
+            vec![1.0, 2.0, 4.0]
+        }
+
+        fn settled(&self) -> f64 {
+            1.0
+        }
+
+        fn point(&self, parameter: f64) -> PathPoint {
+            PathPoint {
+                floor_ratio: 0.5 * parameter,
+                ..POINT
+            }
+        }
+    }
+
+    const POINT: PathPoint = PathPoint {
+        tangent: 0.3,
+        pair_overlap: 0.02,
+        floor_overlap: 0.03,
+        outward: 0.04,
+        pair_ratio: 0.5,
+        floor_ratio: 0.25,
+        wall_force: 0.01,
+    };
+
+    #[test]
+    fn the_wall_lies_on_the_top_of_cylinder_1() {
+        let angle = 2.0 * 0.3f64.atan();
+        let (centre_2, rise) = (1.0 - 0.03, (2.0 - 0.02) * angle.cos());
+        let top_of_cylinder_1 = centre_2 + rise + 1.0;
+        assert!((POINT.wall_height() - (top_of_cylinder_1 - 0.01)).abs() < 1e-15);
+        // It reaches cylinder 2 when it is as high as the top of that.
+        let stack = Stack::paper(0.3, 1e2);
+        let margin = POINT.margin(Event::WallContact, &stack);
+        assert!((POINT.wall_height() - (centre_2 + 1.0) - margin).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_friction_that_is_just_needed_leaves_no_margin() {
+        let stack = Stack {
+            cylinder_friction: 0.625,
+            ..Stack::paper(0.5, 1e2)
+        };
+        let margin = |event| POINT.margin(event, &stack);
+        assert_eq!(margin(Event::FloorSlip), 0.25);
+        assert_eq!(margin(Event::CylinderSlip), 0.125);
+        assert_eq!(margin(Event::ContactCloses), 0.04);
+        assert_eq!(margin(Event::None), f64::INFINITY);
+    }
+
+    #[test]
+    fn events_are_found_between_stations_and_from_the_start() {
+        let with = |friction| locate(&Straight, Event::FloorSlip, &Stack::paper(friction, 1e2));
+        assert_eq!(with(0.75), Some(1.5));
+        assert_eq!(with(1.5), Some(3.0));
+        assert_eq!(with(2.5), None);
+        assert_eq!(with(0.4), Some(0.0));
+        // What is only just reached at the first station has not happened from the start.
+        assert_eq!(with(0.5), Some(1.0));
+    }
+
+    #[test]
+    fn the_name_of_an_event_is_the_same_in_tables_and_files() {
+        for (event, name) in [
+            (Event::FloorSlip, "floor-slip"),
+            (Event::CylinderSlip, "cylinder-slip"),
+            (Event::ContactCloses, "contact-closes"),
+            (Event::WallContact, "wall-contact"),
+            (Event::None, "none"),
+        ] {
+            assert_eq!(event.to_string(), name);
+            assert_eq!(serde_json::to_value(event).unwrap(), name);
+        }
+    }
 }

@@ -120,6 +120,7 @@ mod tests {
     fn a_curve_is_its_points() {
         let frictions = [0.05, 0.2, CRITICAL_FRICTION, 0.5];
         let curve = floor_slip_forces(&frictions, 1e3, 5.0);
+        assert_eq!(curve.len(), frictions.len());
         for (friction, force) in frictions.into_iter().zip(curve) {
             let stack = Stack {
                 stiffness_ratio: 5.0,

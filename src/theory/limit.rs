@@ -92,3 +92,50 @@ fn explanation(event: Event, own_weight: bool) -> String {
     };
     text.to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::root::bracketed_root;
+    use super::super::{closed_form_limit, pair_overlap};
+    use super::*;
+    use crate::stack::CRITICAL_FRICTION;
+
+    #[test]
+    fn a_limit_without_a_yield_force_says_why() {
+        let stack = |mu, cylinder_friction, stiffness_ratio| Stack {
+            cylinder_friction,
+            stiffness_ratio,
+            ..Stack::paper(mu, 1e2)
+        };
+        let reason = |stack: Stack| closed_form_limit(&stack).reason.unwrap();
+        for (stack, part) in [
+            (stack(0.05, 0.7, 2.5), "under its own weight"),
+            (stack(0.5, 0.4, 2.5), "the cylinders slip on each other"),
+            (stack(0.3, 0.7, 0.5), "the bottom cylinders touch"),
+            (stack(0.6, 0.7, 2.5), "the top wall reaches"),
+        ] {
+            let reason = reason(stack);
+            assert!(reason.contains(part), "{reason}");
+        }
+        assert_eq!(closed_form_limit(&stack(0.3, 0.7, 2.5)).reason, None);
+        assert!(explanation(Event::None, false).contains("the path of equilibria ends"));
+        assert_eq!(explanation(Event::FloorSlip, false), "the floor slips");
+    }
+
+    #[test]
+    fn the_wall_travels_from_the_settled_stack_to_the_slip() {
+        let stack = Stack::paper(0.3, 1e2);
+        let limit = closed_form_limit(&stack);
+        // Top of cylinder 1, less its indentation by the wall: 1 − z + ρ cos ψ + 1 − ε F.
+        let height = |tangent: f64, force: f64| {
+            let overlap = pair_overlap(tangent - CRITICAL_FRICTION, stack.stiffness_ratio);
+            let rise = (2.0 - overlap) * (2.0 * tangent.atan()).cos();
+            2.0 - 0.5 * (force + 3.0) * stack.epsilon() + rise - force * stack.epsilon()
+        };
+        let excess = |beyond| 2.0 * pair_overlap(beyond, stack.stiffness_ratio) - stack.epsilon();
+        let settled = CRITICAL_FRICTION + bracketed_root(excess, 0.0, 0.5).unwrap();
+        let travel =
+            height(settled, 0.0) - height(limit.tangent.unwrap(), limit.yield_force.unwrap());
+        assert!((limit.wall_travel.unwrap() / travel - 1.0).abs() < 1e-12);
+    }
+}

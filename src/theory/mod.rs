@@ -41,3 +41,21 @@ pub fn quasistatic_limit(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Limit 
         followed_limit(stack, pair_arm, floor_arm)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_closed_form_is_taken_where_both_arms_are_0_and_only_there() {
+        let stack = Stack::paper(0.3, 1e2);
+        let limit = |pair_arm, floor_arm| quasistatic_limit(&stack, pair_arm, floor_arm);
+        assert_eq!(limit(0.0, 0.0), closed_form_limit(&stack));
+        // The two agree to nine digits, not to the last.
+        assert_ne!(limit(0.0, 0.0), followed_limit(&stack, 0.0, 0.0));
+        for (pair_arm, floor_arm) in [(-0.5, 0.0), (0.0, -0.5)] {
+            let followed = followed_limit(&stack, pair_arm, floor_arm);
+            assert_eq!(limit(pair_arm, floor_arm), followed);
+        }
+    }
+}

@@ -486,3 +486,6 @@ pub(super) fn followed_path(
         bottom,
     })
 }
+
+#[cfg(test)]
+mod tests;

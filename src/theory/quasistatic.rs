@@ -96,4 +96,37 @@ mod tests {
         assert!(outward(threshold * 1.001) > 0.0);
         assert!(outward(threshold * 0.999) < 0.0);
     }
+
+    #[test]
+    fn stations_are_even_and_crowd_towards_the_start() {
+        let path = ClosedForm::new(&Stack::paper(0.3, 1e2), 0.512);
+        let stations = path.stations();
+        assert_eq!(stations.len(), 280);
+        assert!(stations.windows(2).all(|pair| pair[1] > pair[0]));
+        assert_eq!((stations[0], stations[23]), (0.002 / 16_777_216.0, 0.001));
+        assert_eq!((stations[24], stations[279]), (0.002, 0.512));
+    }
+
+    #[test]
+    fn gravity_is_complete_where_cylinder_1_weighs_on_both_others() {
+        let path = ClosedForm::whole(&Stack::paper(0.3, 1e2));
+        let settled = path.point(path.settled());
+        assert!(
+            (settled.pair_overlap / 0.005 - 1.0).abs() < 1e-14,
+            "a = m g/2"
+        );
+        assert!(settled.wall_force.abs() < 1e-16);
+        assert!(
+            (settled.floor_overlap / 0.015 - 1.0).abs() < 1e-14,
+            "d = 3 m g/2"
+        );
+        // Half-way up the ramp the floor bears three times what the contact does.
+        let below = path.point(0.5 * path.settled());
+        assert_eq!(below.wall_force, 0.0);
+        assert_eq!(below.floor_overlap, 3.0 * below.pair_overlap);
+        assert!((below.floor_ratio - below.tangent / 3.0).abs() < 1e-15);
+        let above = path.point(2.0 * path.settled());
+        assert_eq!(above.floor_overlap, above.pair_overlap + 0.01);
+        assert_eq!(above.wall_force, 2.0 * above.pair_overlap - 0.01);
+    }
 }

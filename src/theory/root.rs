@@ -15,6 +15,10 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     if !opposite {
         return None;
     }
+    // Otherwise its sign, which it does not have, would decide on which side the root is looked for.
+    if f1 == 0.0 {
+        return Some(high);
+    }
     let mut fraction = 0.5;
     for _ in 0..MOST_ITERATIONS {
         let x = x1 + fraction * (x2 - x1);
@@ -74,6 +78,53 @@ mod tests {
 
     #[test]
     fn an_end_may_be_the_root() {
-        assert_eq!(bracketed_root(|x| x, 0.0, 1.0), Some(0.0));
+        for sign in [1.0, -1.0] {
+            assert_eq!(bracketed_root(|x| sign * x, 0.0, 1.0), Some(0.0));
+            assert_eq!(bracketed_root(|x| sign * (x - 1.0), 0.0, 1.0), Some(1.0));
+        }
+    }
+
+    #[test]
+    fn a_function_of_one_sign_has_no_root_however_it_slopes() {
+        for (sign, slope) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let function = |x: f64| sign * (2.0 + slope * x);
+            assert_eq!(bracketed_root(function, -1.0, 1.0), None);
+        }
+    }
+
+    #[test]
+    fn a_function_that_is_lost_on_the_way_has_no_root() {
+        let lost = |x: f64| if x.abs() < 0.5 { f64::NAN } else { x };
+        assert_eq!(bracketed_root(lost, -1.0, 1.0), None);
+    }
+
+    /// Root of `function` in (0, 1), and how often it was asked.
+    fn counted(function: impl Fn(f64) -> f64) -> (f64, usize) {
+        let asked = std::cell::Cell::new(0);
+        let counting = |x: f64| {
+            asked.set(asked.get() + 1);
+            function(x)
+        };
+        let root = bracketed_root(counting, 0.0, 1.0).unwrap();
+        (root, asked.get())
+    }
+
+    /// Own past: what interpolation saves is as much a property of the method as the root.
+    #[test]
+    fn regress_interpolation_saves_this_many_evaluations() {
+        type Function = fn(f64) -> f64;
+        let functions: [(Function, f64, usize); 6] = [
+            (|x| libm::exp(x) - 2.0, std::f64::consts::LN_2, 8),
+            (|x| 2.0 - libm::exp(x), std::f64::consts::LN_2, 8),
+            (|x| x * x * x - 0.125, 0.5, 3),
+            (|x| x * x - 0.09, 0.3, 10),
+            (|x| libm::pow(x, 9.0) - 1e-3, 0.464_158_883_361_277_9, 13),
+            (|x| x - 0.7 + if x < 0.7 { -1.0 } else { 1.0 }, 0.7, 53),
+        ];
+        for (index, (function, exact, expected)) in functions.into_iter().enumerate() {
+            let (root, evaluations) = counted(function);
+            assert!((root - exact).abs() <= 4e-16 * exact, "{index}: {root}");
+            assert_eq!(evaluations, expected, "{index}");
+        }
     }
 }

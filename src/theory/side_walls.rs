@@ -85,4 +85,55 @@ mod tests {
         };
         assert!(critical_push(&stack).abs() < 1e-15);
     }
+
+    #[test]
+    fn critical_push_solves_the_balance_it_comes_from() {
+        // κ μ_c ε = A/3 + 2 (ε/(4√3) + A/(3√3)), docs/theory.md, Eq. 70.
+        let root = 3f64.sqrt();
+        for (stiffness, kappa) in [(1e2, 2.5), (1e4, 2.5), (1e3, 10.0)] {
+            let stack = Stack {
+                stiffness_ratio: kappa,
+                ..Stack::paper(0.2, stiffness)
+            };
+            let (push, epsilon) = (critical_push(&stack), stack.epsilon());
+            let turned = epsilon / (4.0 * root) + push / (3.0 * root);
+            let spread = push / 3.0 + 2.0 * turned;
+            assert!((spread / (kappa * CRITICAL_FRICTION * epsilon) - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// F where the floor slips, by Runge's and Kutta's method from G(T₀) = 0 and bisection; its error is of fourth
+    /// order in steps of 10⁻⁴.
+    fn summed_force(stack: &Stack, start: f64) -> f64 {
+        let (kappa, epsilon, mu) = (stack.stiffness_ratio, stack.epsilon(), stack.floor_friction);
+        let slope = |t: f64, g: f64| {
+            let square = 1.0 + t * t;
+            (4.0 / square - g * (2.0 / square + kappa * square)) / (t * (1.0 + kappa * square))
+        };
+        let (mut t, mut g, mut width) = (start, 0.0, 1e-4);
+        while width > 1e-15 {
+            let first = slope(t, g);
+            let second = slope(t + 0.5 * width, g + 0.5 * width * first);
+            let third = slope(t + 0.5 * width, g + 0.5 * width * second);
+            let fourth = slope(t + width, g + width * third);
+            let next = g + width * (first + 2.0 * second + 2.0 * third + fourth) / 6.0;
+            if next * (t + width - mu) < epsilon * mu {
+                (t, g) = (t + width, next);
+            } else {
+                width *= 0.5;
+            }
+        }
+        2.0 * g / epsilon - 1.0
+    }
+
+    #[test]
+    fn a_push_moves_the_angle_at_which_the_springs_are_free_of_force() {
+        for push in [0.0f64, 0.005, 0.05] {
+            let stack = Stack::paper(0.2, 1e2);
+            let start = (0.5 * (0.5 * (1.0 - push / 3.0)).asin()).tan();
+            let force = pushed_slip_force(&stack, push).unwrap();
+            let summed = summed_force(&stack, start);
+            assert!((force / summed - 1.0).abs() < 1e-10, "{force} {summed}");
+        }
+    }
 }

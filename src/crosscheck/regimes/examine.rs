@@ -1,7 +1,7 @@
 //! What the events do, by the largest force that a stack bears in the native DEM.
 
 use super::super::extrapolate::{Extrapolation, Order, extrapolate};
-use super::super::plan::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
+use super::super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use super::super::verdict::BAR;
 use super::{THREE_DIGITS, loading};
 use crate::dem::{Loading, Observation, Until, watch_stack};

@@ -52,3 +52,36 @@ fn earlier(slip: Option<f64>, wall: Option<f64>) -> Option<(Event, f64)> {
         (None, wall) => wall.map(|wall| (Event::WallContact, wall)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_slip_and_wall_contact_the_first_counts_and_slip_if_both_come_at_once() {
+        assert_eq!(
+            earlier(Some(2.0), Some(1.0)),
+            Some((Event::WallContact, 1.0))
+        );
+        assert_eq!(
+            earlier(Some(1.0), Some(2.0)),
+            Some((Event::CylinderSlip, 1.0))
+        );
+        assert_eq!(
+            earlier(Some(1.0), Some(1.0)),
+            Some((Event::CylinderSlip, 1.0))
+        );
+        assert_eq!(earlier(Some(1.0), None), Some((Event::CylinderSlip, 1.0)));
+        assert_eq!(earlier(None, Some(1.0)), Some((Event::WallContact, 1.0)));
+        assert_eq!(earlier(None, None), None);
+    }
+
+    #[test]
+    fn cylinders_that_slip_under_own_weight_leave_no_boundary() {
+        let stack = Stack {
+            cylinder_friction: 0.26,
+            ..Stack::paper(0.3, 1e2)
+        };
+        assert_eq!(Boundary::in_friction(&Course::new(&stack), &stack), []);
+    }
+}

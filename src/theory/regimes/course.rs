@@ -171,9 +171,11 @@ fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::overlap::pair_overlap;
     use super::super::super::root::bracketed_root;
     use super::super::CLOSING_STIFFNESS_RATIO;
     use super::*;
+    use crate::stack::CRITICAL_FRICTION;
 
     fn course(stiffness_ratio: f64) -> Course {
         Course::new(&Stack {
@@ -270,5 +272,84 @@ mod tests {
         assert!(!course(CLOSING_STIFFNESS_RATIO * (1.0 + 1e-4)).closes());
         let defined = (2.0 + 3f64.sqrt()) / (2.0 * 3f64.sqrt());
         assert!((CLOSING_STIFFNESS_RATIO - defined).abs() < 1e-15);
+    }
+
+    #[test]
+    fn golden_sections_find_a_maximum_inside_and_at_the_ends() {
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-15;
+        assert!(near(maximum_between(|x| x * (1.0 - x), 0.0, 1.0), 0.25));
+        assert!(near(
+            maximum_between(|x| x * x * (1.0 - x), 0.2, 1.0),
+            4.0 / 27.0
+        ));
+        assert!((maximum_between(|x| x, 0.0, 2.0) - 2.0).abs() < 1e-8);
+        assert!((maximum_between(|x| -x, 1.0, 2.0) + 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn the_largest_value_on_the_way_may_lie_between_stations_or_at_the_end() {
+        // κ = 10: the load has a maximum on the way.
+        let course = course(10.0);
+        let stations = course.path.as_path().stations();
+        let last = stations[stations.len() - 1];
+        let load = |point: &PathPoint| point.pair_overlap;
+        let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 10.0);
+        // G′ = 0, docs/theory.md, Eq. 17.
+        let slope = |tangent: f64| {
+            let square = 1.0 + tangent * tangent;
+            4.0 / square - overlap(tangent) * (2.0 / square + 10.0 * square)
+        };
+        let exact = overlap(bracketed_root(slope, 0.3, 1.0).unwrap());
+        let highest = course.largest_until(last, load);
+        assert!((highest / exact - 1.0).abs() < 1e-12);
+        assert!(stations.iter().all(|&at| load(&course.point(at)) < highest));
+        for end in [0.3 * last, 0.123 * last] {
+            assert_eq!(course.largest_until(end, load), load(&course.point(end)));
+        }
+        assert_eq!(course.beginning(), stations[0]);
+    }
+
+    #[test]
+    fn what_happens_is_told_with_force_stage_and_travel() {
+        let course = course(2.5);
+        let settled = course.settled();
+        let at_rest = course.happening(Event::FloorSlip, settled);
+        assert_eq!(
+            (at_rest.stage, at_rest.wall_travel),
+            (Stage::OwnWeight, 0.0)
+        );
+        assert!(at_rest.force.abs() < 1e-12);
+        let later = course.happening(Event::WallContact, 2.0 * settled);
+        let point = course.point(2.0 * settled);
+        assert_eq!(
+            (later.event, later.stage),
+            (Event::WallContact, Stage::Wall)
+        );
+        assert!((later.force - 100.0 * point.wall_force).abs() < 1e-12);
+        assert_eq!(
+            (later.tangent, later.floor_overlap),
+            (point.tangent, point.floor_overlap)
+        );
+        assert_eq!(
+            later.wall_travel,
+            course.point(settled).wall_height() - point.wall_height()
+        );
+        assert!(later.wall_travel > 0.0 && later.bottom_force == 0.0);
+        let from_the_start = course.happening(Event::FloorSlip, 0.0);
+        assert_eq!(
+            from_the_start.tangent,
+            course.point(course.beginning()).tangent
+        );
+    }
+
+    #[test]
+    fn a_closed_contact_bears_twice_the_inward_displacement() {
+        let course = course(0.4);
+        let settled = course.settled();
+        let outward = course.point(settled).outward;
+        assert!(outward < 0.0);
+        let happening = course.happening(Event::CylinderSlip, settled);
+        assert_eq!(happening.bottom_force, -2.0 * outward);
+        assert_eq!(course.settled_outward(), outward);
     }
 }

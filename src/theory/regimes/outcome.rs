@@ -224,3 +224,47 @@ fn weaker_contact(course: &Course, stack: &Stack) -> Event {
         Event::CylinderSlip
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_regimes_and_consequences_have_words() {
+        assert_eq!(Stage::OwnWeight.to_string(), "own weight");
+        assert_eq!(Stage::Wall.to_string(), "wall");
+        let regime = |first, last, last_stage| Regime {
+            first,
+            first_stage: Stage::OwnWeight,
+            last,
+            last_stage,
+        };
+        let closes = Event::ContactCloses;
+        for (regime, words) in [
+            (
+                regime(Event::FloorSlip, Event::FloorSlip, Stage::Wall),
+                "floor-slip",
+            ),
+            (
+                regime(Event::FloorSlip, Event::FloorSlip, Stage::OwnWeight),
+                "floor-slip under own weight",
+            ),
+            (
+                regime(closes, Event::CylinderSlip, Stage::Wall),
+                "contact-closes, then cylinder-slip",
+            ),
+        ] {
+            assert_eq!(regime.to_string(), words);
+        }
+        for (consequence, part) in [
+            (Consequence::Collapses, "does not carry its own weight"),
+            (Consequence::Yields, "the yield force"),
+            (Consequence::Saturates, "whatever mu is"),
+            (Consequence::Shares, "c > 0"),
+            (Consequence::SecondLoadPath, "without a peak"),
+            (Consequence::Softens, "passed its maximum"),
+        ] {
+            assert!(consequence.to_string().contains(part), "{consequence}");
+        }
+    }
+}

@@ -34,3 +34,17 @@ pub fn rigid_yield(floor_friction: f64) -> RigidYield {
         diverges: false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn yield_force_begins_at_a_third_of_the_critical_friction_and_diverges_there() {
+        assert_eq!(rigid_yield(0.08).yield_force, Some(0.0));
+        assert!(rigid_yield(0.09).yield_force.unwrap() > 0.0);
+        assert!(!rigid_yield(CRITICAL_FRICTION * (1.0 - 1e-15)).diverges);
+        let critical = rigid_yield(CRITICAL_FRICTION);
+        assert_eq!((critical.yield_force, critical.diverges), (None, true));
+    }
+}

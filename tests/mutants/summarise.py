@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Sums up what cargo-mutants has left in DIR (see `run`) in reference/reliability/mutants.json.
+
+    tests/mutants/summarise.py DIR
+
+Fails, naming the mutant, if one has survived for no reason that survivors.toml gives, or if a reason there belongs to
+no survivor.
+"""
+
+import collections
+import datetime
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path, PurePosixPath
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = ROOT / "tests" / "mutants"
+RESULT = ROOT / "reference" / "reliability" / "mutants.json"
+NAMES = {"CaughtMutant": "caught", "MissedMutant": "survived", "Timeout": "timeout", "Unviable": "unviable"}
+
+
+def outcomes(directory):
+    """What became of each mutant, by its full name, and the version of cargo-mutants; the last word counts."""
+    results = [json.loads(path.read_text()) for path in directory.glob("*/mutants.out/outcomes.json")]
+    results.sort(key=lambda result: result["start_time"])
+    last = {}
+    for result in results:
+        for outcome in result["outcomes"]:
+            if outcome["scenario"] == "Baseline":
+                assert outcome["summary"] == "Success", "the tests fail without a mutant"
+            else:
+                last[outcome["scenario"]["Mutant"]["name"]] = NAMES[outcome["summary"]]
+    return last, results[-1]["cargo_mutants_version"]
+
+
+def all_mutants():
+    """All mutants of the scope (.cargo/mutants.toml), by their full names."""
+    command = ["cargo", "mutants", "--list"]
+    listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
+    return listed.stdout.splitlines()
+
+
+def without_place(name):
+    """A name that outlives moved lines: `file: description`."""
+    return re.sub(r"^([^:]+):\d+:\d+: ", r"\1: ", name)
+
+
+def row(area, mutants, last):
+    """Counts of one area."""
+    def belongs(name):
+        return any(PurePosixPath(name.split(":")[0]).match(file) for file in area["files"])
+
+    own = [name for name in mutants if belongs(name)]
+    count = collections.Counter(last.get(name, "not_run") for name in own)
+    kinds = ["caught", "timeout", "unviable", "survived", "not_run"]
+    return {"area": area["name"], "files": area["files"], "mutants": len(own)} | {kind: count[kind] for kind in kinds}
+
+
+def judge(survivors, reasons, not_run):
+    """Complaints about survivors without a reason, and reasons without a survivor among those that were run."""
+    counted = {entry["mutant"]: entry.get("count", 1) for entry in reasons}
+    for name, count in survivors.items():
+        if counted.get(name, 0) != count:
+            yield f"{name}: {count} survived, survivors.toml gives a reason for {counted.get(name, 0)}"
+    for name in counted.keys() - survivors.keys() - not_run:
+        yield f"{name}: survivors.toml gives a reason, but it does not survive"
+
+
+def main():
+    last, version = outcomes(Path(sys.argv[1]))
+    areas = tomllib.loads((HERE / "areas.toml").read_text())["area"]
+    mutants = all_mutants()
+    reasons = tomllib.loads((HERE / "survivors.toml").read_text())["survivor"]
+    survivors = collections.Counter(
+        without_place(name) for name in mutants if last.get(name) == "survived"
+    )
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
+    summary = {
+        "command": "tests/mutants/run",
+        "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+        "cargo_mutants_version": version,
+        "commit": commit.stdout.strip(),
+        "not_run": collections.Counter(name.split(":")[0] for name in mutants if name not in last),
+        "areas": [row(area, mutants, last) for area in areas],
+        "survivors": [entry for entry in reasons if entry["mutant"] in survivors],
+    }
+    RESULT.parent.mkdir(parents=True, exist_ok=True)
+    RESULT.write_text(json.dumps(summary, indent=2, ensure_ascii=False) + "\n")
+    for line in summary["areas"]:
+        print(", ".join(f"{key} {value}" for key, value in line.items() if key != "files"))
+    not_run = {without_place(name) for name in mutants if name not in last}
+    complaints = sorted(judge(survivors, reasons, not_run))
+    if complaints:
+        sys.exit("\n".join(complaints))
+
+
+if __name__ == "__main__":
+    main()

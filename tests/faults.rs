@@ -8,8 +8,10 @@ use common::{Bench, json, standard_error};
 use std::fs;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
+use tristack::crosscheck::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
 use tristack::dem::compress_stack;
-use tristack::stack::Case;
+use tristack::engine::{EngineName, ParameterFile, Task};
+use tristack::stack::{Case, Stack, sha256_hex};
 
 const CROSSCHECK: &str = "crosscheck --engines yade --format json";
 
@@ -318,6 +320,28 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
     let outcome = crosscheck(&bench, "");
     assert_eq!(outcome.status, Some(4), "{}", outcome.message);
     assert_eq!(outcome.count("inconclusive"), 1);
+}
+
+/// The two have the same steps and the same wall, so that nothing but the numbers tells them apart.
+#[test]
+fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
+    let stack = Stack::paper(0.3, 100.0);
+    let cases = plan(EngineName::Yade, &stack, EngineName::Yade.convention()).cases;
+    let (middle, short) = (cases[MIDDLE_RUN], cases[SHORT_RAMP_RUN]);
+    for (victim, other) in [(middle, short), (short, middle)] {
+        let bench = Bench::with_system_programs();
+        replay::install(&bench, |_| Disturbance::None);
+        let path = |case: &Case| {
+            let content = ParameterFile::Json.content(&case.parameters());
+            bench.path(&format!("replay/{}.csv", sha256_hex(content.as_bytes())))
+        };
+        fs::copy(path(&other), path(&victim)).expect("a series of another case");
+        let outcome = crosscheck(&bench, "");
+        assert_eq!(outcome.status, Some(4), "{}", outcome.message);
+        assert_eq!(outcome.count("inconclusive"), 1);
+        assert_eq!(outcome.count("agrees"), 17);
+        assert!(outcome.message.contains("gave the same bits"));
+    }
 }
 
 #[test]

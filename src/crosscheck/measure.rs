@@ -6,6 +6,7 @@ use super::probing::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
 use super::reading::read_all;
+use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
 use super::schedule::{Participant, Progress, RunError, Settings};
 use super::verdict::{BAR, Row, Source, judge, tolerance};
 use crate::archive::Reading;
@@ -176,6 +177,13 @@ impl Judgement {
         self.decide(slip.force, uncertainty, reference);
         if let Some(note) = friction_note(measurement, &estimates) {
             self.doubt(note);
+        }
+        if estimates[MIDDLE_RUN] == estimates[SHORT_RAMP_RUN] {
+            self.doubt(
+                "two runs that differ in their preparation gave the same bits: a series is that of another case, or \
+                 the code takes no notice of the preparation"
+                    .to_owned(),
+            );
         }
         if !measurement.is_gentle {
             self.doubt_rough_touch();

@@ -1,0 +1,233 @@
+//! docs/reliability.md says what the measurements in reference/reliability say. `bash .ci/reliability` makes both anew.
+
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+const PAGE: &str = "docs/reliability.md";
+
+fn in_project(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn measured(name: &str) -> Value {
+    let path = in_project("reference/reliability").join(name);
+    let text = std::fs::read_to_string(&path);
+    let text = text.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value[key].as_array().expect("a list")
+}
+
+fn text<'a>(value: &'a Value, key: &str) -> &'a str {
+    value[key].as_str().expect("a text")
+}
+
+fn count(value: &Value, key: &str) -> u64 {
+    value[key].as_u64().expect("a number")
+}
+
+fn total(values: &[Value], key: &str) -> u64 {
+    values.iter().map(|value| count(value, key)).sum()
+}
+
+/// When and from which sources.
+fn made(value: &Value) -> String {
+    let commit = text(value, "commit");
+    let day = &text(value, "date")[..10];
+    format!("{day}, commit {}", &commit[..commit.len().min(12)])
+}
+
+const TOP: &str = "# What must not go wrong, and how it was tried
+
+A crosscheck takes hours, on machines where programs are killed, disks fill up and files are damaged. No finished run may
+be lost by that, no wrong verdict get out, nothing be left running or lying about, and going on must give the same
+bytes as if nothing had happened. What is done for it: ARCHITECTURE.md, \"What must not be lost\".
+
+Everything here is measured. `bash .ci/reliability` measures it again (some hours) and writes this page; a part of it,
+`bash .ci/reliability faults`, `fuzz` or `mutants`, does so for one section.
+
+One thing is known to be left lying about: a YADE that is killed leaves an empty directory `/tmp/yade-…`, whose place is fixed in
+its program.
+";
+
+fn faults_section(page: &mut String, faults: &Value) {
+    let rows = list(faults, "faults");
+    let (rounds, complaints) = (count(faults, "rounds"), total(rows, "complaints"));
+    let (finished, after) = (total(rows, "finished_before"), total(rows, "made_after"));
+    write!(
+        page,
+        "
+## Faults
+
+{rounds} rounds with {} faults at random moments (seed {}; {}), complaints: {complaints}. Each round sets up a sweep of ten
+runs, by a code that replays recorded runs, by native or by a real code, lets the fault strike, and then looks
+
+* at the rows that were printed: each is the undisturbed one, byte by byte, or no agreement;
+* for processes: nothing that was told of the place still runs;
+* at the store: every run that was said to be finished is there, and every file has its digest;
+* at the same command once more: it prints the undisturbed bytes, and makes no finished run again;
+* for temporary files, open sessions and run directories: nothing but what failed runs have to show.
+
+{finished} runs were finished when the fault struck or in spite of it, {after} had to be made after it. What disturbs a
+code must get no agreement, and what is harmless (a daemon, ten gigabytes of output, a jump of the clock, a second
+program) must change nothing. Without digests or guards the same rounds do complain.
+
+| what goes wrong | fault | rounds | struck in time | finished in spite of it | made after it | complaints |
+|---|---|---|---|---|---|---|
+",
+        rows.len(),
+        count(faults, "seed"),
+        made(faults),
+    )
+    .expect("text");
+    for row in rows {
+        writeln!(
+            page,
+            "| {} | {} | {} | {} | {} | {} | {} |",
+            text(row, "kind"),
+            text(row, "fault"),
+            count(row, "rounds"),
+            count(row, "struck"),
+            count(row, "finished_before"),
+            count(row, "made_after"),
+            count(row, "complaints")
+        )
+        .expect("text");
+    }
+    let found = std::fs::read_to_string(in_project("tests/fault_injection/findings.json"));
+    let found: Value = serde_json::from_str(&found.expect("findings")).expect("JSON");
+    findings_section(page, found.as_array().expect("a list"), "fault");
+}
+
+fn fuzz_section(page: &mut String, fuzz: &Value) {
+    let rows = list(fuzz, "targets");
+    write!(
+        page,
+        "
+## Hostile input
+
+{} executions of {} targets (`{}`; {}; sanitizer {}): no panic, no input that takes longer than a second, at most 2 GiB. What
+must hold of each parser stands in `tests/soundness/`, and proptest tries it in every run of the tests.
+
+| target | what it reads | executions | seconds | peak memory, MiB | measured |
+|---|---|---|---|---|---|
+",
+        total(rows, "executions"),
+        rows.len(),
+        text(fuzz, "command"),
+        text(fuzz, "toolchain"),
+        text(fuzz, "sanitizer"),
+    )
+    .expect("text");
+    for row in rows {
+        writeln!(
+            page,
+            "| {} | {} | {} | {} | {} | {} |",
+            text(row, "target"),
+            text(row, "what"),
+            count(row, "executions"),
+            row["seconds"],
+            row["peak_memory_mib"],
+            made(row)
+        )
+        .expect("text");
+    }
+    findings_section(page, list(fuzz, "findings"), "target");
+}
+
+/// What was wrong, where it showed, and the test that holds its mend.
+fn findings_section(page: &mut String, findings: &[Value], place: &str) {
+    writeln!(page, "\nFound on the way, and mended:\n").expect("text");
+    for finding in findings {
+        let (place, what, test) = (
+            text(finding, place),
+            text(finding, "what"),
+            text(finding, "mended_by"),
+        );
+        writeln!(page, "* {place}: {what} (`{test}`)").expect("text");
+    }
+}
+
+fn mutants_section(page: &mut String, mutants: &Value) {
+    let rows = list(mutants, "areas");
+    write!(
+        page,
+        "
+## Mutants
+
+{} one-line changes of theory, contact law, extrapolation and verdict ({}; `{}`, cargo-mutants {}); {} survive the tests,
+each for a reason that is written down; {} have not been tried yet. An unviable mutant does not compile; one that does
+not end is caught.
+
+| area | mutants | caught | never end | unviable | survive | not tried |
+|---|---|---|---|---|---|---|
+",
+        total(rows, "mutants"),
+        made(mutants),
+        text(mutants, "command"),
+        text(mutants, "cargo_mutants_version"),
+        total(rows, "survived"),
+        total(rows, "not_run"),
+    )
+    .expect("text");
+    for row in rows {
+        writeln!(
+            page,
+            "| {} | {} | {} | {} | {} | {} | {} |",
+            text(row, "area"),
+            count(row, "mutants"),
+            count(row, "caught"),
+            count(row, "timeout"),
+            count(row, "unviable"),
+            count(row, "survived"),
+            count(row, "not_run")
+        )
+        .expect("text");
+    }
+    writeln!(page, "\n| survivor | why |\n|---|---|").expect("text");
+    for survivor in list(mutants, "survivors") {
+        let cell = |key| text(survivor, key).replace('|', "\\|").replace('\n', " ");
+        writeln!(page, "| `{}` | {} |", cell("mutant"), cell("reason")).expect("text");
+    }
+}
+
+fn page() -> String {
+    let mut page = TOP.to_owned();
+    faults_section(&mut page, &measured("faults.json"));
+    fuzz_section(&mut page, &measured("fuzz.json"));
+    mutants_section(&mut page, &measured("mutants.json"));
+    page
+}
+
+#[test]
+fn the_page_says_what_was_measured() {
+    let path = in_project(PAGE);
+    if std::env::var_os("TRISTACK_UPDATE_GOLDEN").is_some() {
+        std::fs::write(&path, page()).expect("it can be written");
+    }
+    let written = std::fs::read_to_string(&path).expect("a page");
+    assert!(
+        written == page(),
+        "remake it with: bash .ci/reliability page"
+    );
+}
+
+#[test]
+fn every_round_and_every_mutant_has_an_end() {
+    let faults = measured("faults.json");
+    assert_eq!(
+        total(list(&faults, "faults"), "rounds"),
+        count(&faults, "rounds")
+    );
+    let mutants = measured("mutants.json");
+    let areas = list(&mutants, "areas");
+    let ends = ["caught", "timeout", "unviable", "survived", "not_run"];
+    let ends = ends.map(|key| total(areas, key));
+    assert_eq!(total(areas, "mutants"), ends.iter().sum::<u64>());
+    for survivor in list(&mutants, "survivors") {
+        assert!(text(survivor, "reason").len() > 20, "{survivor}");
+    }
+}

@@ -27,9 +27,9 @@ pub const COMMAND: &str = "guard";
 const OFFLINE: &str = "--offline";
 const THIS_PROGRAM: &str = "/proc/self/exe";
 
-/// Ten times what any code needs for the stack.
+/// Ten times the address space of the largest code: YADE had 0.81 GiB at most (VmPeak, a stack of the quick profile).
 const MOST_MEMORY: u64 = 8 << 30;
-/// A thousand times the longest series.
+/// Nine thousand times the longest recorded series, of 118 kB.
 const LONGEST_FILE: u64 = 1 << 30;
 
 static GUARDED: AtomicBool = AtomicBool::new(false);

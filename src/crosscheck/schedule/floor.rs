@@ -4,7 +4,7 @@
 use super::orders::Order;
 use super::outbox::{Claim, Outbox, Outgoing, keep, with_outbox};
 use super::{Participant, Progress, RunError, Settings};
-use crate::archive::Run;
+use crate::archive::{ArchiveError, Run};
 use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Workplace};
 use crate::stack::{Case, shown};
 use crate::store::Holder;
@@ -160,7 +160,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
         &self,
         engine: &dyn Engine,
         order: usize,
-        damaged: impl FnOnce(crate::archive::ArchiveError),
+        damaged: impl FnOnce(ArchiveError),
     ) -> bool {
         let case = self.case(order);
         let deck_hash = engine.name().deck_hash(case);
@@ -259,10 +259,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
         let mut own = Vec::new();
         for ((&order, address), holder) in job.orders.iter().zip(addresses).zip(holders) {
             match holder {
-                Some(_) if self.is_made_elsewhere(job.engine, order) => {}
+                // By a program that is still at others.
+                Some(_) if self.is_made(job.engine, order, |_| ()) => {}
                 Some(holder) => self.wait_later(order, holder),
                 None => {
-                    if !self.is_made_meanwhile(job.engine, order, &address) {
+                    let damaged = |error| self.put_aside(&address, &error);
+                    if !self.is_made(job.engine, order, damaged) {
                         own.push(order);
                     }
                     claim.addresses.push(address);
@@ -278,30 +280,28 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
         job.engine.identity().address(case, &deck_hash)
     }
 
-    /// Whether the run under `address` has been kept since the jobs were packed. One that is damaged is put aside.
-    fn is_made_meanwhile(&self, engine: &dyn Engine, order: usize, address: &str) -> bool {
-        let put_aside = |error| {
-            let place = match self.settings.store.put_aside(address) {
-                Ok(place) => format!("it is now {}", shown(&place)),
-                Err(error) => error.to_string(),
-            };
-            let message = format!("damaged run in the store, computed anew: {error}; {place}");
-            self.progress.warn(&message);
-        };
-        let made = !self.settings.fresh && self.fill_from_store(engine, order, put_aside);
+    /// Whether the run has been kept since the jobs were packed; its slot is then filled.
+    fn is_made(
+        &self,
+        engine: &dyn Engine,
+        order: usize,
+        damaged: impl FnOnce(ArchiveError),
+    ) -> bool {
+        let made = !self.settings.fresh && self.fill_from_store(engine, order, damaged);
         if made {
             self.advance(order);
         }
         made
     }
 
-    /// Whether another program, which is still at others, has made the run already.
-    fn is_made_elsewhere(&self, engine: &dyn Engine, order: usize) -> bool {
-        let made = !self.settings.fresh && self.fill_from_store(engine, order, |_| ());
-        if made {
-            self.advance(order);
-        }
-        made
+    /// Puts the damaged run under `address` aside, and tells why and where.
+    fn put_aside(&self, address: &str, error: &ArchiveError) {
+        let place = match self.settings.store.put_aside(address) {
+            Ok(place) => format!("it is now {}", shown(&place)),
+            Err(error) => error.to_string(),
+        };
+        let message = format!("damaged run in the store, computed anew: {error}; {place}");
+        self.progress.warn(&message);
     }
 
     fn hand_in(

@@ -56,6 +56,7 @@ fn no_fault_loses_a_finished_run_or_lets_a_wrong_verdict_out() {
         number("TRISTACK_FAULT_ROUNDS", ROUNDS),
         number("TRISTACK_FAULT_SEED", 1),
     );
+    let commit = report::commit();
     let workloads = Workloads::find();
     let only = std::env::var("TRISTACK_FAULT_ONLY").unwrap_or_default();
     let faults = Fault::all().filter(|fault| format!("{fault:?}").contains(&only));
@@ -82,7 +83,7 @@ fn no_fault_loses_a_finished_run_or_lets_a_wrong_verdict_out() {
         }
     });
     let outcomes = outcomes.into_inner().expect("no round panics");
-    report::write(rounds, seed, &outcomes);
+    report::write(rounds, seed, &commit, &outcomes);
     assert_eq!(outcomes.len(), rounds);
     let complaints = outcomes.iter().filter(|(_, outcome)| outcome.is_err());
     assert_eq!(

@@ -5,7 +5,12 @@ use super::round::Story;
 use std::collections::BTreeMap;
 
 /// Writes it to the file that TRISTACK_FAULT_REPORT names, if it names one.
-pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, String>)]) {
+pub fn write(
+    rounds: usize,
+    seed: usize,
+    commit: &str,
+    outcomes: &[(Fault, Result<Story, String>)],
+) {
     let Some(path) = std::env::var_os("TRISTACK_FAULT_REPORT") else {
         return;
     };
@@ -37,7 +42,7 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
     });
     let report = serde_json::json!({
         "command": "bash .ci/reliability faults",
-        "commit": commit(),
+        "commit": commit,
         "machine": tristack::archive::machine(),
         "date": jiff::Timestamp::now().to_string(),
         "rounds": rounds,
@@ -48,7 +53,8 @@ pub fn write(rounds: usize, seed: usize, outcomes: &[(Fault, Result<Story, Strin
     std::fs::write(path, text + "\n").expect("the report can be written");
 }
 
-fn commit() -> String {
+/// The sources that are tried, which have to be asked for at the start: the rounds take long.
+pub fn commit() -> String {
     let mut command = std::process::Command::new("git");
     let output = command.args(["describe", "--always", "--dirty", "--abbrev=12"]);
     let output = output.output().expect("git runs");

@@ -73,7 +73,7 @@ runs, by a code that replays recorded runs, by native or by a real code, lets th
 
 {finished} runs were finished when the fault struck or in spite of it, {after} had to be made after it. What disturbs a
 code must get no agreement, and what is harmless (a daemon, ten gigabytes of output, a jump of the clock, a second
-program) must change nothing. Without digests or guards the same rounds do complain.
+program) must change nothing.
 
 | what goes wrong | fault | rounds | struck in time | finished in spite of it | made after it | complaints |
 |---|---|---|---|---|---|---|

@@ -310,6 +310,24 @@ mod tests {
     }
 
     #[test]
+    fn the_largest_value_is_found_on_both_sides_of_the_highest_station_and_at_the_beginning() {
+        let course = course(10.0);
+        let stations = course.path.as_path().stations();
+        let (middle, last) = (stations.len() / 2, stations[stations.len() - 1]);
+        let near = stations[middle];
+        for towards in [stations[middle - 1], stations[middle + 1]] {
+            let place = near + 0.3 * (towards - near);
+            let aim = course.point(place).tangent;
+            let closeness = |point: &PathPoint| -(point.tangent - aim).powi(2);
+            assert!(closeness(&course.point(near)) < -1e-9);
+            assert!(course.largest_until(last, closeness) > -1e-15);
+        }
+        let falling = |point: &PathPoint| -point.tangent;
+        let first = falling(&course.point(stations[0]));
+        assert_eq!(course.largest_until(last, falling), first);
+    }
+
+    #[test]
     fn what_happens_is_told_with_force_stage_and_travel() {
         let course = course(2.5);
         let settled = course.settled();

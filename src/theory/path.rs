@@ -31,47 +31,8 @@ const FIRST_STATION: f64 = 1e-7;
 const RAMP_SPACING: f64 = 0.125;
 /// Distance of the stations under the wall, in the logarithm of the angle turned.
 const WALL_SPACING: f64 = 0.125;
-/// Part of a step that is left out at its beginning when a change of contact 2–3 is located.
-const CHANGE_MARGIN: f64 = 1e-9;
 /// At ψ = 90° the centre of cylinder 1 has sunk to the level of the other two.
 const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_3;
-
-/// Force laws of a contact, in k_n r, as functions of its overlap in r.
-pub trait SpringLaw {
-    /// Normal force at an overlap.
-    fn normal_force(&self, overlap: f64) -> f64;
-    /// Derivative of the normal force with respect to the overlap.
-    fn normal_stiffness(&self, overlap: f64) -> f64;
-    /// Overlap under a normal force.
-    fn overlap(&self, normal_force: f64) -> f64;
-    /// Tangential force per tangential displacement at an overlap.
-    fn tangential_stiffness(&self, overlap: f64) -> f64;
-}
-
-/// The paper's springs: k_n = 1, k_t = 1/κ.
-#[derive(Debug, Clone, Copy)]
-pub struct LinearSprings {
-    /// k_t in units of k_n.
-    pub tangential_stiffness: f64,
-}
-
-impl SpringLaw for LinearSprings {
-    fn normal_force(&self, overlap: f64) -> f64 {
-        overlap
-    }
-
-    fn normal_stiffness(&self, _overlap: f64) -> f64 {
-        1.0
-    }
-
-    fn overlap(&self, normal_force: f64) -> f64 {
-        normal_force
-    }
-
-    fn tangential_stiffness(&self, _overlap: f64) -> f64 {
-        self.tangential_stiffness
-    }
-}
 
 /// The state that is integrated.
 #[derive(Debug, Clone, Copy)]
@@ -166,59 +127,48 @@ pub enum BottomContact {
     Followed,
 }
 
-/// Everything about the contacts that does not change along the path.
+/// Everything about the contacts that does not change along the path. Their springs are the paper's, k_n = 1: a
+/// normal force is the overlap.
 #[derive(Debug, Clone, Copy)]
-struct Contacts<Law> {
-    law: Law,
+struct Contacts {
+    /// k_t = 1/κ.
+    tangential_stiffness: f64,
     pair_arm: f64,
     floor_arm: f64,
     epsilon: f64,
     bottom: BottomContact,
 }
 
-impl<Law: SpringLaw> Contacts<Law> {
+impl Contacts {
     /// Derivative of the state with respect to ψ, with contact 2–3 closed or open (docs/theory.md,
     /// Eqs. 37 to 39 and 52).
     fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
         let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
         let distance = 2.0 - state.pair_overlap;
-        let floor_force = leg.floor_force(state.load, self.epsilon);
-        let floor_overlap = self.law.overlap(floor_force);
-        let normal = self.law.normal_force(state.pair_overlap);
-        let normal_stiffness = self.law.normal_stiffness(state.pair_overlap);
-        let pair_tangential = self.law.tangential_stiffness(state.pair_overlap);
-        let floor_tangential = self.law.tangential_stiffness(floor_overlap);
-        let floor_overlap_slope =
-            leg.floor_force_slope() / self.law.normal_stiffness(floor_overlap);
+        let floor_overlap = leg.floor_force(state.load, self.epsilon);
+        let tangential = self.tangential_stiffness;
         let pair_radius = 1.0 + self.pair_arm * state.pair_overlap;
         let floor_radius = 1.0 + self.floor_arm * floor_overlap;
-        let (b, e) = (state.pair_shear, state.floor_shear);
+        let (a, b, e) = (state.pair_overlap, state.pair_shear, state.floor_shear);
         // −dc/dx₂: the bottom cylinders overlap by −2y.
-        let bottom_stiffness = if closed {
-            2.0 * self.law.normal_stiffness(-2.0 * state.outward())
-        } else {
-            0.0
-        };
+        let bottom_stiffness = if closed { 2.0 } else { 0.0 };
 
         // Rows: torque on 2, horizontal force on 2, vertical force on 1. Columns: ρ′, θ′, L′.
         let system = Matrix3::new(
-            -b * self.pair_arm - floor_tangential * floor_radius * sin,
-            -pair_tangential * pair_radius * pair_radius
-                - floor_tangential * floor_radius * floor_radius,
-            -e * self.floor_arm * floor_overlap_slope,
-            (normal_stiffness + floor_tangential + bottom_stiffness) * sin,
-            -pair_tangential * pair_radius * cos + floor_tangential * floor_radius,
+            -b * self.pair_arm - tangential * floor_radius * sin,
+            -tangential * pair_radius * pair_radius - tangential * floor_radius * floor_radius,
+            -e * self.floor_arm * leg.floor_force_slope(),
+            (1.0 + tangential + bottom_stiffness) * sin,
+            -tangential * pair_radius * cos + tangential * floor_radius,
             0.0,
-            -2.0 * normal_stiffness * cos,
-            -2.0 * pair_tangential * pair_radius * sin,
+            -2.0 * cos,
+            -2.0 * tangential * pair_radius * sin,
             -1.0,
         );
         let known = Vector3::new(
-            (pair_tangential * pair_radius - floor_tangential * floor_radius * cos) * distance,
-            (pair_tangential + floor_tangential + bottom_stiffness) * distance * cos
-                - normal * cos
-                - b * sin,
-            2.0 * (pair_tangential * distance * sin - normal * sin + b * cos),
+            (tangential * pair_radius - tangential * floor_radius * cos) * distance,
+            (2.0 * tangential + bottom_stiffness) * distance * cos - a * cos - b * sin,
+            2.0 * (tangential * distance * sin - a * sin + b * cos),
         );
         let solution = system
             .lu()
@@ -230,21 +180,21 @@ impl<Law: SpringLaw> Contacts<Law> {
             load: load_slope,
             pair_overlap: -distance_slope,
             rotation: rotation_slope,
-            pair_shear: pair_tangential * (distance - pair_radius * rotation_slope),
-            floor_shear: floor_tangential
+            pair_shear: tangential * (distance - pair_radius * rotation_slope),
+            floor_shear: tangential
                 * (distance_slope * sin + distance * cos + floor_radius * rotation_slope),
         }
     }
 
     fn point(&self, state: &State, leg: Leg) -> PathPoint {
-        let floor_force = leg.floor_force(state.load, self.epsilon);
+        let floor_overlap = leg.floor_force(state.load, self.epsilon);
         PathPoint {
             tangent: half_angle_tangent(state.turned),
             pair_overlap: state.pair_overlap,
-            floor_overlap: self.law.overlap(floor_force),
+            floor_overlap,
             outward: state.outward(),
-            pair_ratio: state.pair_shear / self.law.normal_force(state.pair_overlap),
-            floor_ratio: state.floor_shear / floor_force,
+            pair_ratio: state.pair_shear / state.pair_overlap,
+            floor_ratio: state.floor_shear / floor_overlap,
             wall_force: match leg {
                 Leg::GravityRamp => 0.0,
                 Leg::Wall => state.load - self.epsilon,
@@ -254,14 +204,14 @@ impl<Law: SpringLaw> Contacts<Law> {
 }
 
 /// One leg as an initial value problem in the path parameter.
-struct LegEquation<'a, Law> {
-    contacts: &'a Contacts<Law>,
+struct LegEquation<'a> {
+    contacts: &'a Contacts,
     leg: Leg,
     closed: bool,
     first_turn: f64,
 }
 
-impl<Law: SpringLaw> ODE<f64, [f64; 6]> for LegEquation<'_, Law> {
+impl ODE<f64, [f64; 6]> for LegEquation<'_> {
     fn diff(&self, _parameter: f64, state: &[f64; 6], slope: &mut [f64; 6]) {
         let state = State::from_array(*state);
         let angle_per_parameter = match self.leg {
@@ -284,8 +234,8 @@ struct Knot {
 }
 
 /// The followed path: states at the stations, and the means to go on from any of them.
-pub(super) struct FollowedPath<Law> {
-    contacts: Contacts<Law>,
+pub(super) struct FollowedPath {
+    contacts: Contacts,
     /// The angle turned under gravity, to first order in ε.
     first_turn: f64,
     /// The parameter at which gravity is complete; infinite if the stack cannot carry its own weight.
@@ -293,9 +243,9 @@ pub(super) struct FollowedPath<Law> {
     knots: Vec<Knot>,
 }
 
-impl<Law: SpringLaw> FollowedPath<Law> {
+impl FollowedPath {
     /// Follows the path until cylinder 1 has sunk to the level of the others, or no equilibrium follows.
-    fn new(contacts: Contacts<Law>) -> Self {
+    fn new(contacts: Contacts) -> Self {
         let origin = State::from_array([0.0; 6]);
         let open_slope = contacts.derivative(&origin, Leg::GravityRamp, false);
         let closed = contacts.bottom == BottomContact::Followed && moves_inwards(&open_slope);
@@ -389,9 +339,7 @@ impl<Law: SpringLaw> FollowedPath<Law> {
             let reached = self.advance(last, parameter);
             reached.map_or(f64::NAN, |state| state.outward())
         };
-        // A contact that has just changed has y = 0 up to round-off, on either side of it.
-        let later = last.parameter + CHANGE_MARGIN * (to - last.parameter);
-        match bracketed_root(outward, later, to) {
+        match bracketed_root(outward, last.parameter, to) {
             None => Some(Knot {
                 closed: !last.closed,
                 ..on_the_way
@@ -442,7 +390,7 @@ fn moves_inwards(slope: &State) -> bool {
     outward_slope < 0.0
 }
 
-impl<Law: SpringLaw> Path for FollowedPath<Law> {
+impl Path for FollowedPath {
     fn stations(&self) -> Vec<f64> {
         self.knots[1..].iter().map(|knot| knot.parameter).collect()
     }
@@ -475,11 +423,9 @@ pub(super) fn followed_path(
     pair_arm: f64,
     floor_arm: f64,
     bottom: BottomContact,
-) -> FollowedPath<LinearSprings> {
+) -> FollowedPath {
     FollowedPath::new(Contacts {
-        law: LinearSprings {
-            tangential_stiffness: stack.tangential_stiffness(),
-        },
+        tangential_stiffness: stack.tangential_stiffness(),
         pair_arm,
         floor_arm,
         epsilon: stack.epsilon(),

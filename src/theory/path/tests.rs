@@ -3,11 +3,7 @@
 use super::super::regimes::CLOSING_STIFFNESS_RATIO;
 use super::*;
 
-fn path(
-    stiffness: f64,
-    stiffness_ratio: f64,
-    bottom: BottomContact,
-) -> FollowedPath<LinearSprings> {
+fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> FollowedPath {
     let stack = Stack {
         stiffness_ratio,
         ..Stack::paper(0.3, stiffness)
@@ -88,15 +84,4 @@ fn a_contact_that_opens_within_round_off_of_the_start_is_open_from_there_on() {
     for path in closed {
         assert!(path.knots[1..].iter().all(|knot| !knot.closed));
     }
-}
-
-#[test]
-fn linear_springs_are_linear() {
-    let springs = LinearSprings {
-        tangential_stiffness: 0.4,
-    };
-    assert_eq!(springs.normal_force(0.25), 0.25);
-    assert_eq!(springs.overlap(0.25), 0.25);
-    assert_eq!(springs.normal_stiffness(0.25), 1.0);
-    assert_eq!(springs.tangential_stiffness(0.25), 0.4);
 }

@@ -1,7 +1,7 @@
 //! The path of equilibria that all stacks of one stiffness and one stiffness ratio share.
 
 use super::super::events::{Event, Path, PathPoint, locate};
-use super::super::path::{BottomContact, FollowedPath, LinearSprings, followed_path};
+use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
 use super::outcome::{Happening, Stage};
 use crate::stack::Stack;
@@ -20,7 +20,7 @@ enum CoursePath {
     /// c = 0 all the way: the closed form.
     Open(ClosedForm),
     /// Contact 2–3 closes somewhere: followed.
-    Closing(FollowedPath<LinearSprings>),
+    Closing(FollowedPath),
 }
 
 impl Course {

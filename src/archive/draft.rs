@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// If the file system refuses; `path` is then as it was.
 pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), ArchiveError> {
-    let directory = parent(path);
+    let directory = create_parent(path)?;
     let mut prefix = OsString::from(".");
     prefix.push(path.file_name().unwrap_or_default());
     prefix.push(".draft-");
@@ -41,6 +41,7 @@ fn write_by_draft(
     path: &Path,
     content: &[u8],
 ) -> Result<(), ArchiveError> {
+    let directory = create_parent(path)?;
     let write = || try_to_write(drafts, prefix, path, content);
     // Before it was locked, another program may have taken the draft for an abandoned one.
     match write() {
@@ -48,7 +49,7 @@ fn write_by_draft(
         written => written,
     }
     .map_err(ArchiveError::writing(path))?;
-    sync_directory(&parent(path))
+    sync_directory(&directory)
 }
 
 fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> std::io::Result<()> {
@@ -66,7 +67,7 @@ fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> s
 }
 
 /// Removes the drafts with `prefix` in `directory` that nobody holds any more: a lock ends with its program.
-pub(super) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
+pub fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let drafts = entries.filter(|entry| {
         let name = entry.file_name();
@@ -98,8 +99,20 @@ pub(super) fn sync_directory(directory: &Path) -> Result<(), ArchiveError> {
         .map_err(ArchiveError::writing(directory))
 }
 
+/// Creates the directory for `target`, if there is none, and makes it last.
+pub(super) fn create_parent(target: &Path) -> Result<PathBuf, ArchiveError> {
+    let directory = parent(target);
+    if !directory.is_dir() {
+        fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
+        for above in directory.ancestors().skip(1).take(2) {
+            sync_directory(&parent(&above.join("file")))?;
+        }
+    }
+    Ok(directory)
+}
+
 /// The directory that `path` is in.
-pub(super) fn parent(path: &Path) -> PathBuf {
+fn parent(path: &Path) -> PathBuf {
     let parent = path
         .parent()
         .filter(|parent| !parent.as_os_str().is_empty());

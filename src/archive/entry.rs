@@ -2,7 +2,7 @@
 
 use super::Provenance;
 use super::checksums::{CHECKSUMS, check, checksums};
-use super::draft::{parent, remove_abandoned, sync_directory, write_synced};
+use super::draft::{create_parent, remove_abandoned, sync_directory, write_synced};
 use crate::stack::{Case, CaseError, shown};
 use crate::trace::{SeriesError, Trace};
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
@@ -180,18 +180,6 @@ impl Archive {
             renamed => renamed.map_err(ArchiveError::writing(target)),
         }
     }
-}
-
-/// Creates the directory for `target`, and makes it last.
-fn create_parent(target: &Path) -> Result<PathBuf, ArchiveError> {
-    let directory = parent(target);
-    if !directory.is_dir() {
-        fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;
-        for above in directory.ancestors().skip(1).take(2) {
-            sync_directory(&parent(&above.join("file")))?;
-        }
-    }
-    Ok(directory)
 }
 
 fn write_entry(directory: &Path, run: &Run) -> Result<(), ArchiveError> {

@@ -90,9 +90,6 @@ impl ProbeRecord {
     /// # Errors
     /// If the file system refuses; an older record is then untouched.
     pub fn save(&self, path: &Path) -> Result<(), ArchiveError> {
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
-        }
         write_atomically(path, self.to_json().as_bytes())
     }
 

@@ -78,9 +78,6 @@ impl Reading {
     /// # Errors
     /// If the file system refuses; an older file is then untouched.
     pub fn save_all(path: &Path, readings: &[Self]) -> Result<(), ArchiveError> {
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
-        }
         let lines = readings.iter().map(|reading| {
             serde_json::to_string(reading).expect("plain data has a JSON form") + "\n"
         });

@@ -99,9 +99,6 @@ fn origin(arguments: &Arguments, participants: &[Participant]) -> Origin {
 fn write(directory: &Path, files: &[ReportFile]) -> Result<(), ArchiveError> {
     for file in files {
         let path = directory.join(&file.name);
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
-        }
         write_atomically(&path, &file.content)?;
     }
     Ok(())

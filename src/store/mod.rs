@@ -147,9 +147,6 @@ impl Store {
     /// If it cannot be written.
     pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), ArchiveError> {
         let path = self.probe_path(address);
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(ArchiveError::writing(parent))?;
-        }
         let sealed = seal(record.to_json().as_bytes());
         write_atomically_via(self.session.work(), &path, &sealed)
     }

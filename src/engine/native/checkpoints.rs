@@ -36,7 +36,6 @@ impl<'a> Checkpoints<'a> {
     /// A run that cannot be kept goes on all the same: it only has more to lose.
     pub(super) fn keep(&self, address: &str, run: &Unfinished) {
         let content = serde_json::to_vec(run).expect("plain data has a JSON form");
-        let _ = std::fs::create_dir_all(self.directory);
         let _ = write_atomically_via(self.drafts, &self.path(address), &seal(&content));
     }
 

@@ -86,7 +86,7 @@ pub enum CliError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// An engine was asked for by name, but is not installed.
-    #[error("{0} is not installed: its program is not in the search path; install it with: {hint}", hint = .0.installation_hint())]
+    #[error("{0} is not installed: its program is not in the search path, or does not say its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
     MissingEngine(EngineName),
     /// A run that everything else needs is not there.
     #[error(transparent)]

@@ -5,7 +5,7 @@ use super::external::ExternalEngine;
 use super::process::{Ending, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
 use super::task::{Deck, Task};
 use super::{Failure, FailureKind, Finished, Workplace};
-use crate::archive::ArchiveError;
+use crate::archive::{ArchiveError, remove_abandoned};
 use std::ffi::OsString;
 use std::fs;
 use std::io::{Read, Seek, SeekFrom};
@@ -13,9 +13,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Some thirty times the start-up and the slowest step that were ever seen.
-const LONGEST_START: Duration = Duration::from_secs(30);
+pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
 const LONGEST_STEP: Duration = Duration::from_micros(100);
 const LAST_LINES: usize = 4;
+const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
 
 /// Time after which a task of so many steps counts as hanging.
@@ -144,10 +145,14 @@ impl<'a, T: Task> Batch<'a, T> {
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
         command[0] = self.engine.installation.program.clone().into_os_string();
         let directory = self.directory.clone();
+        // In the directory of a user, a killed program may have left one.
+        remove_abandoned(&directory, HOME.as_ref());
         let home = tempfile::Builder::new()
-            .prefix(".home-")
+            .prefix(HOME)
             .tempdir_in(&directory)
             .map_err(FailureKind::Start)?;
+        let held = fs::File::open(home.path()).map_err(FailureKind::Start)?;
+        let _ = held.try_lock();
         let job = Job {
             command: &command,
             directory: &directory,

@@ -1,15 +1,15 @@
 //! Which binary an engine is, and which version.
 
-use super::process::{self, Interrupt, Job};
+use super::batch::LONGEST_START;
+use super::process::{self, Ending, Interrupt, Job};
 use super::{Environment, FailureKind};
 use crate::stack::sha256_hex;
 use std::ffi::OsString;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-/// A program that takes longer to say its version does not say it at all.
-const LONGEST_ANSWER: Duration = Duration::from_secs(5);
+/// A question is put again if a signal ends who is asked: the answer becomes part of the address of every run.
+const TRIES: usize = 3;
 
 /// A version in characters: it stands in tables.
 const LONGEST_VERSION: usize = 100;
@@ -64,7 +64,8 @@ pub struct VersionQuestion {
 }
 
 /// Looks for `program` in the search path and asks the package manager, or the program itself in its
-/// `environment`, for its version.
+/// `environment`, for its version. One that does not say within [`LONGEST_START`] which it is counts as not there:
+/// its runs would be kept under a wrong name.
 pub fn find(
     program: &str,
     question: &VersionQuestion,
@@ -72,10 +73,10 @@ pub fn find(
 ) -> Option<Installation> {
     let program = in_search_path(program)?;
     let stamp = Stamp::of(&program)?;
-    let package = owning_package(&program);
+    let package = owning_package(&program).ok()?;
     let version = match &package {
         Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
-        _ => own_version(&program, question, environment),
+        _ => own_version(&program, question, environment).ok()?,
     };
     let hash = sha256_hex(&std::fs::read(&program).ok()?);
     Some(Installation {
@@ -101,18 +102,23 @@ fn is_executable(path: &Path) -> bool {
 }
 
 /// Debian package and version that the program, links followed, belongs to.
-fn owning_package(program: &Path) -> Option<(String, String)> {
-    let resolved = program.canonicalize().ok()?.into_os_string();
+fn owning_package(program: &Path) -> Result<Option<(String, String)>, TooSlow> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
         command.extend(arguments);
-        answer(command, &[])
+        answer(&command, &[])
     };
-    let owner = ask(vec!["--search".into(), resolved])?;
-    let name = owner.lines().next()?.split(':').next()?.to_owned();
+    let Ok(resolved) = program.canonicalize() else {
+        return Ok(None);
+    };
+    let owner = ask(vec!["--search".into(), resolved.into_os_string()])?;
+    let name = owner.and_then(|owner| Some(owner.lines().next()?.split(':').next()?.to_owned()));
+    let Some(name) = name else {
+        return Ok(None);
+    };
     let format = "--showformat=${Version}";
     let version = ask(vec!["--show".into(), format.into(), name.clone().into()])?;
-    Some((name, version))
+    Ok(version.map(|version| (name, version)))
 }
 
 /// The upstream part of a Debian version, without epoch, repackaging suffix and revision.
@@ -126,11 +132,15 @@ fn upstream(version: &str) -> &str {
         .map_or(version, |(upstream, _)| upstream)
 }
 
-fn own_version(program: &Path, question: &VersionQuestion, environment: Environment) -> String {
+fn own_version(
+    program: &Path,
+    question: &VersionQuestion,
+    environment: Environment,
+) -> Result<String, TooSlow> {
     let mut command = vec![program.as_os_str().to_owned()];
     command.extend(question.arguments.iter().map(OsString::from));
-    let text = answer(command, environment).unwrap_or_default();
-    version_in_answer(&text, question.before_version)
+    let text = answer(&command, environment)?.unwrap_or_default();
+    Ok(version_in_answer(&text, question.before_version))
 }
 
 /// The version in what a program answers when asked for it: the first line, as far as it goes from
@@ -148,18 +158,33 @@ pub fn version_in_answer(answer: &str, before_version: &str) -> String {
     }
 }
 
+/// Nothing was said in time.
+#[derive(Debug)]
+struct TooSlow;
+
 /// What a command that succeeds writes to its standard output.
-fn answer(command: Vec<OsString>, environment: Environment) -> Option<String> {
-    let text = process::answer(&Job {
-        command: &command,
+fn answer(command: &[OsString], environment: Environment) -> Result<Option<String>, TooSlow> {
+    let job = Job {
+        command,
         directory: Path::new("/"),
         // Nothing is to be left behind.
         home: Path::new("/nonexistent"),
         environment,
-        time_limit: LONGEST_ANSWER,
+        time_limit: LONGEST_START,
         interrupt: &Interrupt::new(),
-    })?;
-    Some(String::from_utf8_lossy(&text).into_owned())
+    };
+    for _ in 0..TRIES {
+        match process::answer(&job) {
+            Ok((Ending::Exited(status), text)) if status.code().is_some() => {
+                let text = String::from_utf8_lossy(&text).into_owned();
+                return Ok(status.success().then_some(text));
+            }
+            Ok((Ending::Exited(_), _)) => {}
+            Ok(_) => return Err(TooSlow),
+            Err(_) => return Ok(None),
+        }
+    }
+    Ok(None)
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
+/// The most that counts of the time between two looks: while this program was stopped, nobody was waiting.
+const LONGEST_LOOK: Duration = Duration::from_secs(1);
 /// A guard that takes longer to clean up is killed.
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 
@@ -87,15 +89,20 @@ pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending>
     ending
 }
 
-/// Runs a short `job` to its end; returns what it wrote to its standard output, if it succeeded.
-pub fn answer(job: &Job) -> Option<Vec<u8>> {
-    let mut child = spawn(job).ok()?;
-    let output = Capture::new(child.stdout().take()?, Vec::new());
-    let error = Capture::new(child.stderr().take()?, std::io::sink());
-    let ending = watch(job, child, || false);
-    error.finish();
-    let output = output.finish()?;
-    matches!(ending, Ok(Ending::Exited(status)) if status.success()).then_some(output)
+/// Runs a short `job` to its end; returns how it ended and what it wrote to its standard output.
+///
+/// # Errors
+/// If the program cannot be started or watched.
+pub fn answer(job: &Job) -> std::io::Result<(Ending, Vec<u8>)> {
+    let mut child = spawn(job)?;
+    let output = child.stdout().take();
+    let output = output.map(|pipe| Capture::new(pipe, Vec::new()));
+    let error = child.stderr().take();
+    let error = error.map(|pipe| Capture::new(pipe, std::io::sink()));
+    let ending = watch(job, child, || false)?;
+    error.map(Capture::finish);
+    let written = output.and_then(Capture::finish);
+    Ok((ending, written.unwrap_or_default()))
 }
 
 fn watch(
@@ -103,7 +110,8 @@ fn watch(
     mut child: Box<dyn ChildWrapper>,
     mut progress: impl FnMut() -> bool,
 ) -> std::io::Result<Ending> {
-    let mut last_progress = Instant::now();
+    let mut waited = Duration::ZERO;
+    let mut last_look = Instant::now();
     loop {
         if let Some(status) = child.try_wait()? {
             // What the program left behind in its group goes with it.
@@ -114,14 +122,16 @@ fn watch(
             kill(child.as_mut())?;
             return Ok(Ending::Interrupted);
         }
-        if last_progress.elapsed() > job.time_limit {
+        if progress() {
+            waited = Duration::ZERO;
+        }
+        if waited > job.time_limit {
             kill(child.as_mut())?;
             return Ok(Ending::TimedOut);
         }
-        if progress() {
-            last_progress = Instant::now();
-        }
         std::thread::sleep(POLL_INTERVAL);
+        waited += last_look.elapsed().min(LONGEST_LOOK);
+        last_look = Instant::now();
     }
 }
 

@@ -6,6 +6,7 @@ mod engines;
 mod error;
 mod explain;
 mod guard;
+mod interrupt;
 mod options;
 mod predict;
 mod probe;
@@ -22,15 +23,14 @@ mod trajectories;
 pub use error::{CliError, ExitStatus};
 
 use crate::archive::ArchiveError;
-use crate::engine::{GUARD_COMMAND, Interrupt};
-use clap::{Parser, Subcommand};
+use crate::engine::GUARD_COMMAND;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+pub(crate) use interrupt::INTERRUPT;
+use std::cell::RefCell;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 pub(crate) use tell::tell;
-
-/// The user's wish to stop.
-pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
 
 /// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes held to it.
 #[derive(Debug, Parser)]
@@ -68,7 +68,14 @@ enum Command {
 /// # Errors
 /// What [`run`] would print, also where help is asked for.
 pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::Error> {
-    Cli::try_parse_from(arguments).map(drop)
+    thread_local! {
+        // To lay it out takes much longer than to read a line by it.
+        static GRAMMAR: RefCell<clap::Command> = RefCell::new(Cli::command());
+    }
+    GRAMMAR.with_borrow_mut(|grammar| {
+        let matches = grammar.try_get_matches_from_mut(arguments)?;
+        Cli::from_arg_matches(&matches).map(drop)
+    })
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -81,7 +88,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Err(error) => return options::report_usage(&error),
     };
     if !matches!(cli.command, Command::Guard(_)) {
-        listen_for_interrupts();
+        interrupt::listen();
     }
     match cli.command {
         Command::Theory(arguments) => theory::run(&arguments),
@@ -97,20 +104,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Guard(arguments) => guard::run(&arguments),
-    }
-}
-
-/// An interrupt stops the engines; what is done is printed, and kept in the store. A second one ends the program
-/// at once, and the guards of the engines with it.
-fn listen_for_interrupts() {
-    let interrupted = || {
-        if INTERRUPT.request() {
-            std::process::exit(ExitStatus::Interrupted.code().into());
-        }
-        tell!("interrupted: finished runs are kept; a second interrupt ends everything at once");
-    };
-    if let Err(error) = ctrlc::set_handler(interrupted) {
-        tell!("warning: interrupts will end the program at once: {error}");
     }
 }
 

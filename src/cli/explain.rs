@@ -2,7 +2,7 @@
 
 use super::options::{RunOptions, as_flag, friction};
 use super::progress::Reporter;
-use super::{CliError, ExitStatus};
+use super::{CliError, ExitStatus, INTERRUPT};
 use crate::crosscheck::{Participant, measure, measure_with_twin, plan};
 use crate::engine::EngineName;
 use crate::report::explanation;
@@ -58,5 +58,8 @@ pub fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliErr
         .map(|result| result.map_err(|error| error.to_string()));
     let text = explanation(judgement, &measurement, twin.as_ref());
     super::print(text.as_bytes())?;
+    if INTERRUPT.requested() {
+        return Ok(ExitStatus::Interrupted);
+    }
     Ok(ExitStatus::of(&judgements))
 }

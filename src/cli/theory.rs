@@ -1,7 +1,7 @@
 //! `tristack theory`.
 
 use super::options::{ArmOptions, Format, StackOptions, friction};
-use super::{CliError, ExitStatus};
+use super::{CliError, ExitStatus, INTERRUPT};
 use crate::engine::EngineName;
 use crate::report::{theory_csv, theory_json, theory_table};
 use crate::theory::Predictions;
@@ -43,10 +43,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let (pair, floor) = (convention.pair_arm, convention.floor_arm);
     let predictions = stacks.iter();
     let predictions = predictions.map(|stack| Predictions::new(stack, pair, floor));
-    let predictions: Vec<Predictions> = predictions.collect();
+    let predictions: Vec<Predictions> =
+        predictions.take_while(|_| !INTERRUPT.requested()).collect();
     super::print(&match arguments.format {
         Format::Table => theory_table(&predictions).into_bytes(),
         Format::Json => theory_json(&predictions).into_bytes(),
         Format::Csv => theory_csv(&predictions),
+    })?;
+    Ok(match predictions.len() == stacks.len() {
+        true => ExitStatus::Success,
+        false => ExitStatus::Interrupted,
     })
 }

@@ -3,7 +3,8 @@
 use super::extrapolate::{Extrapolation, Order, extrapolate};
 use super::plan::{Measurement, Method};
 use super::probing::{
-    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
+    ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,
+    probe_all,
 };
 use super::reading::read_all;
 use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
@@ -47,13 +48,14 @@ pub fn measure(
 ) -> Vec<Judgement> {
     let probed = probe_all(participants, settings, progress);
     let results = read_all(measurements, participants, settings, progress);
-    let complete = measurements
-        .iter()
-        .zip(results)
-        .filter(|(_, results)| !results.iter().any(is_interrupted));
-    let judged = complete.map(|(measurement, results)| {
+    let judged = measurements.iter().zip(results);
+    let judged = judged.filter_map(|(measurement, results)| {
         let mut own = participants.iter().zip(&probed);
         let own = own.find(|(who, _)| who.name == measurement.engine);
+        let probe = own.and_then(|(_, probed)| probed.as_ref().err());
+        if results.iter().any(is_interrupted) || probe.is_some_and(ProbeError::is_interrupted) {
+            return None;
+        }
         let engine = own.and_then(|(who, _)| who.engine.as_deref());
         let source = if engine.is_some() {
             Source::Live
@@ -62,10 +64,10 @@ pub fn measure(
         };
         let version = engine.map_or_else(String::new, |engine| engine.identity().version.clone());
         let judgement = judge_measurement(measurement, source, version, results);
-        match own {
+        Some(match own {
             Some((_, probed)) => judgement.unless_contradicted(probed),
             None => judgement,
-        }
+        })
     });
     judged.collect()
 }

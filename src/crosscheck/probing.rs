@@ -29,6 +29,13 @@ pub enum ProbeError {
     Outdated(EngineName),
 }
 
+impl ProbeError {
+    /// Whether nothing is wrong but that the user did not want to wait.
+    pub(super) fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Failed(failure) if failure.is_interrupted())
+    }
+}
+
 /// What was found out about a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Findings {

@@ -116,12 +116,10 @@ impl Session {
         remove_dead(&self.root);
         let mut others = HashMap::new();
         for path in session_files(&self.root) {
-            if path == self.path {
+            if path == self.path || is_unlocked(&path) {
                 continue;
             }
-            let claims = fs::read(&path).ok();
-            let claims = claims.and_then(|text| serde_json::from_slice::<Claims>(&text).ok());
-            let Some(Claims { holder, addresses }) = claims else {
+            let Some(Claims { holder, addresses }) = claims(&path) else {
                 continue;
             };
             others.extend(
@@ -169,12 +167,24 @@ fn work_of(root: &Path, session: &Path) -> PathBuf {
         .join(session.file_stem().unwrap_or_default())
 }
 
+fn claims(session: &Path) -> Option<Claims> {
+    let text = fs::read(session).ok()?;
+    serde_json::from_slice(&text).ok()
+}
+
+/// Whether nobody on this machine holds it.
+fn is_unlocked(session: &Path) -> bool {
+    File::open(session).is_ok_and(|file| file.try_lock_shared().is_ok())
+}
+
 /// Removes what dead sessions have left. Has to be called under the lock, so that no session is between its
-/// creation and its own lock.
+/// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
+/// cannot be seen from here.
 fn remove_dead(root: &Path) {
+    let here = Holder::this_program().host;
     for session in session_files(root) {
-        let dead = File::open(&session).is_ok_and(|file| file.try_lock_shared().is_ok());
-        if dead {
+        let foreign = || claims(&session).is_some_and(|claims| claims.holder.host != here);
+        if is_unlocked(&session) && !foreign() {
             // Whoever cannot remove it leaves it to the next one, and the session with it.
             let removed = match fs::remove_dir_all(work_of(root, &session)) {
                 Err(error) => error.kind() == std::io::ErrorKind::NotFound,
@@ -231,6 +241,24 @@ mod tests {
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(!dead.exists() && !left.exists());
         assert!(evidence.exists(), "it belongs to a session that ended well");
+    }
+
+    #[test]
+    fn a_session_of_another_machine_holds_nothing_without_a_lock_but_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("sessions/elsewhere.json");
+        let work = root.path().join("work/elsewhere");
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::create_dir_all(&work).unwrap();
+        let mut claims = Claims {
+            holder: Holder::this_program(),
+            addresses: addresses(&["a"]).into_iter().collect(),
+        };
+        claims.holder.host += "-not";
+        fs::write(&path, serde_json::to_vec(&claims).unwrap()).unwrap();
+        let session = Session::begin(root.path()).unwrap();
+        assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
+        assert!(path.exists() && work.exists());
     }
 
     #[test]

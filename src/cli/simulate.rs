@@ -5,7 +5,7 @@ use super::{CliError, ExitStatus, INTERRUPT};
 use crate::archive::{ArchiveError, Run, write_atomically};
 use crate::crosscheck::{gentle_speed, no_yield, planned_protocol, protocol_at_speed};
 use crate::dem::compress_stack_into_frames;
-use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace};
+use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace, keep_evidence};
 use crate::report::{
     Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
 };
@@ -123,7 +123,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Ok(run) => run,
         Err(failure) => {
             if failure.left_evidence() {
-                scratch.map(tempfile::TempDir::keep);
+                scratch.map(keep_evidence);
             }
             return Err(failure.into());
         }

@@ -3,7 +3,7 @@
 use super::recorded::RecordedError;
 use super::schedule::{Participant, Progress, Settings};
 use crate::archive::{Answer, ArchiveError, Identity, ProbeRecord, Provenance};
-use crate::engine::{Engine, EngineName, Failure, Workplace};
+use crate::engine::{Engine, EngineName, Failure, Workplace, keep_evidence};
 use crate::probe::{Finding, probe};
 use crate::stack::{ContactTest, sha256_hex, shown};
 use crate::verdict::Verdict;
@@ -165,7 +165,7 @@ fn ask(engine: &dyn Engine, settings: &Settings) -> Result<ProbeRecord, ProbeErr
     if let Err(failure) = answered {
         let failure: Box<Failure> = failure;
         if failure.left_evidence() {
-            let _ = directory.keep();
+            keep_evidence(directory);
         }
         return Err(failure.into());
     }

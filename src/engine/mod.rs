@@ -14,6 +14,7 @@ mod process;
 mod pyramid_log;
 mod task;
 mod thermo_log;
+mod written;
 mod yade;
 
 pub use batch::time_limit;
@@ -27,6 +28,7 @@ pub use process::Interrupt;
 pub use pyramid_log::pyramid_in_log;
 pub use task::{ParameterFile, Task};
 pub use thermo_log::{motion_in_log, series_in_log};
+pub use written::keep_evidence;
 
 use crate::archive::{Identity, Run};
 use crate::stack::{Case, ContactTest, Convention, InvalidValue, Preparation, Pyramid, sha256_hex};

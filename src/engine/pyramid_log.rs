@@ -1,6 +1,7 @@
 //! What LAMMPS and LIGGGHTS leave behind of a pyramid: the time of the last run in the log, and a dump of the
 //! centres.
 
+use super::written::read;
 use crate::stack::Pyramid;
 use crate::trace::{PyramidRun, SeriesError};
 use std::path::Path;
@@ -16,12 +17,6 @@ pub fn read_pyramid(
 ) -> Result<PyramidRun, SeriesError> {
     let [log, dump] = [read(directory, name)?, read(directory, CENTRES)?];
     pyramid_in_log(&log, &dump, pyramid)
-}
-
-fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
-    std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
-        message: format!("cannot read {name}: {error}"),
-    })
 }
 
 /// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.

@@ -1,5 +1,6 @@
 //! Tables in the log of LAMMPS and of LIGGGHTS, which descends from it.
 
+use super::written::read;
 use crate::stack::{Case, ContactTest};
 use crate::trace::{Motion, Sample, SeriesError, Trace};
 use serde::de::DeserializeOwned;
@@ -23,12 +24,6 @@ pub fn read_motion(
     test: &ContactTest,
 ) -> Result<Motion, SeriesError> {
     motion_in_log(&read(directory, name)?, header, test)
-}
-
-fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
-    std::fs::read(directory.join(name)).map_err(|error| SeriesError::Absent {
-        message: format!("cannot read {name}: {error}"),
-    })
 }
 
 /// The series of `case` in the last table of a log of LAMMPS or LIGGGHTS whose header begins with the two

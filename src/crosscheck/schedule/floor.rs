@@ -5,7 +5,7 @@ use super::orders::Order;
 use super::outbox::{Claim, Outbox, Outgoing, keep, with_outbox};
 use super::{Participant, Progress, RunError, Settings};
 use crate::archive::{ArchiveError, Run};
-use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Workplace};
+use crate::engine::{Batching, Engine, EngineName, Failure, FailureKind, Workplace, keep_evidence};
 use crate::stack::{Case, shown};
 use crate::store::Holder;
 use std::collections::BTreeMap;
@@ -237,7 +237,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Floor<'a, T, Keep> {
             }
         });
         if evidence {
-            let _ = directory.keep();
+            keep_evidence(directory);
         }
     }
 

@@ -14,6 +14,8 @@ pub mod scenes;
 pub mod series;
 pub mod stacks;
 
+use nix::sys::resource::{UsageWho, getrusage};
+use nix::sys::time::TimeValLike;
 use std::path::PathBuf;
 
 /// An input by its name.
@@ -37,6 +39,21 @@ pub const TARGETS: [(&str, Check, Seeds); 9] = [
     ("checkpoints", checkpoints::check, checkpoints::seeds),
     ("stacks", stacks::check, stacks::seeds),
 ];
+
+/// `check` of `data`, which must not take more than `seconds` of a processor, however busy the machine is.
+pub fn check_within(seconds: f64, check: Check, data: &[u8]) {
+    let start = processor_seconds();
+    check(data);
+    let took = processor_seconds() - start;
+    assert!(took <= seconds, "{took} s for an input");
+}
+
+/// Of this thread, since it began.
+fn processor_seconds() -> f64 {
+    let usage = getrusage(UsageWho::RUSAGE_THREAD).expect("the system counts");
+    let total = usage.user_time() + usage.system_time();
+    1e-6 * total.num_microseconds() as f64
+}
 
 /// Writes the seeds of `target` into the directory that `FUZZ_SEEDS` names, if it names one.
 pub fn write_seeds(target: &str) {

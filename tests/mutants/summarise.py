@@ -48,7 +48,12 @@ def without_place(name):
     return re.sub(r"^([^:]+):\d+:\d+: ", r"\1: ", name)
 
 
-def row(area, mutants, last):
+def commit(area, directory):
+    """The sources that were mutated, as `run` has noted them."""
+    return (directory / f"{area['name'].replace(' ', '-')}-0-first" / "commit").read_text().strip()
+
+
+def row(area, mutants, last, directory):
     """Counts of one area."""
     def belongs(name):
         return any(PurePosixPath(name.split(":")[0]).match(file) for file in area["files"])
@@ -56,7 +61,8 @@ def row(area, mutants, last):
     own = [name for name in mutants if belongs(name)]
     count = collections.Counter(last.get(name, "not_run") for name in own)
     kinds = ["caught", "timeout", "unviable", "survived", "not_run"]
-    return {"area": area["name"], "files": area["files"], "mutants": len(own)} | {kind: count[kind] for kind in kinds}
+    about = {"area": area["name"], "files": area["files"], "commit": commit(area, directory), "mutants": len(own)}
+    return about | {kind: count[kind] for kind in kinds}
 
 
 def judge(survivors, reasons, not_run):
@@ -70,21 +76,20 @@ def judge(survivors, reasons, not_run):
 
 
 def main():
-    last, version = outcomes(Path(sys.argv[1]))
+    directory = Path(sys.argv[1])
+    last, version = outcomes(directory)
     areas = tomllib.loads((HERE / "areas.toml").read_text())["area"]
     mutants = all_mutants()
     reasons = tomllib.loads((HERE / "survivors.toml").read_text())["survivor"]
     survivors = collections.Counter(
         without_place(name) for name in mutants if last.get(name) == "survived"
     )
-    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
     summary = {
         "command": "tests/mutants/run",
         "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
         "cargo_mutants_version": version,
-        "commit": commit.stdout.strip(),
         "not_run": collections.Counter(name.split(":")[0] for name in mutants if name not in last),
-        "areas": [row(area, mutants, last) for area in areas],
+        "areas": [row(area, mutants, last, directory) for area in areas],
         "survivors": [entry for entry in reasons if entry["mutant"] in survivors],
     }
     RESULT.parent.mkdir(parents=True, exist_ok=True)

@@ -127,4 +127,14 @@ mod tests {
             assert_eq!(evaluations, expected, "{index}");
         }
     }
+
+    #[test]
+    fn what_bends_too_much_is_halved_and_what_is_nearly_straight_is_interpolated() {
+        // Between x = 0 and 1, with an older value: nine tenths of the way, but three fifths of the rise.
+        assert_eq!(next_fraction([0.9, 0.0, 1.0], [0.1, -0.5, 0.5]), 0.5);
+        // A third of the way, but nine tenths of the rise.
+        assert_eq!(next_fraction([0.3, 0.0, 1.0], [0.4, -0.5, 0.5]), 0.5);
+        let straight = next_fraction([0.6, 0.0, 1.0], [0.1, -0.5, 0.5]);
+        assert!((straight - 1.0 / 6.0).abs() < 1e-15, "{straight}");
+    }
 }

@@ -7,6 +7,7 @@ use crate::stack::sha256_hex;
 use std::ffi::OsString;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// A question is put again if a signal ends who is asked: the answer becomes part of the address of every run.
 const TRIES: usize = 3;
@@ -106,7 +107,7 @@ fn owning_package(program: &Path) -> Result<Option<(String, String)>, TooSlow> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
         command.extend(arguments);
-        answer(&command, &[])
+        answer(&command, &[], LONGEST_START)
     };
     let Ok(resolved) = program.canonicalize() else {
         return Ok(None);
@@ -139,7 +140,7 @@ fn own_version(
 ) -> Result<String, TooSlow> {
     let mut command = vec![program.as_os_str().to_owned()];
     command.extend(question.arguments.iter().map(OsString::from));
-    let text = answer(&command, environment)?.unwrap_or_default();
+    let text = answer(&command, environment, LONGEST_START)?.unwrap_or_default();
     Ok(version_in_answer(&text, question.before_version))
 }
 
@@ -163,14 +164,18 @@ pub fn version_in_answer(answer: &str, before_version: &str) -> String {
 struct TooSlow;
 
 /// What a command that succeeds writes to its standard output.
-fn answer(command: &[OsString], environment: Environment) -> Result<Option<String>, TooSlow> {
+fn answer(
+    command: &[OsString],
+    environment: Environment,
+    time_limit: Duration,
+) -> Result<Option<String>, TooSlow> {
     let job = Job {
         command,
         directory: Path::new("/"),
         // Nothing is to be left behind.
         home: Path::new("/nonexistent"),
         environment,
-        time_limit: LONGEST_START,
+        time_limit,
         interrupt: &Interrupt::new(),
     };
     for _ in 0..TRIES {
@@ -196,6 +201,28 @@ mod tests {
         assert_eq!(upstream("3.8.0+repack1-9+b2"), "3.8.0");
         assert_eq!(upstream("2023.02a-1"), "2023.02a");
         assert_eq!(upstream("1:29Sep2021+ds-1"), "29Sep2021");
+    }
+
+    fn ask(script: &str) -> Result<Option<String>, TooSlow> {
+        let command = ["sh", "-c", script].map(OsString::from);
+        answer(&command, &[], Duration::from_secs(1))
+    }
+
+    #[test]
+    fn only_a_program_that_ends_by_itself_has_answered() {
+        assert_eq!(ask("echo 1.2").unwrap().as_deref(), Some("1.2\n"));
+        assert_eq!(ask("echo 1.2; exit 1").unwrap(), None);
+        assert!(ask("sleep 60").is_err());
+    }
+
+    #[test]
+    fn a_question_that_is_killed_is_put_again() {
+        let directory = tempfile::tempdir().unwrap();
+        let asked = directory.path().join("asked");
+        let asked = asked.display();
+        let dies_once = format!("[ -e '{asked}' ] && echo 1.2 || {{ touch '{asked}'; kill $$; }}");
+        assert_eq!(ask(&dies_once).unwrap().as_deref(), Some("1.2\n"));
+        assert_eq!(ask("kill $$").unwrap(), None);
     }
 
     #[test]

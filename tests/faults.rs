@@ -4,10 +4,10 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json, standard_error};
+use common::{Bench, json, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tristack::crosscheck::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
 use tristack::dem::compress_stack;
 use tristack::engine::{EngineName, ParameterFile, Task};
@@ -509,9 +509,9 @@ fn nothing_is_started_after_an_interrupt() {
 }
 
 #[test]
-fn an_engine_that_does_not_say_its_version_is_listed_without_one() {
+fn an_engine_that_dies_of_the_question_for_its_version_is_listed_without_one() {
     let bench = Bench::with_system_programs();
-    bench.install("yade", "sleep 600");
+    bench.install("yade", "kill -SEGV $$");
     let list = json(&common::standard_output(
         &mut bench.tristack("engines --format json"),
     ));
@@ -622,21 +622,47 @@ fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
 }
 
 fn send_interrupt(process: u32) {
+    send("-INT", process);
+}
+
+fn send(signal: &str, process: u32) {
     let status = std::process::Command::new("kill")
-        .args(["-INT", &process.to_string()])
+        .args([signal, &process.to_string()])
         .status();
     assert!(status.expect("kill runs").success());
 }
 
-fn wait_for<T>(mut condition: impl FnMut() -> Option<T>) -> T {
-    let start = Instant::now();
-    loop {
-        if let Some(value) = condition() {
-            return value;
-        }
-        assert!(start.elapsed() < Duration::from_secs(20), "waited in vain");
-        std::thread::sleep(Duration::from_millis(20));
+#[test]
+fn a_signal_that_is_ignored_from_the_start_interrupts_nothing() {
+    let bench = Bench::with_system_programs();
+    let started = bench.path("started");
+    let script = format!(
+        "[ \"$1\" = -help ] || {{ echo > '{}'; sleep 600; }}",
+        started.display()
+    );
+    bench.install("lmp", &script);
+    let tristack = bench.process("simulate --engine lammps --mu 0.3 --stiffness 100");
+    let mut command = std::process::Command::new("env");
+    command
+        .args(["--ignore-signal=HUP"])
+        .arg(tristack.get_program());
+    command
+        .args(tristack.get_args())
+        .current_dir(bench.path(""));
+    command.envs(
+        tristack
+            .get_envs()
+            .filter_map(|(name, value)| Some((name, value?))),
+    );
+    let mut child = command.stderr(Stdio::null()).spawn().expect("it starts");
+    wait_for(|| fs::exists(&started).unwrap_or(false).then_some(()));
+    for _ in 0..2 {
+        send("-HUP", child.id());
     }
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(child.try_wait().expect("it can be watched"), None);
+    send("-TERM", child.id());
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
 }
 
 #[test]

@@ -3,8 +3,9 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, standard_output};
+use common::{Bench, standard_output, wait_for};
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -122,8 +123,8 @@ fn start(bench: &Bench, line: &str) -> std::process::Child {
     command.spawn().expect("it starts")
 }
 
-/// A code that notes every series it is asked for, and takes its time.
-fn install_slow_replay(bench: &Bench) -> PathBuf {
+/// A code that notes every series it is asked for, and takes as long as `wait`, a shell command.
+fn install_slow_replay(bench: &Bench, wait: &str) -> PathBuf {
     replay::install(bench, |_| Disturbance::None);
     let program = bench.path("programs/yade");
     let asked = bench.path("asked");
@@ -131,7 +132,7 @@ fn install_slow_replay(bench: &Bench) -> PathBuf {
     let slow = script.replace(
         "address=$(",
         &format!(
-            "[ $result = probe.csv ] || {{ echo $directory >> {}; sleep 0.1; }}; address=$(",
+            "[ $result = probe.csv ] || {{ echo $directory >> {}; {wait}; }}; address=$(",
             asked.display()
         ),
     );
@@ -143,7 +144,7 @@ fn install_slow_replay(bench: &Bench) -> PathBuf {
 #[test]
 fn two_programs_at_one_store_make_every_run_once() {
     let bench = Bench::with_system_programs();
-    let asked = install_slow_replay(&bench);
+    let asked = install_slow_replay(&bench, "sleep 0.1");
     let line = "crosscheck --engines yade --jobs 2 --format csv";
     let programs = [start(&bench, line), start(&bench, line)];
     let numbers = [programs[0].id(), programs[1].id()];
@@ -164,19 +165,26 @@ fn two_programs_at_one_store_make_every_run_once() {
 #[test]
 fn what_a_killed_program_was_making_is_made_by_the_one_that_waits() {
     let bench = Bench::with_system_programs();
-    let asked = install_slow_replay(&bench);
+    let hold = bench.path("hold");
+    fs::write(&hold, "").expect("a file");
+    let wait = format!("while [ -e {} ]; do sleep 0.01; done", hold.display());
+    let asked = install_slow_replay(&bench, &wait);
     let line = "sweep --engine yade --mu 0.3 --stiffness 100 --jobs 1 --format csv";
     let mut first = start(&bench, line);
-    while !asked.exists() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    let second = start(&bench, line);
-    std::thread::sleep(std::time::Duration::from_millis(150));
+    wait_for(|| asked.exists().then_some(()));
+    let told = bench.path("told");
+    let mut second = bench.process(line);
+    second.stdout(Stdio::null());
+    second.stderr(fs::File::create(&told).expect("a file"));
+    let mut second = second.spawn().expect("it starts");
+    let message = || fs::read_to_string(&told).expect("text");
+    wait_for(|| message().contains("waiting for").then_some(()));
     first.kill().expect("it can be killed");
-    first.wait().expect("it ends");
-    let output = second.wait_with_output().expect("it ends");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
+    let status = first.wait().expect("it ends");
+    assert_eq!(status.signal(), Some(9), "it was still making its runs");
+    fs::remove_file(hold).expect("it is there");
+    let status = second.wait().expect("it ends");
+    assert_eq!(status.code(), Some(0), "{}", message());
     let store = bench.path("store");
     for directory in ["sessions", "work"] {
         let left = fs::read_dir(store.join(directory)).expect("a directory");

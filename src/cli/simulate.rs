@@ -122,8 +122,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let run = match execute(engine.as_ref(), &case, &workplace) {
         Ok(run) => run,
         Err(failure) => {
-            if failure.left_evidence() {
-                scratch.map(keep_evidence);
+            if failure.left_evidence()
+                && let Some(scratch) = scratch
+            {
+                keep_evidence(scratch);
             }
             return Err(failure.into());
         }

@@ -1,6 +1,7 @@
 //! What the tests of the command line share.
 #![allow(dead_code)] // Every test binary uses a part of it.
 
+pub mod network;
 pub mod replay;
 
 use assert_cmd::Command;
@@ -8,6 +9,7 @@ use clap::ValueEnum;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tristack::engine::EngineName;
 use tristack::stack::sha256_hex;
@@ -123,6 +125,25 @@ pub fn copy_run(source: &Path, target: &Path, change: impl Fn(&str, String) -> S
         fs::write(target.join(file), text).expect("a copy");
     }
     fs::write(target.join("SHA256SUMS"), sums).expect("its digests");
+}
+
+/// What `condition` gives, as soon as it gives something; `None` after a minute, which is enough on a busy machine.
+pub fn wait_a_minute_for<T>(mut condition: impl FnMut() -> Option<T>) -> Option<T> {
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(60) {
+        let value = condition();
+        if value.is_some() {
+            return value;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    None
+}
+
+/// The same, where nothing goes on without it.
+#[track_caller]
+pub fn wait_for<T>(condition: impl FnMut() -> Option<T>) -> T {
+    wait_a_minute_for(condition).expect("what was waited for comes within a minute")
 }
 
 /// Nothing but what is named is in `directory`.

@@ -25,13 +25,14 @@ pub fn strike(fault: E, round: &mut Round) -> Result<Aftermath, String> {
         let _ = fs::remove_file(own(extension));
     }
     let harmless = matches!(fault, E::LeavesADaemon | E::WritesTenGigabytes);
+    let may_fit = matches!(fault, E::SeriesInOtherUnits | E::SeriesOfAnotherCase);
     Ok(Aftermath {
         outputs: vec![output],
         struck: true,
         harmless,
         harmful: !harmless,
-        // Whoever delivers forces in other units delivers a whole series.
-        begin_anew: fault == E::SeriesInOtherUnits,
+        // A series may be whole and have the right steps, and yet be wrong.
+        begin_anew: may_fit && round.entries().len() == round.workload.cases.len(),
         ..Aftermath::default()
     })
 }

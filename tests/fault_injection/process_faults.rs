@@ -1,15 +1,18 @@
 //! Faults that strike running processes.
 
+use super::common::wait_a_minute_for;
 use super::fault::{ProcessFault, fake_clock};
 use super::processes::{self, Process};
-use super::round::{Aftermath, Round};
+use super::round::{Aftermath, Round, is_running};
 use super::workload::{address, asked};
 use nix::sys::signal::Signal;
 use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
 use std::process::{Child, Output};
 use std::time::{Duration, Instant};
+use tristack::stack::sha256_hex;
 
 /// A second interrupt is immediate: no more than this on a busy machine.
 const IMMEDIATE: Duration = Duration::from_secs(1);
@@ -18,7 +21,7 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
     match fault {
         ProcessFault::Killed => Ok(kill_times(1, round)),
         ProcessFault::KilledTwice => Ok(kill_times(2, round)),
-        ProcessFault::KilledWhileEngineHangs => Ok(kill_while_engine_hangs(round)),
+        ProcessFault::KilledWhileEngineHangs => kill_while_engine_hangs(round),
         ProcessFault::Interrupted => interrupt(Signal::SIGINT, round),
         ProcessFault::Terminated => interrupt(Signal::SIGTERM, round),
         ProcessFault::InterruptedTwice => interrupt_twice(round),
@@ -37,28 +40,34 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
     }
 }
 
-fn signal(child: &Child, signal: Signal) {
-    let process = Process {
-        number: child.id() as i32,
-        command: String::new(),
-    };
-    process.signal(signal);
-}
-
-fn is_running(child: &mut Child) -> bool {
-    child.try_wait().expect("it can be watched").is_none()
+fn signal(child: &mut Child, signal: Signal) {
+    // The number of one that has ended may already be that of another process.
+    if is_running(child) {
+        let process = Process {
+            number: child.id() as i32,
+            command: String::new(),
+        };
+        process.signal(signal);
+    }
 }
 
 fn finish(child: Child) -> Output {
     child.wait_with_output().expect("it ends")
 }
 
+/// Waits until the replayed code is asked for the series under `address`.
+fn wait_until_asked(round: &Round, address: &str) -> Result<(), String> {
+    let is_asked = || asked(&round.bench).iter().any(|asked| asked == address);
+    wait_a_minute_for(|| is_asked().then_some(()))
+        .ok_or_else(|| format!("nobody has asked for {address}"))
+}
+
 fn kill_times(times: usize, round: &mut Round) -> Aftermath {
     let mut aftermath = Aftermath::default();
     for _ in 0..times {
-        let child = round.start("");
-        round.wait_for_a_moment();
-        signal(&child, Signal::SIGKILL);
+        let mut child = round.start("");
+        round.wait_for_a_moment(&mut child);
+        signal(&mut child, Signal::SIGKILL);
         let output = finish(child);
         aftermath.struck |= output.status.signal() == Some(Signal::SIGKILL as i32);
         aftermath.outputs.push(output);
@@ -67,28 +76,27 @@ fn kill_times(times: usize, round: &mut Round) -> Aftermath {
 }
 
 /// The engine would go on for ten minutes, and so would what it has started.
-fn kill_while_engine_hangs(round: &mut Round) -> Aftermath {
+fn kill_while_engine_hangs(round: &mut Round) -> Result<Aftermath, String> {
     let first = address(&round.workload.cases[0]);
     let hang = round.bench.path(&format!("replay/{first}.sh"));
     fs::write(&hang, "setsid sleep 600 & sleep 600").expect("a script");
-    let child = round.start("");
-    while !asked(&round.bench).contains(&first) {
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    let mut child = round.start("");
+    let begun = wait_until_asked(round, &first);
     std::thread::sleep(Duration::from_millis(round.random.u64(..300)));
-    signal(&child, Signal::SIGKILL);
+    signal(&mut child, Signal::SIGKILL);
     fs::remove_file(hang).expect("it is there");
-    Aftermath {
-        outputs: vec![finish(child)],
+    let outputs = vec![finish(child)];
+    begun.map(|()| Aftermath {
+        outputs,
         struck: true,
         ..Aftermath::default()
-    }
+    })
 }
 
 fn interrupt(how: Signal, round: &mut Round) -> Result<Aftermath, String> {
-    let child = round.start("");
-    round.wait_for_a_moment();
-    signal(&child, how);
+    let mut child = round.start("");
+    round.wait_for_a_moment(&mut child);
+    signal(&mut child, how);
     let output = finish(child);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     match output.status.code() {
@@ -116,22 +124,21 @@ fn interrupt_twice(round: &mut Round) -> Result<Aftermath, String> {
     let hang = round.bench.path(&format!("replay/{first}.sh"));
     fs::write(&hang, "sleep 600").expect("a script");
     let mut child = round.start("");
-    while !asked(&round.bench).contains(&first) {
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    let begun = wait_until_asked(round, &first);
     let guards = processes::of(&round.root());
     let guards: Vec<Process> = guards.into_iter().filter(Process::is_guard).collect();
     let tell_guards = |what| guards.iter().for_each(|guard| guard.signal(what));
     tell_guards(Signal::SIGSTOP);
-    signal(&child, Signal::SIGINT);
+    signal(&mut child, Signal::SIGINT);
     std::thread::sleep(Duration::from_millis(100 + round.random.u64(..300)));
     let waited = is_running(&mut child);
     let second = Instant::now();
-    signal(&child, Signal::SIGINT);
+    signal(&mut child, Signal::SIGINT);
     let output = finish(child);
     let took = second.elapsed();
     tell_guards(Signal::SIGCONT);
     fs::remove_file(hang).expect("it is there");
+    begun?;
     if !waited || took > IMMEDIATE || output.status.code() != Some(130) {
         let status = output.status;
         return Err(format!(
@@ -145,13 +152,20 @@ fn interrupt_twice(round: &mut Round) -> Result<Aftermath, String> {
     })
 }
 
+/// In about every fourth round for longer than a run may take: time in which nobody looks does not count.
 fn stop_for_a_while(round: &mut Round) -> Aftermath {
-    let mut child = round.start("");
-    round.wait_for_a_moment();
+    // On a busy machine a real code may need as much by itself; 0.6 of the rounds are replayed.
+    let long = round.is_replayed() && round.random.f64() < 0.4;
+    let (options, pause) = match long {
+        true => ("--time-limit 3", Duration::from_secs(4)),
+        false => ("", Duration::from_millis(300)),
+    };
+    let mut child = round.start(options);
+    round.wait_for_a_moment(&mut child);
     let struck = is_running(&mut child);
-    signal(&child, Signal::SIGSTOP);
-    std::thread::sleep(Duration::from_millis(300));
-    signal(&child, Signal::SIGCONT);
+    signal(&mut child, Signal::SIGSTOP);
+    std::thread::sleep(pause);
+    signal(&mut child, Signal::SIGCONT);
     Aftermath {
         struck,
         outputs: vec![finish(child)],
@@ -161,8 +175,8 @@ fn stop_for_a_while(round: &mut Round) -> Aftermath {
 }
 
 fn signal_others(which: fn(&Process) -> bool, how: Signal, round: &mut Round) -> Aftermath {
-    let child = round.start("--time-limit 2");
-    round.wait_for_a_moment();
+    let mut child = round.start("--time-limit 2");
+    round.wait_for_a_moment(&mut child);
     let processes = processes::of(&round.root());
     let struck: Vec<Process> = processes.into_iter().filter(which).collect();
     struck.iter().for_each(|process| process.signal(how));
@@ -174,18 +188,30 @@ fn signal_others(which: fn(&Process) -> bool, how: Signal, round: &mut Round) ->
 }
 
 fn replace_engine(round: &mut Round) -> Aftermath {
-    let child = round.start("");
-    round.wait_for_a_moment();
+    let mut child = round.start("");
+    round.wait_for_a_moment(&mut child);
     let program = round.bench.path("programs/yade");
     let script = fs::read_to_string(&program).expect("a script");
     round.bench.install("new", &format!("{script}\n# rebuilt"));
-    fs::rename(round.bench.path("programs/new"), program).expect("it is replaced");
+    fs::rename(round.bench.path("programs/new"), &program).expect("it is replaced");
     let output = finish(child);
     Aftermath {
         struck: String::from_utf8_lossy(&output.stderr).contains("was replaced"),
         outputs: vec![output],
+        foreign: made_by_others(round, &program),
         ..Aftermath::default()
     }
+}
+
+/// Number of runs in the store that were not made by `program` as it is now.
+fn made_by_others(round: &Round, program: &Path) -> usize {
+    let hash = sha256_hex(&fs::read(program).expect("a script"));
+    let entries = round.entries().into_iter();
+    let others = entries.filter(|entry| {
+        let provenance = fs::read_to_string(entry.join("provenance.json"));
+        !provenance.is_ok_and(|text| text.contains(&hash))
+    });
+    others.count()
 }
 
 fn let_clock_jump(round: &mut Round) -> Aftermath {
@@ -200,7 +226,7 @@ fn let_clock_jump(round: &mut Round) -> Aftermath {
         .env("FAKETIME_DONT_FAKE_MONOTONIC", "1");
     let mut child = command.spawn().expect("it starts");
     let jump = ["-9000d", "+9000d", "-3600s"][round.random.usize(..3)];
-    round.wait_for_a_moment();
+    round.wait_for_a_moment(&mut child);
     let struck = is_running(&mut child);
     set(jump);
     Aftermath {
@@ -216,15 +242,17 @@ fn run_two(round: &mut Round, kill_one: bool) -> Result<Aftermath, String> {
     std::thread::sleep(round.moment().mul_f64(0.5));
     let mut struck = is_running(&mut first);
     let second = round.start("");
-    let mut outputs = Vec::new();
+    let (mut outputs, mut killed) = (Vec::new(), Vec::new());
     if kill_one {
-        round.wait_for_a_moment();
-        let (killed, other) = match round.random.bool() {
+        let (mut victim, other) = match round.random.bool() {
             true => (first, second),
             false => (second, first),
         };
-        signal(&killed, Signal::SIGKILL);
-        struck &= finish(killed).status.signal().is_some();
+        round.wait_for_a_moment(&mut victim);
+        signal(&mut victim, Signal::SIGKILL);
+        let output = finish(victim);
+        struck &= output.status.signal().is_some();
+        killed.push(output);
         outputs.push(finish(other));
     } else {
         outputs.extend([finish(first), finish(second)]);
@@ -241,6 +269,7 @@ fn run_two(round: &mut Round, kill_one: bool) -> Result<Aftermath, String> {
     Ok(Aftermath {
         struck,
         outputs,
+        killed,
         harmless: true,
         ..Aftermath::default()
     })

@@ -20,7 +20,8 @@ impl Process {
 
     /// Whether it is neither tristack nor a guard.
     pub fn is_foreign(&self) -> bool {
-        !self.is_guard() && !self.command.contains("/tristack ")
+        let is_tristack = self.command.contains("/tristack ");
+        !is_tristack && !self.command.starts_with("/proc/self/exe ")
     }
 
     pub fn signal(&self, signal: Signal) {

@@ -14,22 +14,23 @@ pub fn write(
     let Some(path) = std::env::var_os("TRISTACK_FAULT_REPORT") else {
         return;
     };
-    let mut faults: BTreeMap<Fault, [usize; 5]> = BTreeMap::new();
+    let mut faults: BTreeMap<Fault, [usize; 6]> = BTreeMap::new();
     for (fault, outcome) in outcomes {
-        let [count, struck, finished, made, complaints] = faults.entry(*fault).or_default();
+        let [count, struck, finished, made, real, complaints] = faults.entry(*fault).or_default();
         *count += 1;
         match outcome {
             Ok(story) => {
                 *struck += usize::from(story.struck);
                 *finished += story.finished_before;
                 *made += story.made_after;
+                *real += usize::from(story.real);
             }
             Err(_) => *complaints += 1,
         }
     }
     let faults = faults.into_iter().map(|(fault, counts)| {
         let (kind, name) = names(fault);
-        let [rounds, struck, finished, made, complaints] = counts;
+        let [rounds, struck, finished, made, real, complaints] = counts;
         serde_json::json!({
             "kind": kind,
             "fault": name,
@@ -37,6 +38,7 @@ pub fn write(
             "struck": struck,
             "finished_before": finished,
             "made_after": made,
+            "real_codes": real,
             "complaints": complaints,
         })
     });

@@ -26,6 +26,8 @@ pub struct Round<'a> {
 pub struct Aftermath {
     /// What the disturbed programs said.
     pub outputs: Vec<Output>,
+    /// What programs said until they were killed beside them.
+    pub killed: Vec<Output>,
     /// Whether the fault came in time to disturb anything.
     pub struck: bool,
     /// Whether they must have come to the same result as if nothing had happened.
@@ -36,6 +38,16 @@ pub struct Aftermath {
     pub begin_anew: bool,
     /// Number of runs that will be made again because they are damaged.
     pub damaged: usize,
+    /// Number of runs in the store that were made by another program than the one that goes on.
+    pub foreign: usize,
+    /// Number of finished runs that a disturbed program had to make once more.
+    pub made_again: usize,
+}
+
+impl Aftermath {
+    fn all_outputs(&self) -> impl Iterator<Item = &Output> {
+        self.outputs.iter().chain(&self.killed)
+    }
 }
 
 /// What a round came to.
@@ -47,6 +59,8 @@ pub struct Story {
     pub finished_before: usize,
     /// Runs that were made after the fault.
     pub made_after: usize,
+    /// Whether native or a real code was at work, not the replayed one.
+    pub real: bool,
 }
 
 impl<'a> Round<'a> {
@@ -57,23 +71,25 @@ impl<'a> Round<'a> {
     pub fn play(fault: Fault, workloads: &'a Workloads, seed: u64) -> Result<Story, String> {
         let mut random = fastrand::Rng::with_seed(seed);
         let workload = choose(fault, workloads, &mut random);
-        let bench = Bench::with_system_programs();
-        if std::ptr::eq(workload, &workloads.replayed) {
-            workloads.install_replay(&bench);
-        }
         let mut round = Self {
-            bench,
+            bench: Bench::with_system_programs(),
             workload,
             workloads,
             random,
         };
+        if round.is_replayed() {
+            workloads.install_replay(&round.bench);
+        }
         let aftermath = match fault {
             Fault::Process(fault) => process_faults::strike(fault, &mut round),
             Fault::Engine(fault) => engine_faults::strike(fault, &mut round),
             Fault::Store(fault) => store_faults::strike(fault, &mut round),
             Fault::Disk(fault) => disk::strike(fault, &mut round),
-        }?;
-        processes::all_ended(&round.root())?;
+        };
+        // Whatever is wrong, nothing may go on running in a place that is about to be removed.
+        let ended = processes::all_ended(&round.root());
+        let aftermath = aftermath?;
+        ended?;
         round.look_at_outputs(&aftermath)?;
         let finished_before = round.look_at_finished(&aftermath)?;
         let made_after = round.go_on(&aftermath)?;
@@ -82,7 +98,13 @@ impl<'a> Round<'a> {
             struck: aftermath.struck,
             finished_before,
             made_after,
+            real: !round.is_replayed(),
         })
+    }
+
+    /// Whether the code is the one that replays recorded runs.
+    pub fn is_replayed(&self) -> bool {
+        std::ptr::eq(self.workload, &self.workloads.replayed)
     }
 
     pub fn root(&self) -> PathBuf {
@@ -106,9 +128,20 @@ impl<'a> Round<'a> {
         self.command(options).output().expect("it runs")
     }
 
-    /// Waits for some time that the work takes, or a little more.
-    pub fn wait_for_a_moment(&mut self) {
-        std::thread::sleep(self.workload.duration.mul_f64(1.2 * self.random.f64()));
+    /// Waits for some time that the work takes, or a little more; every other time, because many rounds at once take
+    /// longer, until `child` or its like have finished some of their runs, or it has ended.
+    pub fn wait_for_a_moment(&mut self, child: &mut Child) {
+        if self.random.bool() {
+            std::thread::sleep(self.workload.duration.mul_f64(1.2 * self.random.f64()));
+            return;
+        }
+        let last = self.workload.cases.len() - 1;
+        let present = self.entries().len().min(last);
+        let kept = self.random.usize(present..=last);
+        while self.entries().len() < kept && is_running(child) {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        std::thread::sleep(Duration::from_millis(self.random.u64(..=50)));
     }
 
     pub fn moment(&mut self) -> Duration {
@@ -131,48 +164,55 @@ impl<'a> Round<'a> {
         groups.iter().flat_map(|group| below(group)).collect()
     }
 
-    /// A row is the one that nothing has happened to, or it is no agreement.
+    /// No program may have told anything wrong, and those that were not killed have come to what the fault allows.
     fn look_at_outputs(&self, aftermath: &Aftermath) -> Result<(), String> {
-        let expected: Vec<&str> = self.workload.expected.lines().collect();
+        for output in aftermath.all_outputs() {
+            self.look_for_mistakes(output)?;
+        }
         for output in &aftermath.outputs {
-            let text = String::from_utf8_lossy(&output.stdout);
-            let told = || format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
-            let suspicious = text.lines().find(|line| {
-                let known = expected.contains(line);
-                !known && line.ends_with(",agrees")
-            });
-            if let Some(row) = suspicious {
-                return Err(format!("a wrong agreement: {row}\n{}", told()));
-            }
-            let same = text == self.workload.expected && output.status.success();
+            let same = output.stdout == self.workload.expected.as_bytes();
+            let same = same && output.status.success();
             if aftermath.harmless && !same {
-                return Err(format!("another result: {:?}\n{}", output.status, told()));
+                let told = told(output);
+                return Err(format!("another result: {:?}\n{told}", output.status));
             }
             if aftermath.harmful && (same || output.status.success()) {
-                return Err(format!("nobody noticed\n{}", told()));
-            }
-            if text.contains("panicked") || told().contains("panicked") {
-                return Err(format!("a panic\n{}", told()));
+                return Err(format!("nobody noticed\n{}", told(output)));
             }
         }
         Ok(())
     }
 
-    /// What was said to be finished is in the store, and whole.
-    fn look_at_finished(&self, aftermath: &Aftermath) -> Result<usize, String> {
-        let finished = aftermath.outputs.iter().map(|output| {
-            let text = String::from_utf8_lossy(&output.stderr).into_owned();
-            let lines = text.lines().filter(|line| line.starts_with('['));
-            let kept = lines.count();
-            kept - text.matches("could not be kept").count().min(kept)
+    /// A row is the one that nothing has happened to, or it is no agreement.
+    fn look_for_mistakes(&self, output: &Output) -> Result<(), String> {
+        let expected: Vec<&str> = self.workload.expected.lines().collect();
+        let text = String::from_utf8_lossy(&output.stdout);
+        let suspicious = text.lines().find(|line| {
+            let known = expected.contains(line);
+            !known && line.ends_with(",agrees")
         });
-        let finished: usize = finished.sum();
+        if let Some(row) = suspicious {
+            return Err(format!("a wrong agreement: {row}\n{}", told(output)));
+        }
+        if told(output).contains("panicked") {
+            return Err(format!("a panic\n{}", told(output)));
+        }
+        Ok(())
+    }
+
+    /// What was said to be finished is in the store, and whole; nothing was finished twice without need.
+    fn look_at_finished(&self, aftermath: &Aftermath) -> Result<usize, String> {
+        let finished: usize = aftermath.all_outputs().map(finished_runs).sum();
         let entries = self.entries();
         let whole = entries.iter().filter(|entry| is_whole(entry)).count();
         if whole + aftermath.damaged != entries.len() {
             return Err(format!("{whole} of {} entries are whole", entries.len()));
         }
-        let said = finished.min(self.workload.cases.len());
+        let cases = self.workload.cases.len();
+        if finished > cases + aftermath.made_again {
+            return Err(format!("{finished} runs were finished, of {cases}"));
+        }
+        let said = finished.min(cases);
         if entries.len() < said {
             let kept = entries.len();
             return Err(format!("{said} runs were finished, {kept} are kept"));
@@ -187,8 +227,7 @@ impl<'a> Round<'a> {
         let output = self.run(options);
         let message = String::from_utf8_lossy(&output.stderr);
         if !output.status.success() || output.stdout != self.workload.expected.as_bytes() {
-            let text = String::from_utf8_lossy(&output.stdout);
-            return Err(format!("going on gives another result\n{text}\n{message}"));
+            return Err(format!("going on gives another result\n{}", told(&output)));
         }
         if message.matches("damaged").count() != aftermath.damaged {
             return Err(format!("damage is not told as it is\n{message}"));
@@ -201,7 +240,16 @@ impl<'a> Round<'a> {
         if !aftermath.begin_anew && lost != aftermath.damaged {
             return Err(format!("{lost} finished runs were made again\n{message}"));
         }
-        Ok(message.lines().filter(|line| line.starts_with('[')).count())
+        let (made, kept) = (finished_runs(&output), before.len());
+        let useless = match aftermath.begin_anew {
+            true => kept,
+            false => aftermath.damaged + aftermath.foreign,
+        };
+        if made + kept != self.workload.cases.len() + useless {
+            let of_no_use = format!("{useless} of {kept} runs in the store were of no use");
+            return Err(format!("{of_no_use}, {made} were made\n{message}"));
+        }
+        Ok(made)
     }
 
     /// What tells an entry from another one in its place.
@@ -223,8 +271,9 @@ impl<'a> Round<'a> {
             for entry in fs::read_dir(&directory).expect("a directory").flatten() {
                 let (path, name) = (entry.path(), entry.file_name());
                 let name = name.to_string_lossy().into_owned();
-                let temporary = ["draft", ".draft", ".tmp", ".home", "tristack-"];
-                if temporary.iter().any(|prefix| name.starts_with(prefix)) {
+                let temporary = [".tmp", ".home", "tristack-"];
+                let temporary = temporary.iter().any(|prefix| name.starts_with(prefix));
+                if temporary || name.contains("draft-") {
                     left.push(path.clone());
                 }
                 if directory.ends_with("store/sessions") {
@@ -249,7 +298,26 @@ impl<'a> Round<'a> {
 
 fn may_leave_evidence(aftermath: &Aftermath) -> bool {
     let failed = |output: &Output| String::from_utf8_lossy(&output.stderr).contains("failed");
-    aftermath.outputs.iter().any(failed)
+    aftermath.all_outputs().any(failed)
+}
+
+/// Everything that a program said.
+fn told(output: &Output) -> String {
+    let [text, message] =
+        [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    format!("{text}\n{message}")
+}
+
+/// Number of runs that a program said it has finished, less those that it could not keep.
+pub fn finished_runs(output: &Output) -> usize {
+    let message = String::from_utf8_lossy(&output.stderr);
+    let finished = message.lines().filter(|line| line.starts_with('['));
+    let lost = message.matches("a finished run could not be kept");
+    finished.count().saturating_sub(lost.count())
+}
+
+pub fn is_running(child: &mut Child) -> bool {
+    child.try_wait().expect("it can be watched").is_none()
 }
 
 fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &'a Workload {

@@ -112,3 +112,73 @@ fn polished(coefficients: &[f64; 6], start: f64) -> f64 {
     }
     root
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coefficients of `leading` (z² − a)(z² − b)(z − c), lowest power first.
+    fn with_squares(leading: f64, [a, b, c]: [f64; 3]) -> [f64; 6] {
+        [-c * a * b, a * b, c * (a + b), -(a + b), -c, 1.0].map(|one| leading * one)
+    }
+
+    fn sorted(coefficients: [f64; 6]) -> Vec<f64> {
+        let mut roots: Vec<f64> = real_roots(&coefficients).collect();
+        roots.sort_by(f64::total_cmp);
+        roots
+    }
+
+    fn assert_roots(coefficients: [f64; 6], expected: &[f64]) {
+        let found = sorted(coefficients);
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (found, expected) in found.into_iter().zip(expected) {
+            let deviation = (found - expected).abs() / expected.abs();
+            assert!(deviation < 4e-15, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_product_of_polynomials_has_their_sums_of_products() {
+        let product = product([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]);
+        assert_eq!(product, [4.0, 13.0, 28.0, 27.0, 18.0]);
+    }
+
+    #[test]
+    fn a_polished_root_has_lost_its_error() {
+        let coefficients = with_squares(1.0, [4.0, -1.0, 0.5]);
+        for root in [0.5, 2.0, -2.0] {
+            let polished = polished(&coefficients, root * (1.0 + 1e-3));
+            assert!((polished - root).abs() < 4e-16 * root.abs(), "{polished}");
+        }
+    }
+
+    #[test]
+    fn roots_of_any_size_are_found_whatever_the_leading_coefficient() {
+        for (size, leading) in [
+            (1.0, 1.0),
+            (1e-6, 0.3),
+            (1e-3, 7e-4),
+            (1e4, 1e-3),
+            (1e-4, 40.0),
+        ] {
+            let roots = [-2.0, -1.0, 0.3, 1.0, 2.0].map(|root| size * root);
+            let square = size * size;
+            let coefficients = with_squares(leading, [square, 4.0 * square, 0.3 * size]);
+            assert_roots(coefficients, &roots);
+        }
+    }
+
+    #[test]
+    fn a_pair_that_is_nearly_real_is_no_root_however_small_it_is() {
+        // z² + 1e-10 beside roots of the order of 1.
+        assert_roots(with_squares(1.0, [-1e-10, 1.0, 0.5]), &[-1.0, 0.5, 1.0]);
+        // (z − s)² + (s/1000)² with s = 1e-4, times (z² − 1)(z − 2).
+        let small = [1e-8 * (1.0 + 1e-6), -2e-4, 1.0];
+        let quartic = product(small, [-1.0, 0.0, 1.0]);
+        let quintic = std::array::from_fn(|power| {
+            let lower = if power > 0 { quartic[power - 1] } else { 0.0 };
+            lower - 2.0 * quartic.get(power).copied().unwrap_or(0.0)
+        });
+        assert_roots(quintic, &[-1.0, 1.0, 2.0]);
+    }
+}

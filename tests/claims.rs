@@ -87,6 +87,7 @@ fn every_erratum_holds_and_is_needed() {
     let register = register();
     let printed = PaperTheory::printed();
     let rows = judge_theory(&register, &printed);
+    assert_eq!(rows.len(), register.claims.len());
     for (claim, row) in register.claims.iter().zip(&rows) {
         let Some(erratum) = claim
             .erratum

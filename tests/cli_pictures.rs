@@ -55,6 +55,7 @@ fn frames_come_from_the_same_run_and_their_forces_balance() {
     }
     // What the series knows is the same in both.
     let known = Frames::of_trace(&trace, case.protocol.wall_speed);
+    assert_eq!(known.frames.len(), frames.frames.len());
     for (one, other) in known.frames.iter().zip(&frames.frames) {
         assert!((one.wall_height - other.wall_height).abs() < 1e-9);
         for contact in one.contacts.iter() {

@@ -287,25 +287,16 @@ fn a_map_spreads_its_values_over_the_scale_of_its_axis() {
     assert_eq!(ratios, [3.0; 3]);
     let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5);
     let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12);
-    let decades = over_stiffness.axis_values(5);
-    assert_eq!(decades.len(), 5);
-    for (value, expected) in decades.into_iter().zip([1e1, 1e2, 1e3, 1e4, 1e5]) {
-        close(value, expected);
-    }
-    for (value, expected) in over_friction
-        .axis_values(4)
-        .into_iter()
-        .zip([0.2, 0.4, 0.6, 0.8])
-    {
-        close(value, expected);
-    }
-    for (value, expected) in over_ratio
-        .friction_values(3)
-        .into_iter()
-        .zip([0.02, 0.41, 0.8])
-    {
-        close(value, expected);
-    }
+    let all_close = |values: Vec<f64>, expected: &[f64]| {
+        assert_eq!(values.len(), expected.len());
+        values
+            .iter()
+            .zip(expected)
+            .for_each(|(&value, &expected)| close(value, expected));
+    };
+    all_close(over_stiffness.axis_values(5), &[1e1, 1e2, 1e3, 1e4, 1e5]);
+    all_close(over_friction.axis_values(4), &[0.2, 0.4, 0.6, 0.8]);
+    all_close(over_ratio.friction_values(3), &[0.02, 0.41, 0.8]);
     assert_eq!(over_friction.axis_values(1), [0.2]);
     close(over_stiffness.width((1e2, 1e4)), 1e2f64.ln());
     close(over_friction.width((0.3, 0.5)), 0.2);

@@ -99,6 +99,7 @@ fn critical_push_is_the_predicted_one_to_leading_order() {
     let bench = Bench::without_engines();
     let stacks = [1e2, 1e4].map(|stiffness| Stack::paper(0.2, stiffness));
     let found = critical_pushes(&stacks, &settings(&bench), &Silent).expect("native runs");
+    assert_eq!(found.len(), stacks.len());
     for (stack, found) in stacks.iter().zip(found) {
         let (found, predicted) = (found.expect("c appears"), critical_push(stack));
         assert!(found.width < 1e-4 * found.push);

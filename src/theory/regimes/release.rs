@@ -115,4 +115,21 @@ mod tests {
         let sine = 2.0 * tangent / (1.0 + tangent * tangent);
         assert!(((2.0 - direct) * sine - 1.0).abs() < 1e-15, "y = 0");
     }
+
+    #[test]
+    fn the_wall_comes_down_as_far_as_geometry_and_balance_have_it() {
+        let stack = Stack::paper(0.3, 1e2);
+        let settled_height = 3.7;
+        let Release::Ends(end) = Release::of(&stack, settled_height) else {
+            panic!("it ends under the wall");
+        };
+        let square = end.tangent * end.tangent;
+        // y = 0: the distance of the cylinders is 1/sin ψ.
+        let above = (1.0 - square) / (2.0 * end.tangent);
+        let squeezed = stack.epsilon() * end.force;
+        let height = (1.0 - end.floor_overlap) + above + (1.0 - squeezed);
+        assert!((settled_height - end.wall_travel - height).abs() < 1e-14);
+        let load = stack.epsilon() * (end.force + 3.0);
+        assert!((2.0 * end.floor_overlap - load).abs() < 1e-15);
+    }
 }

@@ -67,8 +67,8 @@ pub struct RegimeMap {
     pub frictions: (f64, f64),
 }
 
-/// Intervals of an axis in which a line is looked for.
-const SEARCHED_INTERVALS: usize = 64;
+/// Values of an axis between which a line is looked for.
+const SEARCHED_VALUES: usize = 65;
 
 impl RegimeMap {
     /// The three maps: over stiffness, cylinder friction and stiffness ratio, each about the paper's stack at
@@ -204,10 +204,10 @@ impl RegimeMap {
     }
 
     fn roots(&self, function: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
-        let values = self.axis_values(SEARCHED_INTERVALS + 1);
+        let values = self.axis_values(SEARCHED_VALUES);
         let heights: Vec<f64> = values.iter().map(|&value| function(value)).collect();
         let roots = (1..values.len()).filter_map(|index| {
-            let changes = heights[index - 1] * heights[index] < 0.0;
+            let changes = (heights[index - 1] < 0.0) != (heights[index] < 0.0);
             changes.then(|| bracketed_root(&function, values[index - 1], values[index]))?
         });
         roots.collect::<Vec<_>>().into_iter()
@@ -304,4 +304,23 @@ fn spread((lowest, highest): (f64, f64), count: usize, logarithmic: bool) -> Vec
         }
     };
     (0..count).map(between).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_found_also_where_it_meets_a_value_that_is_looked_at() {
+        let [map, ..] = RegimeMap::standard(2.5);
+        let values = map.axis_values(SEARCHED_VALUES);
+        let between = (values[30] * values[31]).sqrt();
+        for place in [values[1], values[30], between, values[63]] {
+            for sign in [1.0, -1.0] {
+                let found: Vec<f64> = map.roots(|value| sign * (value - place)).collect();
+                assert_eq!(found.len(), 1, "{place}: {found:?}");
+                assert!((found[0] / place - 1.0).abs() < 1e-14);
+            }
+        }
+    }
 }

@@ -633,7 +633,7 @@ fn send(signal: &str, process: u32) {
 }
 
 #[test]
-fn a_signal_that_is_ignored_from_the_start_interrupts_nothing() {
+fn a_terminal_that_closes_ends_nothing_that_was_told_to_ignore_it() {
     let bench = Bench::with_system_programs();
     let started = bench.path("started");
     let script = format!(

@@ -326,30 +326,27 @@ impl FollowedPath {
     fn next_knot(&self, to: f64) -> Option<Knot> {
         let last = self.last();
         let state = self.advance(last, to)?;
-        let on_the_way = Knot {
-            parameter: to,
-            state,
-            closed: last.closed,
-        };
         if self.contacts.bottom == BottomContact::Ignored || last.closed == (state.outward() < 0.0)
         {
-            return Some(on_the_way);
+            return Some(Knot {
+                parameter: to,
+                state,
+                closed: last.closed,
+            });
         }
         let outward = |parameter: f64| {
             let reached = self.advance(last, parameter);
             reached.map_or(f64::NAN, |state| state.outward())
         };
-        match bracketed_root(outward, last.parameter, to) {
-            None => Some(Knot {
-                closed: !last.closed,
-                ..on_the_way
-            }),
-            Some(change) => Some(Knot {
-                parameter: change,
-                state: self.advance(last, change)?,
-                closed: !last.closed,
-            }),
-        }
+        // Where it has only just changed, y = 0 up to round-off; the path has to go on all the same.
+        let change = bracketed_root(outward, last.parameter, to);
+        let change = change.filter(|&change| change > last.parameter);
+        let change = change.unwrap_or(to);
+        Some(Knot {
+            parameter: change,
+            state: self.advance(last, change)?,
+            closed: !last.closed,
+        })
     }
 
     fn leg_at(&self, parameter: f64) -> Leg {

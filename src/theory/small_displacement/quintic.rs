@@ -166,6 +166,8 @@ mod tests {
             let coefficients = with_squares(leading, [square, 4.0 * square, 0.3 * size]);
             assert_roots(coefficients, &roots);
         }
+        let whole = with_squares(1.0, [1.0, 4.0, 3.0]);
+        assert_roots(whole, &[-2.0, -1.0, 1.0, 2.0, 3.0]);
     }
 
     #[test]

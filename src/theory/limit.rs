@@ -1,6 +1,6 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
-use super::events::{Event, Path, locate};
+use super::events::{Event, Path, PathPoint, locate};
 use crate::stack::Stack;
 use serde::Serialize;
 
@@ -43,11 +43,14 @@ impl Limit {
     ) -> Self {
         let settled = path.settled();
         let own_weight = slip.is_some_and(|slip| slip < settled);
+        let force_at = |point: PathPoint| 2.0 * point.floor_overlap * stack.stiffness - 3.0;
+        // A wall cannot pull: where its force has fallen below 0 it has left the stack.
+        let slip = slip.filter(|&slip| own_weight || force_at(path.point(slip)) >= 0.0);
         let under_the_wall = slip.filter(|_| !own_weight);
         let event = first_event(path, slip, stack);
         let yields = under_the_wall.is_some() && event == Event::FloorSlip;
         let point = under_the_wall.map(|slip| path.point(slip));
-        let force = point.map(|point| 2.0 * point.floor_overlap * stack.stiffness - 3.0);
+        let force = point.map(force_at);
         Self {
             yield_force: force.filter(|_| yields),
             event,
@@ -88,7 +91,9 @@ fn explanation(event: Event, own_weight: bool) -> String {
             "the bottom cylinders touch before the floor slips, so that c = 0 does not hold"
         }
         Event::WallContact => "the top wall reaches the bottom cylinders before the floor slips",
-        Event::None => "the path of equilibria ends before the floor slips",
+        Event::None => {
+            "the path of equilibria, or the force of the wall, ends before the floor slips"
+        }
     };
     text.to_owned()
 }
@@ -96,7 +101,7 @@ fn explanation(event: Event, own_weight: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::root::bracketed_root;
-    use super::super::{closed_form_limit, pair_overlap};
+    use super::super::{closed_form_limit, followed_limit, pair_overlap};
     use super::*;
     use crate::stack::CRITICAL_FRICTION;
 
@@ -118,8 +123,26 @@ mod tests {
             assert!(reason.contains(part), "{reason}");
         }
         assert_eq!(closed_form_limit(&stack(0.3, 0.7, 2.5)).reason, None);
-        assert!(explanation(Event::None, false).contains("the path of equilibria ends"));
+        assert!(explanation(Event::None, false).contains("the force of the wall, ends"));
         assert_eq!(explanation(Event::FloorSlip, false), "the floor slips");
+    }
+
+    #[test]
+    fn a_stack_that_the_wall_has_left_before_the_floor_slips_has_no_yield_force() {
+        // Found at random: hardly any tangential stiffness, and cylinders that do not slip.
+        let stack = Stack {
+            stiffness_ratio: 741.0,
+            cylinder_friction: 127.0,
+            ..Stack::paper(0.315, 230.0)
+        };
+        let limit = followed_limit(&stack, 0.496, 0.824);
+        assert_eq!(limit.event, Event::None);
+        assert_eq!([limit.yield_force, limit.floor_slip_force], [None; 2]);
+        assert!(
+            limit
+                .reason
+                .is_some_and(|reason| reason.contains("the force of the wall"))
+        );
     }
 
     #[test]

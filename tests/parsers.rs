@@ -172,3 +172,8 @@ fn checkpoints_are_refused_or_can_be_taken_up() {
 fn no_accepted_stack_makes_a_theory_panic() {
     hold("stacks", 300);
 }
+
+#[test]
+fn no_accepted_experiment_makes_a_forecast_panic() {
+    hold("forecasts", 100);
+}

@@ -6,6 +6,7 @@
 pub mod case;
 pub mod checkpoints;
 pub mod claims;
+pub mod forecasts;
 pub mod logs;
 pub mod options;
 pub mod probes;
@@ -28,7 +29,7 @@ pub type Check = fn(&[u8]);
 pub type Seeds = fn() -> Vec<Seed>;
 
 /// Name, check and seeds of every target.
-pub const TARGETS: [(&str, Check, Seeds); 9] = [
+pub const TARGETS: [(&str, Check, Seeds); 10] = [
     ("case", case::check, case::seeds),
     ("options", options::check, options::seeds),
     ("claims", claims::check, claims::seeds),
@@ -38,6 +39,7 @@ pub const TARGETS: [(&str, Check, Seeds); 9] = [
     ("probes", probes::check, probes::seeds),
     ("checkpoints", checkpoints::check, checkpoints::seeds),
     ("stacks", stacks::check, stacks::seeds),
+    ("forecasts", forecasts::check, forecasts::seeds),
 ];
 
 /// `check` of `data`, which must not take more than `seconds` of a processor, however busy the machine is.

@@ -1,11 +1,9 @@
-//! The command line: flags, lists, ranges, quantities with units, names; and forecasts of what is accepted.
+//! The command line: flags, lists, ranges, quantities with units, names.
 
 use super::Seed;
 use std::ffi::OsString;
 use std::os::unix::ffi::OsStringExt;
-use tristack::experiment::{
-    ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
-};
+use tristack::experiment::{density, length, mass, modulus};
 
 /// One argument a line.
 pub fn check(data: &[u8]) {
@@ -15,53 +13,17 @@ pub fn check(data: &[u8]) {
     if let Err(refusal) = tristack::cli::check(program.chain(arguments)) {
         assert!(!refusal.to_string().is_empty());
     }
-    let words: Vec<&str> = lines
-        .filter_map(|line| std::str::from_utf8(line).ok())
-        .collect();
-    for word in &words {
+    for word in lines.filter_map(|line| std::str::from_utf8(line).ok()) {
         for read in [modulus, density, length, mass] {
             assert!(
                 read(word).is_ok_and(is_usable) || read(word).is_err_and(|why| !why.is_empty())
             );
         }
     }
-    check_forecast(&words);
 }
 
 fn is_usable(value: f64) -> bool {
     value.is_finite() && value > 0.0
-}
-
-/// A forecast from the first quantities of every kind, where there are some.
-fn check_forecast(words: &[&str]) {
-    let first =
-        |read: fn(&str) -> Result<f64, String>| words.iter().find_map(|word| read(word).ok());
-    let (Some(youngs_modulus), Some(density)) = (first(modulus), first(density)) else {
-        return;
-    };
-    let radius = first(length).unwrap_or(0.01);
-    let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
-    let number = |index: usize, otherwise: f64| numbers.get(index).copied().unwrap_or(otherwise);
-    let cylinder = Cylinder {
-        youngs_modulus,
-        poisson_ratio: number(1, 0.5),
-        density,
-        radius,
-        length: words
-            .iter()
-            .rev()
-            .find_map(|word| length(word).ok())
-            .unwrap_or(radius),
-    };
-    let experiment = Experiment {
-        mu_uncertainty: number(2, 0.0),
-        ..Experiment::new(cylinder, number(0, 0.3))
-    };
-    for estimate in ContactEstimate::ALL {
-        if let Err(refusal) = Forecast::new(&experiment, estimate) {
-            assert!(!refusal.to_string().is_empty());
-        }
-    }
 }
 
 pub fn seeds() -> Vec<Seed> {

@@ -14,6 +14,7 @@ const CURRENT: &str = "tristack store, format 2\n";
 /// # Errors
 /// If it has another one, or cannot be read or written.
 pub(super) fn check(root: &Path) -> Result<(), StoreError> {
+    std::fs::create_dir_all(root).map_err(ArchiveError::writing(root))?;
     // In this order: the format is written before the first run.
     let has_runs = root.join("runs").exists();
     let path = root.join(FILE);

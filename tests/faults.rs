@@ -508,10 +508,8 @@ fn nothing_is_started_after_an_interrupt() {
     common::assert_only(&bench.path("store/work"), &[]);
 }
 
-#[test]
-fn an_engine_that_dies_of_the_question_for_its_version_is_listed_without_one() {
-    let bench = Bench::with_system_programs();
-    bench.install("yade", "kill -SEGV $$");
+/// The version under which `bench` lists YADE.
+fn version_of_yade(bench: &Bench) -> String {
     let list = json(&common::standard_output(
         &mut bench.tristack("engines --format json"),
     ));
@@ -520,7 +518,27 @@ fn an_engine_that_dies_of_the_question_for_its_version_is_listed_without_one() {
         .expect("a list")
         .iter()
         .find(|engine| engine["engine"] == "yade");
-    assert_eq!(yade.expect("yade")["version"], "unknown");
+    let version = yade.expect("yade")["version"].as_str();
+    version.expect("a version").to_owned()
+}
+
+#[test]
+fn an_engine_that_dies_of_the_question_for_its_version_is_listed_without_one() {
+    let bench = Bench::with_system_programs();
+    bench.install("yade", "kill -SEGV $$");
+    assert_eq!(version_of_yade(&bench), "unknown");
+}
+
+#[test]
+fn a_question_for_the_version_that_is_killed_is_put_again() {
+    let bench = Bench::with_system_programs();
+    let asked = bench.path("asked");
+    let script = format!(
+        "[ -e '{0}' ] || {{ echo > '{0}'; kill -KILL $$; }}; echo Yade version: 1.2",
+        asked.display()
+    );
+    bench.install("yade", &script);
+    assert_eq!(version_of_yade(&bench), "1.2");
 }
 
 #[test]

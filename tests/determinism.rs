@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::Bench;
+use common::{Bench, OWN_PROGRAM, released_program};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,12 +23,8 @@ fn in_project(name: &str) -> PathBuf {
 }
 
 fn programs() -> Vec<PathBuf> {
-    let released = std::env::var_os("TRISTACK_RELEASE").map(|name| in_project("").join(name));
-    if let Some(released) = &released {
-        assert!(released.is_file(), "{} is not built", released.display());
-    }
-    let own = PathBuf::from(env!("CARGO_BIN_EXE_tristack"));
-    std::iter::once(own).chain(released).collect()
+    let own = PathBuf::from(OWN_PROGRAM);
+    std::iter::once(own).chain(released_program()).collect()
 }
 
 /// Digest of the series of every case, by the digest of the case.
@@ -97,13 +93,8 @@ fn many_in_a_vector_have_the_golden_bits_on_one_core_and_on_two_in_every_build()
     for program in programs() {
         for jobs in [1, 2] {
             let bench = Bench::without_engines();
-            let own = bench.process("crosscheck --engines native --format csv");
-            let mut command = Command::new(&program);
-            command
-                .args(own.get_args())
-                .args(["--jobs", &jobs.to_string()]);
-            command.env("TRISTACK_STORE", bench.path("store"));
-            let output = command.output().expect("it runs");
+            let line = format!("crosscheck --engines native --format csv --jobs {jobs}");
+            let output = bench.process_of(&program, &line).output().expect("it runs");
             let how = format!("{} on {jobs} cores", program.display());
             assert_eq!(output.status.code(), Some(0), "{how}");
             assert_golden(&stored(&bench), &how);
@@ -183,7 +174,7 @@ fn the_compiled_stepping_fuses_nothing_and_approximates_nothing() {
         println!("{instructions} instructions, {vectors} multiplications of eight");
         assert!(instructions > 10_000);
         // Where every operation on vectors is a call, none of them is in sight.
-        let released = program != Path::new(env!("CARGO_BIN_EXE_tristack"));
+        let released = program != Path::new(OWN_PROGRAM);
         if released && cfg!(target_arch = "x86_64") {
             assert!(vectors > 100, "{vectors} multiplications of eight");
         }

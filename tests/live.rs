@@ -3,8 +3,10 @@
 
 mod common;
 
-use common::{Bench, assert_only, json, network};
+use common::{Bench, OWN_PROGRAM, assert_only, json, network, released_program};
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
 use tristack::crosscheck::plan;
 use tristack::dem::compress_stack;
 use tristack::engine::{EngineName, FailureKind, Interrupt, Workplace};
@@ -23,19 +25,43 @@ fn installed() -> Vec<EngineName> {
     common::installed(&EXTERNAL)
 }
 
+/// The whole quick profile as `program` carries it out, with its files in `out` of the bench.
+fn quick_profile(program: &Path, engines: &[EngineName]) -> (Bench, Output) {
+    let names: Vec<&str> = engines.iter().map(|engine| engine.as_str()).collect();
+    let names = names.join(",");
+    let bench = Bench::with_system_programs();
+    let line = format!("crosscheck --engines native,{names} --format json --out out");
+    let output = bench.process_of(program, &line).output();
+    (bench, output.expect("it runs"))
+}
+
 #[test]
-fn all_installed_engines_agree_with_their_limit_on_the_quick_profile() {
+fn all_installed_engines_agree_with_their_limit_on_the_quick_profile_in_the_same_bytes_twice() {
     let installed = installed();
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|engine| engine.as_str()).collect();
-    let bench = Bench::with_system_programs();
-    let line = format!(
-        "crosscheck --engines native,{} --format json",
-        names.join(",")
-    );
-    let output = bench.tristack(&line).output().expect("it runs");
+    let own = PathBuf::from(OWN_PROGRAM);
+    let first = quick_profile(&own, &installed);
+    assert_live_agreement(&first, &installed);
+    let second = quick_profile(&released_program().unwrap_or(own), &installed);
+    assert_eq!(first.1.status, second.1.status);
+    assert!(first.1.stdout == second.1.stdout, "the printed rows differ");
+    let tables = [
+        "budget.csv",
+        "crosscheck.csv",
+        "crosscheck.json",
+        "crosscheck.md",
+    ];
+    assert_only(&first.0.path("out"), &tables);
+    for table in tables {
+        let [one, two] = [&first, &second]
+            .map(|(bench, _)| fs::read(bench.path("out").join(table)).expect("a table"));
+        assert!(one == two, "{table} differs");
+    }
+}
+
+fn assert_live_agreement((bench, output): &(Bench, Output), installed: &[EngineName]) {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
     let rows = json(&String::from_utf8_lossy(&output.stdout));
@@ -277,7 +303,7 @@ fn no_code_sees_the_network() {
 }
 
 /// The network of a program that runs in `directory` and is no guard.
-fn network_of_program_in(directory: &std::path::Path) -> Option<std::path::PathBuf> {
+fn network_of_program_in(directory: &Path) -> Option<PathBuf> {
     let processes = fs::read_dir("/proc").expect("processes").flatten();
     let mut programs = processes.filter(|process| {
         let here = fs::read_link(process.path().join("cwd"));
@@ -291,8 +317,8 @@ fn network_of_program_in(directory: &std::path::Path) -> Option<std::path::PathB
     fs::read_link(program.path().join("ns/net")).ok()
 }
 
-fn largest_deviation(left: &std::path::Path, right: &std::path::Path) -> f64 {
-    let read = |path: &std::path::Path| -> Vec<f64> {
+fn largest_deviation(left: &Path, right: &Path) -> f64 {
+    let read = |path: &Path| -> Vec<f64> {
         let mut reader = csv::Reader::from_path(path).expect("a series");
         let rows = reader.records().map(|row| row.expect("a row"));
         rows.flat_map(|row| {

@@ -14,6 +14,17 @@ use tempfile::TempDir;
 use tristack::engine::EngineName;
 use tristack::stack::sha256_hex;
 
+/// What was built for the tests.
+pub const OWN_PROGRAM: &str = env!("CARGO_BIN_EXE_tristack");
+
+/// The program that was released, if TRISTACK_RELEASE names it.
+pub fn released_program() -> Option<PathBuf> {
+    let name = std::env::var_os("TRISTACK_RELEASE")?;
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    assert!(program.is_file(), "{} is not built", program.display());
+    Some(program)
+}
+
 /// A place of its own for a test: store, programs in the search path, results.
 pub struct Bench {
     root: TempDir,
@@ -69,7 +80,12 @@ impl Bench {
 
     /// The same, as a process that can be watched and interrupted.
     pub fn process(&self, line: &str) -> std::process::Command {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tristack"));
+        self.process_of(Path::new(OWN_PROGRAM), line)
+    }
+
+    /// The same, of another `program` than the one that was built for the tests.
+    pub fn process_of(&self, program: &Path, line: &str) -> std::process::Command {
+        let mut command = std::process::Command::new(program);
         command
             .args(line.split_whitespace())
             .env("PATH", self.search_path())

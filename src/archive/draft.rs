@@ -100,7 +100,10 @@ pub(super) fn sync_directory(directory: &Path) -> Result<(), ArchiveError> {
 }
 
 /// Creates the directory for `target`, if there is none, and makes it last.
-pub(super) fn create_parent(target: &Path) -> Result<PathBuf, ArchiveError> {
+///
+/// # Errors
+/// If the file system refuses.
+pub fn create_parent(target: &Path) -> Result<PathBuf, ArchiveError> {
     let directory = parent(target);
     if !directory.is_dir() {
         fs::create_dir_all(&directory).map_err(ArchiveError::writing(&directory))?;

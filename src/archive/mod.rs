@@ -12,7 +12,7 @@ mod provenance;
 mod reading;
 
 pub use checksums::{seal, unseal};
-pub use draft::{remove_abandoned, write_atomically, write_atomically_via};
+pub use draft::{create_parent, remove_abandoned, write_atomically, write_atomically_via};
 pub use entry::{Archive, ArchiveError, Run};
 pub use probe_record::{Answer, ProbeRecord};
 pub use provenance::{Identity, Provenance, machine};

@@ -1,7 +1,7 @@
 //! Which version of the store's layout is on disk.
 
 use super::StoreError;
-use crate::archive::{ArchiveError, write_atomically};
+use crate::archive::{ArchiveError, create_parent, write_atomically};
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -14,7 +14,7 @@ const CURRENT: &str = "tristack store, format 2\n";
 /// # Errors
 /// If it has another one, or cannot be read or written.
 pub(super) fn check(root: &Path) -> Result<(), StoreError> {
-    std::fs::create_dir_all(root).map_err(ArchiveError::writing(root))?;
+    create_parent(&root.join(FILE))?;
     // In this order: the format is written before the first run.
     let has_runs = root.join("runs").exists();
     let path = root.join(FILE);

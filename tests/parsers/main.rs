@@ -2,7 +2,11 @@
 //! panic, and what they accept is sound. What that means stands in tests/soundness/, one file a family, where the
 //! long runs of tests/fuzz/run start from as well.
 
+#[path = "../common/mod.rs"]
+mod common;
+mod findings;
 #[allow(dead_code)] // The targets of cargo-fuzz use the rest.
+#[path = "../soundness/mod.rs"]
 mod soundness;
 
 use proptest::prelude::*;

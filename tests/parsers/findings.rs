@@ -1,46 +1,17 @@
 //! What was wrong in the handling of input and has been mended, one test a finding
 //! (reference/reliability/fuzz.json tells which).
 
-mod common;
-
-use common::{Bench, standard_error};
-use std::ffi::OsString;
+use super::common::{Bench, installed, standard_error};
+use super::soundness::scenes::{short_case, short_test};
+use super::soundness::{check_within, options};
 use std::path::Path;
 use tristack::archive::{ProbeRecord, Reading};
 use tristack::claims::Register;
-use tristack::crosscheck::plan;
 use tristack::dem::{Checkpoint, compress_stack, run_contact_test};
 use tristack::engine::{EngineName, Interrupt, Workplace, pyramid_in_log, version_in_answer};
 use tristack::report::run_svg;
-use tristack::stack::{Case, ContactTest, Convention, Launch, Pyramid, Stack};
+use tristack::stack::{Case, ContactTest, Convention, Pyramid};
 use tristack::trace::{Frames, Motion, SeriesError, Trace};
-
-/// A run of some hundred steps.
-fn short_case() -> Case {
-    let mut case = plan(
-        EngineName::Native,
-        &Stack::paper(0.3, 1e2),
-        Convention::PAPER,
-    )
-    .cases[0];
-    case.protocol.wall_travel *= 0.01;
-    case.protocol.sampling.fine_from_travel = 0.0;
-    case
-}
-
-fn short_test() -> ContactTest {
-    ContactTest {
-        convention: Convention::PAPER,
-        stiffness_ratio: 2.5,
-        floor_friction: 0.3,
-        cylinder_friction: 0.7,
-        time_step: 0.1,
-        steps: 3,
-        wall_height: 4.5,
-        wall_speed: 0.0,
-        launches: [Launch::at(0.0, 0.99), Launch::at(6.0, 2.0)],
-    }
-}
 
 /// It overflowed: a panic, or a record without rows that passed for one of 2⁶⁴ − 1 steps.
 #[test]
@@ -181,7 +152,7 @@ fn steps_that_took_less_than_no_time_are_refused() {
 /// They reached the deck as `null`.
 #[test]
 fn a_micro_test_with_a_number_that_is_none_is_not_put() {
-    for name in common::installed(&[EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]) {
+    for name in installed(&[EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]) {
         let directory = tempfile::tempdir().expect("a directory");
         let interrupt = Interrupt::new();
         let mut test = ContactTest {
@@ -246,9 +217,7 @@ fn deep_nesting_ends_no_parser() {
 /// Lists of options are no shorter than the command line.
 #[test]
 fn a_long_command_line_is_read_in_no_time() {
-    let start = std::time::Instant::now();
     let long = "1,".repeat(60_000) + "x";
-    let line = ["tristack", "theory", "--mu", &long, "--stiffness", &long];
-    assert!(tristack::cli::check(line.map(OsString::from)).is_err());
-    assert!(start.elapsed().as_secs() < 1);
+    let line = ["theory", "--mu", &long, "--stiffness", &long].join("\n");
+    check_within(1.0, options::check, line.as_bytes());
 }

@@ -4,6 +4,7 @@
 use super::common::{Bench, installed, standard_error};
 use super::soundness::scenes::{short_case, short_test};
 use super::soundness::{check_within, options};
+use std::ffi::OsString;
 use std::path::Path;
 use tristack::archive::{ProbeRecord, Reading};
 use tristack::claims::Register;
@@ -218,6 +219,8 @@ fn deep_nesting_ends_no_parser() {
 #[test]
 fn a_long_command_line_is_read_in_no_time() {
     let long = "1,".repeat(60_000) + "x";
-    let line = ["theory", "--mu", &long, "--stiffness", &long].join("\n");
-    check_within(1.0, options::check, line.as_bytes());
+    let words = ["theory", "--mu", &long, "--stiffness", &long];
+    check_within(1.0, options::check, words.join("\n").as_bytes());
+    let line = std::iter::once("tristack").chain(words);
+    assert!(tristack::cli::check(line.map(OsString::from)).is_err());
 }

@@ -1,18 +1,18 @@
 //! Nanoseconds per step and cylinder of pyramids: native, LAMMPS and LIGGGHTS, those that are installed.
 
-use tristack::bench::{BenchError, PyramidBench};
-use tristack::engine::{EngineName, Interrupt, Workplace};
-use tristack::report::{pyramid_rows, pyramid_table};
+use tristack::code::{Code, Interrupt, RunContext};
+use tristack::output::{pyramid_rows, pyramid_table};
+use tristack::study::cost::{BenchError, PyramidBench};
 
 fn main() -> Result<(), BenchError> {
     let everyone = PyramidBench::default();
-    let installed = |engine: &EngineName| engine.find().is_some();
+    let installed = |code: &Code| code.find().is_some();
     let bench = PyramidBench {
-        engines: everyone.engines.iter().copied().filter(installed).collect(),
+        codes: everyone.codes.iter().copied().filter(installed).collect(),
         ..everyone
     };
     let directory = tempfile::tempdir().expect("a directory for temporary files");
-    let costs = bench.measure(&Workplace::new(directory.path(), &Interrupt::new()))?;
+    let costs = bench.measure(&RunContext::new(directory.path(), &Interrupt::new()))?;
     print!("{}", pyramid_table(&pyramid_rows(&costs)).terminal());
     Ok(())
 }

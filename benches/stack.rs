@@ -1,11 +1,11 @@
 //! Native steps of the stack of three, at every width of vectors that this machine has.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use tristack::crosscheck::{MIDDLE_RUN, plan};
+use tristack::code::Code;
 use tristack::dem::{LaneWidth, OpenRun, OpenRuns, RunQueue};
-use tristack::engine::EngineName;
-use tristack::stack::{Case, Convention, Stack};
-use tristack::trace::{SeriesError, Trace};
+use tristack::model::{Case, ContactConvention, Stack};
+use tristack::series::{Series, SeriesError};
+use tristack::study::yield_force::{MIDDLE_RUN, plan};
 
 /// As many in each lane of every width.
 const CASES: usize = 16;
@@ -14,7 +14,7 @@ const CASES: usize = 16;
 fn cases() -> Vec<Case> {
     let frictions = (0..CASES).map(|index| 0.3 + 1e-3 * index as f64);
     let stacks = frictions.map(|friction| Stack::paper(friction, 1e3));
-    let plans = stacks.map(|stack| plan(EngineName::Native, &stack, Convention::PAPER));
+    let plans = stacks.map(|stack| plan(Code::Native, &stack, ContactConvention::PAPER));
     plans.map(|plan| plan.cases[MIDDLE_RUN]).collect()
 }
 
@@ -35,7 +35,7 @@ impl RunQueue for Queue<'_> {
         true
     }
 
-    fn ended(&mut self, _index: usize, series: Result<Trace, SeriesError>) {
+    fn ended(&mut self, _index: usize, series: Result<Series, SeriesError>) {
         series.expect("a whole series");
     }
 }

@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
-use tristack::stack::Stack;
+use tristack::model::Stack;
 use tristack::theory::{closed_form_limit, floor_slip_force, floor_slip_forces};
 
 /// Below, near and above the critical friction; the last needs the most steps.

@@ -2,10 +2,10 @@
 
 use std::io::Write;
 use std::process::ExitCode;
-use tristack::{cli, engine};
+use tristack::{cli, code};
 
 fn main() -> ExitCode {
-    engine::guard_foreign_programs();
+    code::guard_foreign_programs();
     let status = cli::run(std::env::args_os()).unwrap_or_else(|error| {
         // Whoever was to read it may have gone.
         let _ = writeln!(std::io::stderr(), "error: {error}");

@@ -32,7 +32,7 @@ fn refusal(bench: &Bench, line: &str, status: i32) -> String {
 
 #[test]
 fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (line, parts) in [
         (
             "theory --mu 0.3 --stiffness -5",
@@ -67,33 +67,33 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
             ["--pair-arm", "7", "from -1 to 1"],
         ),
         (
-            "simulate --engine native --mu 0.3 --stiffness 100 --dt 0.9",
+            "simulate --code native --mu 0.3 --stiffness 100 --dt 0.9",
             ["--dt", "0.9", "at most 4.05e-1"],
         ),
         (
-            "simulate --engine native --mu 0.3 --stiffness 100 --speed 0",
+            "simulate --code native --mu 0.3 --stiffness 100 --speed 0",
             ["--speed", "0", "above 0"],
         ),
         (
-            "simulate --engine native --mu 0.3 --stiffness 100 --time-limit -1",
+            "simulate --code native --mu 0.3 --stiffness 100 --time-limit -1",
             ["--time-limit", "-1", "seconds"],
         ),
         (
-            "simulate --engine abaqus --mu 0.3 --stiffness 100",
-            ["--engine", "abaqus", "liggghts"],
+            "simulate --code abaqus --mu 0.3 --stiffness 100",
+            ["--code", "abaqus", "liggghts"],
         ),
         (
-            "simulate --engine yade --mu 0.3 --stiffness 100 --floor-arm -1",
+            "simulate --code yade --mu 0.3 --stiffness 100 --floor-arm -1",
             ["--floor-arm", "-1", "-0.5 for yade"],
         ),
         (
-            "sweep --engine native --mu 0.5:0.1:0.1 --stiffness 100",
+            "sweep --code native --mu 0.5:0.1:0.1 --stiffness 100",
             ["--mu", "0.5:0.1:0.1", "A:B:STEP"],
         ),
         ("crosscheck --profile slow", ["--profile", "slow", "quick"]),
         (
-            "crosscheck --engines native,matlab",
-            ["--engines", "matlab", "yade"],
+            "crosscheck --codes native,matlab",
+            ["--codes", "matlab", "yade"],
         ),
     ] {
         let message = refusal(&bench, line, 1);
@@ -105,12 +105,12 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
 
 #[test]
 fn a_friction_at_which_nothing_yields_is_refused_with_the_range_that_does() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (mu, reason) in [
         ("0.05", "under its own weight"),
         ("0.8", "top wall reaches"),
     ] {
-        let line = format!("simulate --engine native --mu {mu} --stiffness 100 --out run");
+        let line = format!("simulate --code native --mu {mu} --stiffness 100 --out run");
         let message = refusal(&bench, &line, 1);
         assert!(message.contains(reason), "{message}");
         assert!(message.contains("between 0.0898 and 0.5399"), "{message}");
@@ -120,7 +120,7 @@ fn a_friction_at_which_nothing_yields_is_refused_with_the_range_that_does() {
 
 #[test]
 fn case_files_are_checked_key_by_key() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let changes = [
         (
             "stiffness = 100.0",
@@ -162,7 +162,7 @@ fn case_files_are_checked_key_by_key() {
     ];
     for (from, to, expected) in changes {
         fs::write(bench.path("case.toml"), CASE.replacen(from, to, 1)).expect("a case file");
-        let message = refusal(&bench, "simulate --engine native --case case.toml", 1);
+        let message = refusal(&bench, "simulate --code native --case case.toml", 1);
         assert!(message.contains("case.toml"), "{message}");
         assert!(message.contains(expected), "{message} lacks {expected}");
     }
@@ -170,17 +170,17 @@ fn case_files_are_checked_key_by_key() {
 
 #[test]
 fn the_unchanged_case_file_runs() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     fs::write(bench.path("case.toml"), CASE).expect("a case file");
     bench
-        .tristack("simulate --engine native --case case.toml")
+        .tristack("simulate --code native --case case.toml")
         .assert()
         .success();
 }
 
 #[test]
 fn a_case_file_that_cannot_be_read_is_named() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (name, expected) in [
         ("absent.toml", "absent.toml"),
         ("case.yaml", "must end in .toml or .json"),
@@ -188,24 +188,20 @@ fn a_case_file_that_cannot_be_read_is_named() {
         if name == "case.yaml" {
             fs::write(bench.path(name), CASE).expect("a case file");
         }
-        let message = refusal(
-            &bench,
-            &format!("simulate --engine native --case {name}"),
-            1,
-        );
+        let message = refusal(&bench, &format!("simulate --code native --case {name}"), 1);
         assert!(message.contains(expected), "{message}");
     }
 }
 
 #[test]
 fn a_directory_that_cannot_be_written_is_named_before_anything_runs() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     fs::write(bench.path("file"), "").expect("a file where a directory is wanted");
     for line in [
-        "simulate --engine native --mu 0.3 --stiffness 100 --out file/run",
-        "crosscheck --engines native --out file/results",
-        "crosscheck --engines native --store file/store",
-        "sweep --engine native --mu 0.3 --stiffness 100 --out file/curve",
+        "simulate --code native --mu 0.3 --stiffness 100 --out file/run",
+        "crosscheck --codes native --out file/results",
+        "crosscheck --codes native --store file/store",
+        "sweep --code native --mu 0.3 --stiffness 100 --out file/curve",
     ] {
         let message = refusal(&bench, line, 1);
         assert!(message.contains("cannot write file/"), "{message}");
@@ -214,13 +210,13 @@ fn a_directory_that_cannot_be_written_is_named_before_anything_runs() {
 }
 
 #[test]
-fn a_missing_engine_asked_for_by_name_is_an_error_with_the_remedy() {
-    let bench = Bench::without_engines();
+fn a_missing_code_asked_for_by_name_is_an_error_with_the_remedy() {
+    let bench = Bench::without_codes();
     for line in [
-        "crosscheck --engines liggghts",
-        "record --engines liggghts",
-        "simulate --engine liggghts --mu 0.3 --stiffness 100",
-        "sweep --engine liggghts --mu 0.3 --stiffness 100",
+        "crosscheck --codes liggghts",
+        "record --codes liggghts",
+        "simulate --code liggghts --mu 0.3 --stiffness 100",
+        "sweep --code liggghts --mu 0.3 --stiffness 100",
     ] {
         let message = refusal(&bench, line, 3);
         assert!(message.contains("liggghts is not installed"), "{message}");
@@ -230,7 +226,7 @@ fn a_missing_engine_asked_for_by_name_is_an_error_with_the_remedy() {
 
 #[test]
 fn wrong_usage_ends_with_status_1_and_help_with_0() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     refusal(&bench, "", 1);
     refusal(&bench, "frobnicate", 1);
     refusal(&bench, "theory --mu 0.3", 1);

@@ -4,19 +4,21 @@ use insta::assert_snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
-use tristack::archive::Run;
-use tristack::claims::{
+use tristack::code::Run;
+use tristack::code::{Code, Failure, Interrupt};
+use tristack::model::{CRITICAL_FRICTION, Case, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
     judge_theory,
 };
-use tristack::crosscheck::{Participant, Progress, Recorded, Settings, Survey, measure, plan};
-use tristack::engine::{EngineName, Failure, Interrupt};
-use tristack::reproduction::{
+use tristack::paper::reproduction::{
     Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
-    study_preparation,
 };
-use tristack::stack::{CRITICAL_FRICTION, Case, Convention, PAPER_STIFFNESS_RATIO, Stack};
-use tristack::store::Store;
+use tristack::runs::Store;
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::study::preparation::study_preparation;
+use tristack::study::regimes::Survey;
+use tristack::study::yield_force::{measure, plan};
 use tristack::theory::RegimeMap;
 
 /// How many displayed equations the paper numbers: in the text, in the End Matter, in the supplement.
@@ -215,7 +217,7 @@ struct Quiet;
 impl Progress for Quiet {
     fn planned(&self, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -231,13 +233,13 @@ fn native_reproduction() -> Reproduction {
         time_limit: None,
         interrupt: &interrupt,
     };
-    let native = [Participant::find(EngineName::Native)];
-    let names = [EngineName::Native];
+    let native = [SelectedCode::find(Code::Native)];
+    let names = [Code::Native];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()
         .flat_map(|&mu| [1e2, 1e4].map(|stiffness| Stack::paper(mu, stiffness)));
     let plans: Vec<_> = stacks
-        .map(|stack| plan(EngineName::Native, &stack, Convention::PAPER))
+        .map(|stack| plan(Code::Native, &stack, ContactConvention::PAPER))
         .collect();
     let scaling = measure(&scaling_measurements(&names), &native, &settings, &Quiet);
     let (series, _) = force_series(&native[0], &settings, &Quiet).expect("a native run");

@@ -6,8 +6,8 @@ use common::{Bench, json, standard_error, standard_output};
 
 #[test]
 fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
-    let bench = Bench::without_engines();
-    let line = "bench --engines native --repeats 1 --format json --out results";
+    let bench = Bench::without_codes();
+    let line = "bench --codes native --repeats 1 --format json --out results";
     let output = standard_output(&mut bench.tristack(line));
     assert_rows(&json(&output));
     let read = |name: &str| {
@@ -24,8 +24,8 @@ fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
 /// A row for each way of native, in the form that others rely on; the lanes are the measure.
 fn assert_rows(rows: &serde_json::Value) {
     let rows = rows.as_array().expect("a list");
-    let engines: Vec<_> = rows.iter().map(|row| row["engine"].as_str()).collect();
-    assert_eq!(engines, [Some("native-scalar"), Some("native-lanes")]);
+    let codes: Vec<_> = rows.iter().map(|row| row["code"].as_str()).collect();
+    assert_eq!(codes, [Some("native-scalar"), Some("native-lanes")]);
     for row in rows {
         let number = |key: &str| row[key].as_f64().expect(key);
         assert!(row["steps"].as_u64().expect("a count") > 1_000_000);
@@ -38,15 +38,15 @@ fn assert_rows(rows: &serde_json::Value) {
 }
 
 #[test]
-fn an_engine_that_is_not_installed_is_an_error() {
-    let bench = Bench::without_engines();
-    let mut command = bench.tristack("bench --engines liggghts --repeats 1");
+fn an_code_that_is_not_installed_is_an_error() {
+    let bench = Bench::without_codes();
+    let mut command = bench.tristack("bench --codes liggghts --repeats 1");
     command.assert().code(3);
     assert!(standard_error(&mut command).contains("liggghts is not installed"));
 }
 
 #[test]
 fn no_repeat_at_all_is_refused() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     bench.tristack("bench --repeats 0").assert().code(1);
 }

@@ -1,4 +1,4 @@
-//! `tristack crosscheck` on a machine without engines: native live, the others recorded.
+//! `tristack crosscheck` on a machine without codes: native live, the others recorded.
 
 mod common;
 
@@ -8,7 +8,7 @@ use std::fs;
 
 #[test]
 fn every_row_agrees_and_says_where_it_comes_from() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let output = bench
         .tristack("crosscheck --out results")
         .output()
@@ -40,7 +40,7 @@ fn every_row_agrees_and_says_where_it_comes_from() {
 
 #[test]
 fn rows_meet_the_accuracy_that_is_promised() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let rows = json(&standard_output(
         &mut bench.tristack("crosscheck --format json"),
     ));
@@ -60,12 +60,12 @@ fn rows_meet_the_accuracy_that_is_promised() {
 
 #[test]
 fn csv_has_the_agreed_columns() {
-    let bench = Bench::without_engines();
-    let text = standard_output(&mut bench.tristack("crosscheck --engines native --format csv"));
+    let bench = Bench::without_codes();
+    let text = standard_output(&mut bench.tristack("crosscheck --codes native --format csv"));
     assert_eq!(
         text.lines().next(),
         Some(
-            "engine,version,source,mu,stiffness,kappa,pair_arm,floor_arm,yield_force,uncertainty,\
+            "code,version,source,mu,stiffness,kappa,pair_arm,floor_arm,yield_force,uncertainty,\
              reference,reference_force,error,tolerance,model_form,verdict"
         )
     );
@@ -74,8 +74,8 @@ fn csv_has_the_agreed_columns() {
 
 #[test]
 fn a_second_crosscheck_runs_nothing_and_says_the_same() {
-    let bench = Bench::without_engines();
-    let line = "crosscheck --engines native --format csv";
+    let bench = Bench::without_codes();
+    let line = "crosscheck --codes native --format csv";
     let first = standard_output(&mut bench.tristack(line));
     let mut again = bench.tristack(line);
     assert_eq!(standard_output(&mut again), first);
@@ -84,8 +84,8 @@ fn a_second_crosscheck_runs_nothing_and_says_the_same() {
 
 #[test]
 fn fresh_ignores_the_store() {
-    let bench = Bench::without_engines();
-    let line = "crosscheck --engines native --fresh --format csv";
+    let bench = Bench::without_codes();
+    let line = "crosscheck --codes native --fresh --format csv";
     let first = standard_output(&mut bench.tristack(line));
     let mut again = bench.tristack(line);
     assert!(!standard_error(&mut again).contains("there already"));
@@ -94,9 +94,9 @@ fn fresh_ignores_the_store() {
 
 #[test]
 fn the_number_of_workers_does_not_change_a_digit() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let run = |jobs: u32| {
-        let line = format!("crosscheck --engines native --fresh --format csv --jobs {jobs}");
+        let line = format!("crosscheck --codes native --fresh --format csv --jobs {jobs}");
         standard_output(&mut bench.tristack(&line))
     };
     assert_eq!(run(1), run(4));
@@ -104,7 +104,7 @@ fn the_number_of_workers_does_not_change_a_digit() {
 
 #[test]
 fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let reference = bench.path("reference/yade");
     copy_recordings("yade", &reference, |provenance| {
         provenance.replace("\"deck_hash\": \"", "\"deck_hash\": \"0")
@@ -116,13 +116,13 @@ fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(message.contains("made with another deck"), "{message}");
     assert!(
-        message.contains("tristack record --engines yade"),
+        message.contains("tristack record --codes yade"),
         "{message}"
     );
     let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let verdicts = |engine: &str, verdict: &str| {
+    let verdicts = |code: &str, verdict: &str| {
         let rows = rows.as_array().expect("a list").iter();
-        rows.filter(|row| row["engine"] == engine && row["verdict"] == verdict)
+        rows.filter(|row| row["code"] == code && row["verdict"] == verdict)
             .count()
     };
     assert_eq!(verdicts("yade", "missing"), 18);
@@ -134,8 +134,8 @@ fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     assert_eq!(verdicts("native", "agrees"), 18);
 }
 
-fn copy_recordings(engine: &str, target: &std::path::Path, change: impl Fn(&str) -> String) {
-    let source = format!("{}/reference/{engine}", env!("CARGO_MANIFEST_DIR"));
+fn copy_recordings(code: &str, target: &std::path::Path, change: impl Fn(&str) -> String) {
+    let source = format!("{}/reference/{code}", env!("CARGO_MANIFEST_DIR"));
     for entry in fs::read_dir(source).expect("recorded runs").flatten() {
         let copy = target.join(entry.file_name());
         copy_run(&entry.path(), &copy, |file, text| match file {
@@ -151,7 +151,7 @@ fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
     let output = command.output().expect("it runs");
     let rows = json(&String::from_utf8_lossy(&output.stdout));
     let own = rows.as_array().expect("a list").iter();
-    let own = own.filter(|row| row["engine"] == "yade");
+    let own = own.filter(|row| row["code"] == "yade");
     let verdicts = own.map(|row| row["verdict"].as_str().expect("a word").to_owned());
     let verdicts = verdicts.collect();
     (
@@ -162,7 +162,7 @@ fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
 
 #[test]
 fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     copy_recordings("yade", &bench.path("reference/yade"), |provenance| {
         provenance.replace("\"version\": \"20", "\"version\": \"21")
     });
@@ -179,8 +179,8 @@ fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
 }
 
 #[test]
-fn the_recorded_probe_of_another_engine_does_not_stand_in() {
-    let bench = Bench::without_engines();
+fn the_recorded_probe_of_another_code_does_not_stand_in() {
+    let bench = Bench::without_codes();
     copy_recordings("yade", &bench.path("reference/yade"), str::to_owned);
     let probes = bench.path("reference/probes");
     fs::create_dir_all(&probes).expect("a directory");
@@ -200,8 +200,8 @@ fn the_recorded_probe_of_another_engine_does_not_stand_in() {
 
 #[test]
 fn shortcuts_are_measured_and_refused_where_nobody_knows_them() {
-    let bench = Bench::without_engines();
-    let sweep = "sweep --engine native --mu 0.2:0.4:0.1 --stiffness 1e3";
+    let bench = Bench::without_codes();
+    let sweep = "sweep --code native --mu 0.2:0.4:0.1 --stiffness 1e3";
     let text = standard_output(&mut bench.tristack(&format!("{sweep} --shortcuts --format json")));
     for row in json(&text).as_array().expect("rows") {
         assert_eq!(row["verdict"], "agrees", "{row}");
@@ -209,7 +209,7 @@ fn shortcuts_are_measured_and_refused_where_nobody_knows_them() {
     }
     let plain = standard_output(&mut bench.tristack(&format!("{sweep} --format json")));
     assert_ne!(plain, text, "shortcuts change the last digits");
-    let simulated = "simulate --engine yade --mu 0.2 --stiffness 1e3 --shortcuts";
+    let simulated = "simulate --code yade --mu 0.2 --stiffness 1e3 --shortcuts";
     let refusal = standard_error(&mut bench.tristack(simulated));
     assert!(
         refusal.contains("--shortcuts") && refusal.contains("native takes them"),

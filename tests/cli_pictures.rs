@@ -7,11 +7,11 @@ use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
 use tristack::dem::{compress_stack, compress_stack_into_frames};
-use tristack::report::{run_svg, telling_panels, vtk_series};
-use tristack::stack::Case;
-use tristack::trace::{Frame, Frames, Partner};
+use tristack::model::Case;
+use tristack::output::{representative_panels, run_svg, vtk_series};
+use tristack::series::{Frame, Frames, Partner};
 
-const RUN: &str = "simulate --engine native --mu 0.3 --stiffness 1e2";
+const RUN: &str = "simulate --code native --mu 0.3 --stiffness 1e2";
 
 fn run(bench: &Bench, more: &str) -> Case {
     let line = format!("{RUN} --out run {more}");
@@ -36,14 +36,14 @@ fn resultants(frame: &Frame) -> [[f64; 2]; 3] {
 
 #[test]
 fn frames_come_from_the_same_run_and_their_forces_balance() {
-    let case = run(&Bench::without_engines(), "");
-    let (trace, frames) = compress_stack_into_frames(&case, || true).expect("a finite series");
+    let case = run(&Bench::without_codes(), "");
+    let (series, frames) = compress_stack_into_frames(&case, || true).expect("a finite series");
     assert_eq!(
-        trace,
+        series,
         compress_stack(&case, || true).expect("a finite series")
     );
     let epsilon = case.stack.epsilon();
-    for panel in &telling_panels(&frames)[..2] {
+    for panel in &representative_panels(&frames)[..2] {
         for sum in resultants(panel.frame) {
             assert!(sum[0].abs() < 2e-2 * epsilon, "{} {sum:?}", panel.title);
             assert!(
@@ -54,7 +54,7 @@ fn frames_come_from_the_same_run_and_their_forces_balance() {
         }
     }
     // What the series knows is the same in both.
-    let known = Frames::of_trace(&trace, case.protocol.wall_speed);
+    let known = Frames::of_trace(&series, case.protocol.wall_speed);
     assert_eq!(known.frames.len(), frames.frames.len());
     for (one, other) in known.frames.iter().zip(&frames.frames) {
         assert!((one.wall_height - other.wall_height).abs() < 1e-9);
@@ -70,12 +70,12 @@ fn frames_come_from_the_same_run_and_their_forces_balance() {
 
 #[test]
 fn svg_shows_rest_yield_and_collapse_with_their_forces() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let case = run(&bench, "--svg stack.svg");
     let picture = fs::read_to_string(bench.path("stack.svg")).expect("a picture");
     let (_, frames) = compress_stack_into_frames(&case, || true).expect("a finite series");
     assert_eq!(picture, run_svg("native", &case, &frames));
-    let titles: Vec<String> = telling_panels(&frames)
+    let titles: Vec<String> = representative_panels(&frames)
         .iter()
         .map(|panel| format!("{}: {:.4}", panel.title, panel.frame.wall_force))
         .collect();
@@ -89,9 +89,9 @@ fn svg_shows_rest_yield_and_collapse_with_their_forces() {
 
 #[test]
 fn svg_of_an_external_code_leaves_out_what_it_does_not_report() {
-    let case = run(&Bench::without_engines(), "");
-    let trace = compress_stack(&case, || true).expect("a finite series");
-    let frames = Frames::of_trace(&trace, case.protocol.wall_speed);
+    let case = run(&Bench::without_codes(), "");
+    let series = compress_stack(&case, || true).expect("a finite series");
+    let frames = Frames::of_trace(&series, case.protocol.wall_speed);
     let picture = run_svg("liggghts", &case, &frames);
     assert!(picture.contains("liggghts reports the forces of floor and wall alone"));
     assert!(!picture.contains(">a</tspan>"));
@@ -128,17 +128,17 @@ fn times(directory: &Path) -> Vec<(f64, String)> {
 
 #[test]
 fn vtk_series_says_what_the_series_says() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     fs::create_dir(bench.path("para")).expect("a directory");
     fs::write(bench.path("para/cylinders_9999.vtp"), "of an earlier run").expect("a file");
     fs::write(bench.path("para/cylinders_mine.vtp"), "of the user").expect("a file");
     let case = run(&bench, "--vtk para");
-    let trace = compress_stack(&case, || true).expect("a finite series");
+    let series = compress_stack(&case, || true).expect("a finite series");
     let sets = times(&bench.path("para"));
-    assert_eq!(sets.len(), 2 * trace.samples().len());
+    assert_eq!(sets.len(), 2 * series.samples().len());
     assert!(!bench.path("para/cylinders_9999.vtp").exists());
     assert!(bench.path("para/cylinders_mine.vtp").exists());
-    for (sample, pair) in trace.samples().iter().zip(sets.chunks(2)) {
+    for (sample, pair) in series.samples().iter().zip(sets.chunks(2)) {
         let [cylinders, contacts] = [&pair[0], &pair[1]].map(|(time, file)| {
             assert_eq!(*time, sample.time);
             fs::read_to_string(bench.path("para").join(file)).expect("a row")

@@ -30,14 +30,14 @@ fn elastomer<'a>(more: &[&'a str]) -> Vec<&'a str> {
 
 #[test]
 fn table_sets_the_estimates_side_by_side() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let words = elastomer(&["--length", "1 cm"]);
     assert_snapshot!(standard_output(&mut predict(&bench, &words)));
 }
 
 #[test]
 fn range_covers_the_uncertainty_of_the_friction() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let more = [
         "--length",
         "1 cm",
@@ -57,7 +57,7 @@ fn range_covers_the_uncertainty_of_the_friction() {
 /// The paper: E ~ 1 MPa, rho ~ 1e3, L ~ 1 cm give epsilon ~ 1e-4 and, with m = 1 g, f ~ 1e2 N.
 #[test]
 fn elastomer_of_the_paper_is_reproduced() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let words = elastomer(&["--length", "3.1831 mm", "--format", "json"]);
     let forecast = json(&standard_output(&mut predict(&bench, &words)));
     let estimate = &forecast["estimates"][0];
@@ -75,7 +75,7 @@ fn elastomer_of_the_paper_is_reproduced() {
 /// The paper: wood of the same mass needs 1e5 N, which is E of some 1 GPa; 10 GPa would be 1e6 N.
 #[test]
 fn wood_of_the_paper_is_reproduced_across_the_grain() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (modulus, exponent) in [("1 GPa", 5.0), ("10 GPa", 6.0)] {
         let line =
             "--mass|1 g|--radius|12.6 mm|--length|4.01 mm|--poisson|0.3|--mu|0.3|--format|json";
@@ -91,7 +91,7 @@ fn wood_of_the_paper_is_reproduced_across_the_grain() {
 
 #[test]
 fn wooden_cylinders_of_the_movies() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "--youngs|1 GPa|--mass|21.9 g|--radius|20 mm|--length|40 mm|--poisson|0.3|--mu|0.2";
     let words: Vec<&str> = line.split('|').collect();
     assert_snapshot!(standard_output(&mut predict(&bench, &words)));
@@ -99,7 +99,7 @@ fn wooden_cylinders_of_the_movies() {
 
 #[test]
 fn what_does_not_yield_says_what_happens_instead() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (mu, what) in [
         ("0.05", "under its own weight"),
         ("0.9", "the top wall reaches"),
@@ -118,7 +118,7 @@ fn what_does_not_yield_says_what_happens_instead() {
 
 #[test]
 fn csv_has_a_line_an_estimate() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let words = elastomer(&["--length", "1 cm", "--format", "csv"]);
     let text = standard_output(&mut predict(&bench, &words));
     assert_snapshot!(text.lines().next().expect("a header"));
@@ -127,7 +127,7 @@ fn csv_has_a_line_an_estimate() {
 
 #[test]
 fn wrong_input_is_named_with_what_would_be_accepted() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (more, parts) in [
         (vec!["--length", "1 kg"], vec!["--length", "1 kg", "cm, mm"]),
         (vec!["--length", "1"], vec!["--length", "'1'", "unit"]),
@@ -159,7 +159,7 @@ fn wrong_input_is_named_with_what_would_be_accepted() {
 
 #[test]
 fn cylinders_too_soft_to_stand_are_refused() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "--youngs|10 Pa|--density|1 g/cm3|--radius|0.1 m|--length|0.1 m|--mu|0.3";
     let words: Vec<&str> = line.split('|').collect();
     let message = standard_error(&mut predict(&bench, &words));

@@ -7,17 +7,17 @@ use common::{Bench, json, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
-use tristack::archive::ProbeRecord;
-use tristack::archive::{seal, unseal};
-use tristack::engine::EngineName;
-use tristack::stack::ContactTest;
-use tristack::trace::MotionRow;
+use tristack::code::Code;
+use tristack::files::{seal, unseal};
+use tristack::model::ContactTest;
+use tristack::runs::ProbeRecord;
+use tristack::series::MotionRow;
 
 const PROPERTIES_OF_ONE_ENGINE: usize = 41;
 
 #[test]
-fn every_property_of_every_engine_is_as_declared() {
-    let bench = Bench::without_engines();
+fn every_property_of_every_code_is_as_declared() {
+    let bench = Bench::without_codes();
     let output = bench.tristack("probe").output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
@@ -47,7 +47,7 @@ fn without_uncertainties(table: &str) -> String {
 
 #[test]
 fn findings_are_within_the_promised_accuracy() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let findings = json(&standard_output(&mut bench.tristack("probe --format json")));
     let findings = findings.as_array().expect("a list");
     assert_eq!(findings.len(), 6 * PROPERTIES_OF_ONE_ENGINE);
@@ -55,7 +55,7 @@ fn findings_are_within_the_promised_accuracy() {
         let number = |key: &str| finding[key].as_f64().expect("a number");
         let declared = number("declared");
         let scale = if declared == 0.0 { 1.0 } else { declared.abs() };
-        let promised = if finding["engine"] == "native" {
+        let promised = if finding["code"] == "native" {
             1e-9
         } else {
             1e-6
@@ -68,22 +68,22 @@ fn findings_are_within_the_promised_accuracy() {
 
 #[test]
 fn csv_has_the_agreed_columns() {
-    let bench = Bench::without_engines();
-    let text = standard_output(&mut bench.tristack("probe --engines native --format csv"));
-    let header = "engine,version,property,measured,uncertainty,declared,verdict";
+    let bench = Bench::without_codes();
+    let text = standard_output(&mut bench.tristack("probe --codes native --format csv"));
+    let header = "code,version,property,measured,uncertainty,declared,verdict";
     assert_eq!(text.lines().next(), Some(header));
     assert_eq!(text.lines().count(), 1 + PROPERTIES_OF_ONE_ENGINE);
 }
 
 #[test]
-fn an_engine_whose_probe_contradicts_its_declaration_is_not_judged() {
+fn an_code_whose_probe_contradicts_its_declaration_is_not_judged() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     replay::install_probe(&bench, |row| MotionRow {
         wall_force: row.wall_force * 1.001,
         ..row
     });
-    let mut command = bench.tristack("crosscheck --engines yade --format json");
+    let mut command = bench.tristack("crosscheck --codes yade --format json");
     let output = command.output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{message}");
@@ -99,19 +99,19 @@ fn an_engine_whose_probe_contradicts_its_declaration_is_not_judged() {
         assert_eq!(row["error"], serde_json::Value::Null);
     }
     bench
-        .tristack("probe --engines yade --format json")
+        .tristack("probe --codes yade --format json")
         .assert()
         .code(2);
 }
 
 #[test]
-fn an_engine_that_does_not_answer_the_probe_is_not_judged() {
+fn an_code_that_does_not_answer_the_probe_is_not_judged() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let script = fs::read_to_string(bench.path("programs/yade")).expect("the fake");
     let dumb = script.replace("result=probe.csv;;", "exit 7;;");
     bench.install("yade", dumb.trim_start_matches("#!/bin/sh\n"));
-    let mut command = bench.tristack("crosscheck --engines yade --format json");
+    let mut command = bench.tristack("crosscheck --codes yade --format json");
     let output = command.output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(4), "{message}");
@@ -119,14 +119,14 @@ fn an_engine_that_does_not_answer_the_probe_is_not_judged() {
         message.contains("its contact convention could not be measured: yade failed"),
         "{message}"
     );
-    bench.tristack("probe --engines yade").assert().code(3);
+    bench.tristack("probe --codes yade").assert().code(3);
 }
 
 #[test]
 fn a_damaged_probe_in_the_store_is_made_anew() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let line = "probe --engines yade --format csv";
+    let line = "probe --codes yade --format csv";
     let first = standard_output(&mut bench.tristack(line));
     fs::write(stored_probe(&bench), "{").expect("damage");
     let message = standard_error(&mut bench.tristack(line));
@@ -145,7 +145,7 @@ fn stored_probe(bench: &Bench) -> PathBuf {
 
 /// As if the code had been told something else, say another damping, when it was probed.
 fn told_otherwise(probe: String) -> String {
-    let hash = "\"told_hash\":\"";
+    let hash = "\"input_hash\":\"";
     assert!(probe.contains(hash));
     probe.replacen(hash, &format!("{hash}0"), 1)
 }
@@ -161,7 +161,7 @@ fn unsealed(path: &Path) -> String {
 fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let line = "probe --engines yade --format csv";
+    let line = "probe --codes yade --format csv";
     let first = standard_output(&mut bench.tristack(line));
     let stored = stored_probe(&bench);
     let kept = unsealed(&stored);
@@ -175,7 +175,7 @@ fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
 
 #[test]
 fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let probes = bench.path("reference/probes");
     fs::create_dir_all(&probes).expect("a directory");
     let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
@@ -193,7 +193,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
         "{message}"
     );
     assert!(
-        message.contains("tristack record --engines lammps"),
+        message.contains("tristack record --codes lammps"),
         "{message}"
     );
 }
@@ -204,16 +204,12 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
     let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
     let record = ProbeRecord::load(&recorded).expect("a record");
     let test = record.expect("it is there").answers[0].test;
-    let floors = [
-        EngineName::Yade,
-        EngineName::YadeFacet,
-        EngineName::YadeWall,
-    ];
+    let floors = [Code::Yade, Code::YadeFacet, Code::YadeWall];
     let hashes = floors.map(|floor| floor.probe_hash(&test));
     assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[0]);
     let mut other = test;
     other.convention.restitution *= 1.0 + 1e-12;
-    for name in EngineName::ALL {
+    for name in Code::ALL {
         assert_ne!(name.probe_hash(&test), name.probe_hash(&other), "{name}");
     }
 }
@@ -224,11 +220,11 @@ fn a_record_from_another_machine_stays_valid() {
     let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
     let record = ProbeRecord::load(&recorded).expect("a record");
     let record = record.expect("it is there");
-    let todays = |test: &ContactTest| EngineName::Lammps.probe_hash(test);
+    let todays = |test: &ContactTest| Code::Lammps.probe_hash(test);
     assert_eq!(record.outdated(todays), None);
     let mut asked: Vec<ContactTest> = record.answers.iter().map(|one| one.test).collect();
     for test in &mut asked {
-        test.launches[0].spin *= 1.0 + 1e-11;
+        test.initial_motions[0].spin *= 1.0 + 1e-11;
     }
     let motions = record.answer(&asked).expect("all are answered");
     let recorded = record.answers.iter().map(|one| one.motion.clone());

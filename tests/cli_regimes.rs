@@ -8,7 +8,7 @@ use std::fs;
 
 #[test]
 fn regimes_are_printed_and_written_and_all_agree() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let output = bench
         .tristack("regimes --points 2 --out regimes")
         .output()
@@ -31,7 +31,7 @@ fn regimes_are_printed_and_written_and_all_agree() {
     let header = read("regimes.csv").lines().next().map(str::to_owned);
     assert_eq!(
         header.as_deref(),
-        Some("map,mu,stiffness,mu_d,kappa,event,stage,force,T,largest_force,consequence,then")
+        Some("map,mu,stiffness,mu_d,kappa,event,stage,force,T,largest_force,failure_mode,then")
     );
     assert_eq!(read("regimes.csv").lines().count(), 1 + 3 * 25 * 40);
     assert!(read("regimes.md").contains("`tristack regimes --points 2`"));
@@ -41,7 +41,7 @@ fn regimes_are_printed_and_written_and_all_agree() {
 
 #[test]
 fn wrong_values_are_refused_by_the_name_of_their_flag() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for (line, flag) in [
         ("regimes --kappa -1", "`--kappa` is -1"),
         ("regimes --kappa nan", "`--kappa` is NaN"),

@@ -1,4 +1,4 @@
-//! `tristack simulate`, `sweep` and `engines`, as a user sees them.
+//! `tristack simulate`, `sweep` and `codes`, as a user sees them.
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::{Bench, assert_only, json, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 
-const RUN: &str = "simulate --engine native --mu 0.3 --stiffness 1e2";
+const RUN: &str = "simulate --code native --mu 0.3 --stiffness 1e2";
 
 fn without_time(text: &str) -> String {
     let keep = |line: &&str| !line.contains("wall time") && !line.contains("seconds");
@@ -15,13 +15,13 @@ fn without_time(text: &str) -> String {
 
 #[test]
 fn table_shows_both_estimators() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     assert_snapshot!(without_time(&standard_output(&mut bench.tristack(RUN))));
 }
 
 #[test]
 fn json_has_the_agreed_keys_and_the_same_numbers_everywhere() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let text = standard_output(&mut bench.tristack(&format!("{RUN} --format json")));
     assert_snapshot!(without_time(&text));
     assert!(json(&text)["seconds"].is_f64());
@@ -29,7 +29,7 @@ fn json_has_the_agreed_keys_and_the_same_numbers_everywhere() {
 
 #[test]
 fn out_holds_case_series_and_summary() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     bench
         .tristack(&format!("{RUN} --out run"))
         .assert()
@@ -44,13 +44,13 @@ fn out_holds_case_series_and_summary() {
 
 #[test]
 fn a_case_file_repeats_the_run_bit_by_bit() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     bench
         .tristack(&format!("{RUN} --out first"))
         .assert()
         .success();
     bench
-        .tristack("simulate --engine native --case first/case.json --out second")
+        .tristack("simulate --code native --case first/case.json --out second")
         .assert()
         .success();
     let series = |run: &str| fs::read(bench.path(run).join("series.csv")).expect("a series");
@@ -59,7 +59,7 @@ fn a_case_file_repeats_the_run_bit_by_bit() {
 
 #[test]
 fn native_takes_any_arms() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = format!("{RUN} --pair-arm -0.5 --floor-arm -1 --format json");
     let run = json(&standard_output(&mut bench.tristack(&line)));
     let slip = run["slip_force"].as_f64().expect("a number");
@@ -69,7 +69,7 @@ fn native_takes_any_arms() {
 
 #[test]
 fn an_explicit_speed_is_taken_literally() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = format!("{RUN} --speed 1e-3 --dt 0.05 --format json");
     let run = json(&standard_output(&mut bench.tristack(&line)));
     assert_eq!(run["case"]["protocol"]["wall_speed"], 1e-3);
@@ -78,8 +78,8 @@ fn an_explicit_speed_is_taken_literally() {
 
 #[test]
 fn sweep_is_a_judged_yield_curve() {
-    let bench = Bench::without_engines();
-    let line = "sweep --engine native --mu 0.05:0.55:0.1 --stiffness 1e2 --out curve";
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.05:0.55:0.1 --stiffness 1e2 --out curve";
     let mut command = bench.tristack(line);
     assert_snapshot!(standard_output(&mut command));
     assert_only(&bench.path("curve"), &["sweep.csv", "sweep.json"]);
@@ -87,8 +87,8 @@ fn sweep_is_a_judged_yield_curve() {
 
 #[test]
 fn sweep_says_why_a_point_does_not_yield() {
-    let bench = Bench::without_engines();
-    let line = "sweep --engine native --mu 0.05 --stiffness 1e2";
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.05 --stiffness 1e2";
     let message = standard_error(&mut bench.tristack(line));
     assert!(
         message.contains("slides on the floor under its own weight"),
@@ -98,9 +98,9 @@ fn sweep_says_why_a_point_does_not_yield() {
 }
 
 #[test]
-fn engines_lists_what_is_not_installed_with_a_remedy() {
-    let bench = Bench::without_engines();
-    let text = standard_output(&mut bench.tristack("engines"));
+fn codes_lists_what_is_not_installed_with_a_remedy() {
+    let bench = Bench::without_codes();
+    let text = standard_output(&mut bench.tristack("codes"));
     let (native, external): (Vec<&str>, Vec<&str>) =
         text.lines().partition(|line| line.contains("native"));
     assert!(native[0].contains(env!("CARGO_PKG_VERSION")));

@@ -7,14 +7,14 @@ use insta::assert_snapshot;
 
 #[test]
 fn table_shows_every_theory() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "theory --mu 0.2,critical,0.3,0.9 --stiffness 1e2";
     assert_snapshot!(standard_output(&mut bench.tristack(line)));
 }
 
 #[test]
 fn json_of_one_case_is_an_object_with_the_agreed_keys() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let text =
         standard_output(&mut bench.tristack("theory --mu 0.2 --stiffness 1e2 --format json"));
     let case = json(&text);
@@ -39,7 +39,7 @@ fn json_of_one_case_is_an_object_with_the_agreed_keys() {
 
 #[test]
 fn json_of_several_cases_is_a_list() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "theory --mu 0.2,0.3 --stiffness 1e2,1e3 --format json";
     let list = json(&standard_output(&mut bench.tristack(line)));
     assert_eq!(list.as_array().map(Vec::len), Some(4));
@@ -47,7 +47,7 @@ fn json_of_several_cases_is_a_list() {
 
 #[test]
 fn a_theory_that_is_not_valid_gives_null_and_a_reason() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "theory --mu 0.05 --stiffness 1e2 --format json";
     let case = json(&standard_output(&mut bench.tristack(line)));
     for theory in ["naive", "perturbation", "elastic", "quasistatic"] {
@@ -59,7 +59,7 @@ fn a_theory_that_is_not_valid_gives_null_and_a_reason() {
 
 #[test]
 fn arms_change_the_quasistatic_limit_alone() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let plain = "theory --mu 0.3 --stiffness 1e2 --format json";
     let arms = format!("{plain} --pair-arm -0.5 --floor-arm -1");
     let plain = json(&standard_output(&mut bench.tristack(plain)));
@@ -73,7 +73,7 @@ fn arms_change_the_quasistatic_limit_alone() {
 
 #[test]
 fn csv_has_one_line_a_case() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let line = "theory --mu 0.2,0.3 --stiffness 1e2 --format csv";
     let text = standard_output(&mut bench.tristack(line));
     let header = text.lines().next().expect("a header");
@@ -83,13 +83,13 @@ fn csv_has_one_line_a_case() {
 
 #[test]
 fn every_command_has_help_with_an_example() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     for command in [
         "theory",
         "simulate",
         "sweep",
         "crosscheck",
-        "engines",
+        "codes",
         "probe",
         "record",
         "regimes",

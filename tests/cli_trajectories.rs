@@ -1,4 +1,4 @@
-//! `tristack trajectories` on a machine without engines: the twins live, the codes recorded.
+//! `tristack trajectories` on a machine without codes: the twins live, the codes recorded.
 
 mod common;
 
@@ -12,7 +12,7 @@ const TIME_STEPS: usize = 3;
 
 #[test]
 fn every_comparison_agrees_and_says_where_it_comes_from() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let mut command = bench.tristack("trajectories --out results");
     let output = command.output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
@@ -37,7 +37,7 @@ fn every_comparison_agrees_and_says_where_it_comes_from() {
 
 #[test]
 fn rows_meet_the_accuracy_and_the_orders_that_are_promised() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let rows = json(&standard_output(
         &mut bench.tristack("trajectories --format json"),
     ));
@@ -68,12 +68,12 @@ fn rows_meet_the_accuracy_and_the_orders_that_are_promised() {
 
 #[test]
 fn csv_has_the_agreed_columns() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let text = standard_output(&mut bench.tristack("trajectories --format csv"));
     assert_eq!(
         text.lines().next(),
         Some(
-            "engine,version,source,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
+            "code,version,source,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
              first_above_1e-4,first_above_1e-2,order,documented_order,round_off,step_error,verdict"
         )
     );
@@ -81,16 +81,16 @@ fn csv_has_the_agreed_columns() {
 }
 
 #[test]
-fn the_native_engine_is_refused_as_a_code() {
-    let bench = Bench::without_engines();
+fn the_native_code_is_refused_as_a_code() {
+    let bench = Bench::without_codes();
     let output = bench
-        .tristack("trajectories --engines native")
+        .tristack("trajectories --codes native")
         .output()
         .expect("it runs");
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(
-        message.contains("`--engines` is native, but must be liggghts, yade,")
+        message.contains("`--codes` is native, but must be liggghts, yade,")
             && message.contains("what they are compared with"),
         "{message}"
     );
@@ -98,7 +98,7 @@ fn the_native_engine_is_refused_as_a_code() {
 
 #[test]
 fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let mut command = bench.tristack("trajectories --format json");
     command.env("TRISTACK_REFERENCE", bench.path("nothing"));
     let output = command.output().expect("it runs");
@@ -123,7 +123,7 @@ fn copy_probes(target: &Path) {
 
 #[test]
 fn a_code_whose_convention_is_not_known_is_not_judged() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     copy_recordings(&bench.path("reference/trajectories"), |_, series| series);
     copy_probes(&bench.path("reference/probes"));
     fs::remove_file(bench.path("reference/probes/lammps.json")).expect("it was there");
@@ -134,7 +134,7 @@ fn a_code_whose_convention_is_not_known_is_not_judged() {
     let rows = json(&String::from_utf8_lossy(&output.stdout));
     let rows = rows.as_array().expect("a list");
     let (of_lammps, others): (Vec<_>, Vec<_>) =
-        rows.iter().partition(|row| row["engine"] == "lammps");
+        rows.iter().partition(|row| row["code"] == "lammps");
     assert_eq!(of_lammps.len(), 1);
     assert_eq!(of_lammps[0]["verdict"], "inconclusive");
     assert!(others.iter().all(|row| row["verdict"] == "agrees"));
@@ -143,9 +143,9 @@ fn a_code_whose_convention_is_not_known_is_not_judged() {
 /// Two parts in a million on one code's force are seen, and seen as what they are.
 #[test]
 fn a_code_whose_force_is_slightly_off_differs() {
-    let bench = Bench::without_engines();
-    copy_recordings(&bench.path("reference/trajectories"), |engine, series| {
-        if engine == "lammps" {
+    let bench = Bench::without_codes();
+    copy_recordings(&bench.path("reference/trajectories"), |code, series| {
+        if code == "lammps" {
             with_wall_force_times(1.0 + 2e-6, &series)
         } else {
             series
@@ -164,7 +164,7 @@ fn a_code_whose_force_is_slightly_off_differs() {
     );
     let rows = json(&String::from_utf8_lossy(&output.stdout));
     for row in rows.as_array().expect("a list") {
-        let disturbed = row["engine"] == "lammps" && row["quantity"] == "wall_force";
+        let disturbed = row["code"] == "lammps" && row["quantity"] == "wall_force";
         match row["branch"].as_str() {
             _ if !disturbed => assert_eq!(row["verdict"], "agrees", "{row}"),
             Some("compression") => assert_eq!(row["verdict"], "differs", "{row}"),
@@ -189,12 +189,9 @@ fn with_wall_force_times(factor: f64, series: &str) -> String {
 
 fn copy_recordings(target: &Path, change: impl Fn(&str, String) -> String) {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
-    for engine in fs::read_dir(source).expect("recorded engines").flatten() {
-        let name = engine.file_name().to_string_lossy().into_owned();
-        for run in fs::read_dir(engine.path())
-            .expect("recorded runs")
-            .flatten()
-        {
+    for code in fs::read_dir(source).expect("recorded codes").flatten() {
+        let name = code.file_name().to_string_lossy().into_owned();
+        for run in fs::read_dir(code.path()).expect("recorded runs").flatten() {
             let copy = target.join(&name).join(run.file_name());
             copy_run(&run.path(), &copy, |file, text| match file {
                 "series.csv" => change(&name, text),

@@ -1,7 +1,7 @@
 //! The fast closed form against the differential equation of the path (docs/theory.md, Eq. 17), summed as
 //! a Taylor series in double-double arithmetic: neither integrating factor nor quadrature nor root finder.
 
-use tristack::stack::CRITICAL_FRICTION;
+use tristack::model::CRITICAL_FRICTION;
 use tristack::theory::floor_slip_forces;
 use twofloat::TwoFloat;
 

@@ -3,17 +3,18 @@
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use proptest::sample::select;
-use tristack::crosscheck::{Workload, plan};
-use tristack::engine::{EngineName, ParameterFile, Task};
-use tristack::reproduction::plan_preparation;
-use tristack::stack::{
-    Case, ContactTest, Convention, Launch, Preparation, Protocol, Pyramid, Sampling, SideWalls,
-    Stack,
+use tristack::code::{Code, ParameterFile, Task};
+use tristack::model::{
+    Case, ContactConvention, ContactTest, InitialMotion, Preparation, Protocol, Pyramid, Sampling,
+    SideWalls, Stack,
 };
+use tristack::runs::Workload;
+use tristack::study::preparation::plan_preparation;
+use tristack::study::yield_force::plan;
 
 fn parameters() -> serde_json::Value {
-    let convention = EngineName::Yade.convention();
-    let cases = plan(EngineName::Yade, &Stack::paper(0.3, 1e2), convention).cases;
+    let convention = Code::Yade.convention();
+    let cases = plan(Code::Yade, &Stack::paper(0.3, 1e2), convention).cases;
     cases[1].parameters()
 }
 
@@ -30,8 +31,7 @@ fn lammps_and_liggghts_are_told_in_string_variables() {
 /// A change here means that the recorded runs have to be made again.
 #[test]
 fn decks_are_the_ones_that_were_recorded() {
-    let hashes = [EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]
-        .map(EngineName::static_deck_hash);
+    let hashes = [Code::Liggghts, Code::Yade, Code::Lammps].map(Code::static_deck_hash);
     assert_snapshot!(hashes.join("\n"));
 }
 
@@ -53,7 +53,7 @@ fn examples_for_running_by_hand_are_complete() {
 #[test]
 fn examples_of_side_walls_are_complete() {
     let stack = Stack::paper(0.2, 1e2);
-    let plan = plan_preparation(EngineName::Yade, EngineName::Yade, &stack, Some(0.005));
+    let plan = plan_preparation(Code::Yade, Code::Yade, &stack, Some(0.005));
     let parameters = plan.cases()[1].parameters();
     let given = names_in_json(&ParameterFile::Json.content(&parameters));
     let json = include_str!("../yade_scripts/side_walls_parameters.json");
@@ -91,8 +91,8 @@ fn cases() -> impl Strategy<Value = Case> {
         },
     );
     let speeds = (-9.0..-2.0, 1e-3..1.0, 0.0..1.0, prop::option::of(0.0..0.5));
-    (stack, speeds, 1e-3..1.0, select(&EngineName::ALL[..])).prop_map(
-        |(stack, (speed, step, fine, push), restitution, engine)| {
+    (stack, speeds, 1e-3..1.0, select(&Code::ALL[..])).prop_map(
+        |(stack, (speed, step, fine, push), restitution, code)| {
             let wall_travel: f64 = 0.5;
             let wall_speed = 10f64.powf(speed);
             let preparation = match push {
@@ -104,9 +104,9 @@ fn cases() -> impl Strategy<Value = Case> {
             };
             Case {
                 stack,
-                convention: Convention {
+                convention: ContactConvention {
                     restitution,
-                    ..engine.convention()
+                    ..code.convention()
                 },
                 protocol: Protocol {
                     preparation,
@@ -177,7 +177,7 @@ proptest! {
     #[test]
     fn parameters_of_every_micro_test_are_plain_numbers(x in -1e3..1e3f64, spin in -1e3..1e3f64, steps in 0u64..1000) {
         let test = ContactTest {
-            convention: Convention::PAPER,
+            convention: ContactConvention::PAPER,
             stiffness_ratio: 2.5,
             floor_friction: 0.3,
             cylinder_friction: 0.7,
@@ -185,7 +185,7 @@ proptest! {
             steps,
             wall_height: x.abs() + 3.0,
             wall_speed: 0.0,
-            launches: [Launch { spin, ..Launch::at(x, 1.0) }, Launch::at(x + 3.0, 1.0)],
+            initial_motions: [InitialMotion { spin, ..InitialMotion::at(x, 1.0) }, InitialMotion::at(x + 3.0, 1.0)],
         };
         prop_assert!(is_typed(&test.parameters()));
     }

@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tristack::archive::Archive;
-use tristack::crosscheck::Profile;
+use tristack::code::Code;
 use tristack::dem::compress_stack;
-use tristack::engine::EngineName;
-use tristack::stack::{Case, sha256_hex};
+use tristack::model::{Case, sha256_hex};
+use tristack::runs::Archive;
+use tristack::study::yield_force::Profile;
 
 const GOLDEN: &str = "reference/golden/native_series.sha256";
 
@@ -39,7 +39,7 @@ fn golden() -> Digests {
 }
 
 fn cases() -> Vec<Case> {
-    let measurements = Profile::Quick.measurements(&[EngineName::Native]);
+    let measurements = Profile::Quick.measurements(&[Code::Native]);
     let cases = measurements.into_iter().flat_map(|one| one.cases);
     cases.collect()
 }
@@ -81,7 +81,7 @@ fn stored(bench: &Bench) -> Digests {
             let path = entry.path();
             let name = path.strip_prefix(&root).expect("it is below");
             let run = archive.load(name).expect("whole").expect("there");
-            digests.insert(run.case.content_hash(), sha256_hex(&run.trace.to_csv()));
+            digests.insert(run.case.content_hash(), sha256_hex(&run.series.to_csv()));
         }
     }
     digests
@@ -92,8 +92,8 @@ fn many_in_a_vector_have_the_golden_bits_on_one_core_and_on_two_in_every_build()
     let mut tables = Vec::new();
     for program in programs() {
         for jobs in [1, 2] {
-            let bench = Bench::without_engines();
-            let line = format!("crosscheck --engines native --format csv --jobs {jobs}");
+            let bench = Bench::without_codes();
+            let line = format!("crosscheck --codes native --format csv --jobs {jobs}");
             let output = bench.process_of(&program, &line).output().expect("it runs");
             let how = format!("{} on {jobs} cores", program.display());
             assert_eq!(output.status.code(), Some(0), "{how}");

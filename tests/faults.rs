@@ -1,4 +1,4 @@
-//! Engines that crash, hang or lie: each becomes a `failed` verdict with everything needed to look into
+//! Codes that crash, hang or lie: each becomes a `failed` verdict with everything needed to look into
 //! it, and nothing else is lost.
 
 mod common;
@@ -8,12 +8,12 @@ use common::{Bench, json, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
-use tristack::crosscheck::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
+use tristack::code::{Code, ParameterFile, Task};
 use tristack::dem::compress_stack;
-use tristack::engine::{EngineName, ParameterFile, Task};
-use tristack::stack::{Case, Stack, sha256_hex};
+use tristack::model::{Case, Stack, sha256_hex};
+use tristack::study::yield_force::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
 
-const CROSSCHECK: &str = "crosscheck --engines yade --format json";
+const CROSSCHECK: &str = "crosscheck --codes yade --format json";
 
 /// The slowest run of one stack of the quick profile.
 fn is_victim(case: &Case) -> bool {
@@ -48,7 +48,7 @@ fn crosscheck(bench: &Bench, options: &str) -> Outcome {
 }
 
 /// A crosscheck in which one run is disturbed; checks that exactly its row has failed, that the message
-/// names engine, case and run directory, and that everything else agrees.
+/// names code, case and run directory, and that everything else agrees.
 fn with_victim(disturbance: impl Fn() -> Disturbance, options: &str, expected: &[&str]) {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |case| {
@@ -293,8 +293,8 @@ fn a_friction_wrong_by_a_ten_thousandth_differs_and_is_named() {
             }
             let mut wrong = *case;
             wrong.stack.floor_friction *= factor;
-            let trace = compress_stack(&wrong, || true).expect("a finite series");
-            Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
+            let series = compress_stack(&wrong, || true).expect("a finite series");
+            Disturbance::Series(String::from_utf8(series.to_csv()).expect("text"))
         });
         let outcome = crosscheck(&bench, "");
         assert_eq!(outcome.status, Some(2), "{}", outcome.message);
@@ -314,8 +314,8 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
         }
         let mut wrong = *case;
         wrong.stack.floor_friction *= 1.0 + 5e-8;
-        let trace = compress_stack(&wrong, || true).expect("a finite series");
-        Disturbance::Series(String::from_utf8(trace.to_csv()).expect("text"))
+        let series = compress_stack(&wrong, || true).expect("a finite series");
+        Disturbance::Series(String::from_utf8(series.to_csv()).expect("text"))
     });
     let outcome = crosscheck(&bench, "");
     assert_eq!(outcome.status, Some(4), "{}", outcome.message);
@@ -326,7 +326,7 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
 #[test]
 fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
     let stack = Stack::paper(0.3, 100.0);
-    let cases = plan(EngineName::Yade, &stack, EngineName::Yade.convention()).cases;
+    let cases = plan(Code::Yade, &stack, Code::Yade.convention()).cases;
     let (middle, short) = (cases[MIDDLE_RUN], cases[SHORT_RAMP_RUN]);
     for (victim, other) in [(middle, short), (short, middle)] {
         let bench = Bench::with_system_programs();
@@ -345,7 +345,7 @@ fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
 }
 
 #[test]
-fn an_engine_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
+fn an_code_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
     let bench = Bench::with_system_programs();
     replay::install_with_ending(&bench, "sleep 600");
     let outcome = crosscheck(&bench, "--time-limit 1");
@@ -378,7 +378,7 @@ fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
         .flatten()
         .next();
     let case = entry.expect("a run").path().join("case.json");
-    let line = format!("simulate --engine yade --out run --case {}", case.display());
+    let line = format!("simulate --code yade --out run --case {}", case.display());
     bench.tristack(&line).assert().code(0);
     assert!(bench.path("run/series.csv").exists());
     bench.install("yade", "exit 0");
@@ -399,7 +399,7 @@ fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     let entry = fs::read_dir(format!("{}/reference/yade", env!("CARGO_MANIFEST_DIR")));
     let entry = entry.expect("recorded runs").flatten().next();
     let case = entry.expect("a run").path().join("case.json");
-    let line = format!("simulate --engine yade --out run --case {}", case.display());
+    let line = format!("simulate --code yade --out run --case {}", case.display());
     bench.tristack(&line).assert().code(0);
     let decks = ["run/stack.py", "run/contacts.py", "run/parameters.json"];
     let read = || decks.map(|deck| fs::read(bench.path(deck)).expect("a deck"));
@@ -412,12 +412,12 @@ fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
 }
 
 #[test]
-fn a_case_that_the_engine_cannot_run_touches_nothing() {
+fn a_case_that_the_code_cannot_run_touches_nothing() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let native = "simulate --engine native --mu 0.3 --stiffness 100 --out run";
+    let native = "simulate --code native --mu 0.3 --stiffness 100 --out run";
     bench.tristack(native).assert().code(0);
-    let line = "simulate --engine yade --case run/case.json --out run";
+    let line = "simulate --code yade --case run/case.json --out run";
     bench.tristack(line).assert().code(1).stdout("");
     for name in ["case.json", "series.csv", "summary.json"] {
         assert!(bench.path("run").join(name).exists(), "{name} is gone");
@@ -425,12 +425,12 @@ fn a_case_that_the_engine_cannot_run_touches_nothing() {
 }
 
 #[test]
-fn record_keeps_every_run_for_machines_without_the_engine() {
+fn record_keeps_every_run_for_machines_without_the_code() {
     let bench = Bench::with_system_programs();
     let recorded = replay::install(&bench, |_| Disturbance::None);
     let reference = bench.path("reference");
     for set in ["probe", "crosscheck", "trajectories"] {
-        let mut record = bench.tristack(&format!("record --engines yade --only {set}"));
+        let mut record = bench.tristack(&format!("record --codes yade --only {set}"));
         record
             .env("TRISTACK_REFERENCE", &reference)
             .assert()
@@ -439,13 +439,13 @@ fn record_keeps_every_run_for_machines_without_the_engine() {
     let entries = fs::read_dir(reference.join("yade")).expect("recordings");
     assert_eq!(entries.count(), recorded);
 
-    let machine = Bench::without_engines();
+    let machine = Bench::without_codes();
     let mut crosscheck = machine.tristack("crosscheck --format json");
     let output = crosscheck.env("TRISTACK_REFERENCE", &reference).output();
     let rows = json(&String::from_utf8_lossy(&output.expect("it runs").stdout));
     let rows = rows.as_array().expect("a list").iter();
     let agreeing = rows.filter(|row| {
-        row["engine"] == "yade" && row["source"] == "recorded" && row["verdict"] == "agrees"
+        row["code"] == "yade" && row["source"] == "recorded" && row["verdict"] == "agrees"
     });
     assert_eq!(agreeing.count(), 18);
 }
@@ -462,7 +462,7 @@ fn record_keeps_the_old_recordings_if_a_run_fails() {
     });
     let reference = bench.path("reference");
     fs::create_dir_all(reference.join("yade/old")).expect("an old recording");
-    let mut record = bench.tristack("record --engines yade");
+    let mut record = bench.tristack("record --codes yade");
     record
         .env("TRISTACK_REFERENCE", &reference)
         .assert()
@@ -484,7 +484,7 @@ fn nothing_is_started_after_an_interrupt() {
         );
     }
     let child = bench
-        .process("crosscheck --engines liggghts,lammps --jobs 2")
+        .process("crosscheck --codes liggghts,lammps --jobs 2")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -511,19 +511,19 @@ fn nothing_is_started_after_an_interrupt() {
 /// The version under which `bench` lists YADE.
 fn version_of_yade(bench: &Bench) -> String {
     let list = json(&common::standard_output(
-        &mut bench.tristack("engines --format json"),
+        &mut bench.tristack("codes --format json"),
     ));
     let yade = list
         .as_array()
         .expect("a list")
         .iter()
-        .find(|engine| engine["engine"] == "yade");
+        .find(|code| code["code"] == "yade");
     let version = yade.expect("yade")["version"].as_str();
     version.expect("a version").to_owned()
 }
 
 #[test]
-fn an_engine_that_dies_of_the_question_for_its_version_is_listed_without_one() {
+fn an_code_that_dies_of_the_question_for_its_version_is_listed_without_one() {
     let bench = Bench::with_system_programs();
     bench.install("yade", "kill -SEGV $$");
     assert_eq!(version_of_yade(&bench), "unknown");
@@ -547,7 +547,7 @@ fn a_liggghts_log_with_a_value_that_is_not_a_number_fails() {
     let log =
         " step time wall_for\n0 0 nan 0 2.7 0 1 0.9 0 -1 0.9 0 0.1 -0.02 0.1 0.02\nLoop time of 1";
     bench.install("liggghts", &format!("printf '%s\n' '{log}' > log.liggghts"));
-    let line = "simulate --engine liggghts --mu 0.3 --stiffness 100";
+    let line = "simulate --code liggghts --mu 0.3 --stiffness 100";
     let message = standard_error(&mut bench.tristack(line));
     bench.tristack(line).assert().code(3);
     assert!(
@@ -604,7 +604,7 @@ fn a_damaged_run_in_the_store_is_computed_anew_with_a_warning() {
 }
 
 #[test]
-fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
+fn an_interrupt_stops_the_code_keeps_what_is_done_and_ends_with_130() {
     let bench = Bench::with_system_programs();
     let pid_file = bench.path("pid");
     replay::install(&bench, |case| {
@@ -625,7 +625,7 @@ fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    let engine = wait_for(|| {
+    let code = wait_for(|| {
         fs::read_to_string(&pid_file)
             .ok()
             .filter(|text| text.ends_with('\n'))
@@ -635,7 +635,7 @@ fn an_interrupt_stops_the_engine_keeps_what_is_done_and_ends_with_130() {
     assert_eq!(output.status.code(), Some(130));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("interrupted with "), "{message}");
-    let gone = || (!fs::exists(format!("/proc/{}", engine.trim())).unwrap_or(true)).then_some(());
+    let gone = || (!fs::exists(format!("/proc/{}", code.trim())).unwrap_or(true)).then_some(());
     wait_for(gone);
 }
 
@@ -659,7 +659,7 @@ fn a_terminal_that_closes_ends_nothing_that_was_told_to_ignore_it() {
         started.display()
     );
     bench.install("lmp", &script);
-    let tristack = bench.process("simulate --engine lammps --mu 0.3 --stiffness 100");
+    let tristack = bench.process("simulate --code lammps --mu 0.3 --stiffness 100");
     let mut command = std::process::Command::new("env");
     command
         .args(["--ignore-signal=HUP"])
@@ -687,7 +687,7 @@ fn a_terminal_that_closes_ends_nothing_that_was_told_to_ignore_it() {
 fn simulate_reports_a_crash_with_the_last_lines_and_keeps_the_deck() {
     let bench = Bench::with_system_programs();
     bench.install("liggghts", "echo 'ERROR: Invalid model specified'; exit 1");
-    let line = "simulate --engine liggghts --mu 0.3 --stiffness 100 --out run";
+    let line = "simulate --code liggghts --mu 0.3 --stiffness 100 --out run";
     let message = standard_error(&mut bench.tristack(line));
     bench.tristack(line).assert().code(3).stdout("");
     assert!(
@@ -703,10 +703,10 @@ fn simulate_reports_a_crash_with_the_last_lines_and_keeps_the_deck() {
 }
 
 #[test]
-fn an_engine_that_succeeds_without_output_fails() {
+fn an_code_that_succeeds_without_output_fails() {
     let bench = Bench::with_system_programs();
     bench.install("liggghts", "exit 0");
-    let line = "simulate --engine liggghts --mu 0.3 --stiffness 100";
+    let line = "simulate --code liggghts --mu 0.3 --stiffness 100";
     let message = standard_error(&mut bench.tristack(line));
     bench.tristack(line).assert().code(3);
     assert!(message.contains("cannot read log.liggghts"), "{message}");

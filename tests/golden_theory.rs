@@ -2,7 +2,7 @@
 //! `reference/golden/generate.py` (Newton on the unreduced equations, Taylor series, Richardson).
 
 use serde::Deserialize;
-use tristack::stack::Stack;
+use tristack::model::Stack;
 use tristack::theory::{Event, Predictions, followed_limit};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {

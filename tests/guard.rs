@@ -118,7 +118,7 @@ fn a_lower_limit_stays() {
 
 #[test]
 fn a_guard_is_nothing_to_type() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let output = bench.tristack("--help").output().expect("it runs");
     let help = String::from_utf8(output.stdout).expect("text");
     assert!(!help.contains("guard"), "{help}");

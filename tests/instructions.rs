@@ -6,8 +6,8 @@
 
 use std::process::Command;
 use tristack::dem::{LaneWidth, OpenRun, OpenRuns, RunQueue};
-use tristack::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
-use tristack::trace::{SeriesError, Trace};
+use tristack::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
+use tristack::series::{Series, SeriesError};
 
 /// Lanes, and instructions per step and case when the loop was last looked at: of a release, which is what users
 /// run, …
@@ -102,7 +102,7 @@ fn case(index: usize, steps: u64) -> Case {
     let duration = TIME_STEP * steps as f64;
     Case {
         stack: Stack::paper(0.3 + 1e-3 * index as f64, 1e3),
-        convention: Convention::PAPER,
+        convention: ContactConvention::PAPER,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 100.0,
@@ -138,7 +138,7 @@ impl RunQueue for Queue<'_> {
         true
     }
 
-    fn ended(&mut self, _index: usize, series: Result<Trace, SeriesError>) {
+    fn ended(&mut self, _index: usize, series: Result<Series, SeriesError>) {
         series.expect("a whole series");
     }
 }

@@ -4,19 +4,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tristack::archive::{Run, seal, unseal};
-use tristack::crosscheck::plan;
-use tristack::engine::{EngineName, Failure, Interrupt, Workplace};
-use tristack::stack::{Case, Convention, Preparation, Stack};
-use tristack::store::Store;
-use tristack::trace::Trace;
+use tristack::code::Run;
+use tristack::code::{Code, Failure, Interrupt, RunContext};
+use tristack::files::{seal, unseal};
+use tristack::model::{Case, ContactConvention, Preparation, Stack};
+use tristack::runs::Store;
+use tristack::series::Series;
+use tristack::study::yield_force::plan;
 
 /// Some 1e7 steps each.
 fn long_cases(count: usize) -> Vec<Case> {
     let frictions = [0.2, 0.22, 0.24];
     let cases = frictions.into_iter().take(count).map(|friction| {
         let stack = Stack::paper(friction, 1e2);
-        let mut case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+        let mut case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[0];
         case.protocol.time_step = 1e-3;
         case.protocol.sampling.coarse_interval *= 0.1;
         case
@@ -33,15 +34,15 @@ fn outcomes(cases: &[Case], checkpoints: &Path, stop_at: u64) -> (Vec<Result<Run
             interrupt.request();
         }
     };
-    let workplace = Workplace {
+    let context = RunContext {
         checkpoints: Some(checkpoints),
         advanced: &advanced,
-        ..Workplace::new(checkpoints, &interrupt)
+        ..RunContext::new(checkpoints, &interrupt)
     };
     let outcomes: Mutex<Vec<Option<Result<Run, Failure>>>> =
         Mutex::new(cases.iter().map(|_| None).collect());
-    let engine = EngineName::Native.find().expect("it is always there");
-    engine.run(cases, &workplace, &mut |index, result| {
+    let code = Code::Native.find().expect("it is always there");
+    code.run(cases, &context, &mut |index, result| {
         outcomes.lock().expect("nobody panics")[index] = Some(result);
     });
     let outcomes = outcomes.into_inner().expect("nobody panics").into_iter();
@@ -66,7 +67,7 @@ fn an_interrupted_run_is_taken_up_where_it_was_and_ends_with_the_same_bits() {
         assert!(first >= half, "it went on at step {first}, not at {half}");
         for (resumed, undisturbed) in resumed.iter().zip(&undisturbed) {
             let [resumed, undisturbed] =
-                [resumed, undisturbed].map(|outcome| &outcome.as_ref().expect("a run").trace);
+                [resumed, undisturbed].map(|outcome| &outcome.as_ref().expect("a run").series);
             assert!(resumed == undisturbed);
         }
     }
@@ -153,7 +154,7 @@ fn a_checkpoint_that_does_not_fit_its_case_is_not_believed() {
         let mut damaged = checkpoint.clone();
         change(&mut damaged);
         assert!(damaged != checkpoint);
-        assert!(taken_up(&case, &damaged) == expected.trace);
+        assert!(taken_up(&case, &damaged) == expected.series);
     }
 }
 
@@ -165,14 +166,14 @@ fn a_checkpoint_may_claim_any_duration() {
     for seconds in [-1.0, 1e300, -1e300, 0.0, 1.8e19] {
         let mut damaged = checkpoint.clone();
         damaged["seconds"] = seconds.into();
-        assert!(taken_up(&case, &damaged) == expected.trace);
+        assert!(taken_up(&case, &damaged) == expected.series);
     }
 }
 
 /// A case with a checkpoint early in its compression: there is one after each 65536 steps.
 fn slow_start() -> Case {
     let stack = Stack::paper(0.3, 1e2);
-    let mut case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+    let mut case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[0];
     case.protocol.preparation = Preparation::GravityRamp {
         ramp_time: 6000.0,
         rest_time: 400.0,
@@ -200,13 +201,13 @@ fn kept_run(case: &Case) -> (Run, serde_json::Value) {
 }
 
 /// The series of `case`, taken up from `kept`.
-fn taken_up(case: &Case, kept: &serde_json::Value) -> Trace {
+fn taken_up(case: &Case, kept: &serde_json::Value) -> Series {
     let directory = tempfile::tempdir().expect("a directory");
     assert!(outcomes(&[*case], directory.path(), 0).0[0].is_err());
     let sealed = seal(kept.to_string().as_bytes());
     fs::write(only_file(directory.path()), sealed).expect("a checkpoint");
     let (mut taken_up, _) = outcomes(&[*case], directory.path(), u64::MAX);
-    taken_up.remove(0).expect("a run").trace
+    taken_up.remove(0).expect("a run").series
 }
 
 fn only_file(directory: &Path) -> PathBuf {

@@ -1,18 +1,18 @@
 //! Runs in the lanes of vectors have the bits of single runs, however many share one and whenever they stop.
 
 use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue, compress_stack};
-use tristack::stack::{
-    Case, Convention, CoulombOperand, Preparation, Protocol, Sampling, SeparatingForce, Shortcuts,
-    SideWalls, SlidingSpring, SpringTransport, Stack,
+use tristack::model::{
+    Case, ContactConvention, CoulombOperand, HistoryUpdate, Preparation, Protocol, Sampling,
+    Shortcuts, SideWalls, SlidingSpring, Stack, TensileForce,
 };
-use tristack::trace::{SeriesError, Trace};
+use tristack::series::{Series, SeriesError};
 
 /// A queue that gives up after it has been asked so many times.
 struct Queue<'a> {
     waiting: Vec<OpenRun>,
     patience: usize,
     stopped: Vec<OpenRun>,
-    series: &'a mut [Option<Trace>],
+    series: &'a mut [Option<Series>],
     cases: &'a [Case],
 }
 
@@ -38,7 +38,7 @@ impl RunQueue for Queue<'_> {
         false
     }
 
-    fn ended(&mut self, index: usize, series: Result<Trace, SeriesError>) {
+    fn ended(&mut self, index: usize, series: Result<Series, SeriesError>) {
         self.series[index] = series.ok();
     }
 }
@@ -49,7 +49,7 @@ fn through_a_file(checkpoint: &Checkpoint) -> Checkpoint {
 }
 
 /// Series of all `cases`, in vectors of the widths in turn, stopped as often as there are widths.
-fn in_lanes(cases: &[Case], widths: &[LaneWidth], patience: usize) -> Vec<Option<Trace>> {
+fn in_lanes(cases: &[Case], widths: &[LaneWidth], patience: usize) -> Vec<Option<Series>> {
     let mut series = vec![None; cases.len()];
     let mut waiting: Vec<OpenRun> = (0..cases.len())
         .map(|index| OpenRun {
@@ -75,7 +75,7 @@ fn in_lanes(cases: &[Case], widths: &[LaneWidth], patience: usize) -> Vec<Option
     series
 }
 
-fn alone(cases: &[Case]) -> Vec<Option<Trace>> {
+fn alone(cases: &[Case]) -> Vec<Option<Series>> {
     let alone = |case| compress_stack(case, || true).expect("a series");
     cases.iter().map(alone).map(Some).collect()
 }
@@ -83,7 +83,7 @@ fn alone(cases: &[Case]) -> Vec<Option<Trace>> {
 fn case(floor_friction: f64, stiffness: f64, time_step: f64) -> Case {
     Case {
         stack: Stack::paper(floor_friction, stiffness),
-        convention: Convention::PAPER,
+        convention: ContactConvention::PAPER,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 40.0,
@@ -136,12 +136,12 @@ fn every_width_gives_the_bits_of_single_runs() {
 
 #[test]
 fn every_convention_has_the_same_bits_in_lanes() {
-    let mut conventions = vec![Convention::PAPER; 5];
+    let mut conventions = vec![ContactConvention::PAPER; 5];
     conventions[0].coulomb_operand = CoulombOperand::Spring;
     conventions[1].sliding_spring = SlidingSpring::FollowsLimit;
-    conventions[2].spring_transport = SpringTransport::Projected;
-    conventions[3].spring_transport = SpringTransport::Linearised;
-    conventions[4].separating_force = SeparatingForce::NeverPulls;
+    conventions[2].history_update = HistoryUpdate::Projected;
+    conventions[3].history_update = HistoryUpdate::Linearised;
+    conventions[4].tensile_force = TensileForce::NeverPulls;
     for convention in conventions {
         let cases: Vec<Case> = [0.2, 0.25, 0.3]
             .map(|friction| Case {
@@ -217,7 +217,7 @@ fn runs_with_shortcuts_are_shorter_and_have_the_same_bits_in_lanes() {
         assert!(case.total_steps() < plain.total_steps() * 3 / 4);
         let series = series.as_ref().expect("a series").to_csv();
         let protocol = &case.protocol;
-        let read = Trace::read(series.as_slice(), &protocol.schedule(), protocol.time_step);
+        let read = Series::read(series.as_slice(), &protocol.schedule(), protocol.time_step);
         assert!(read.is_ok(), "what ends with the drop can be read again");
     }
 }

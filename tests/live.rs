@@ -7,36 +7,36 @@ use common::{Bench, OWN_PROGRAM, assert_only, json, network, released_program};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
-use tristack::crosscheck::plan;
+use tristack::code::{Code, FailureKind, Interrupt, RunContext};
 use tristack::dem::compress_stack;
-use tristack::engine::{EngineName, FailureKind, Interrupt, Workplace};
-use tristack::stack::{Case, Preparation, SideWalls, Stack};
-use tristack::trace::{Trace, YieldEstimates};
+use tristack::model::{Case, Preparation, SideWalls, Stack};
+use tristack::series::{Series, YieldEstimates};
+use tristack::study::yield_force::plan;
 
-const EXTERNAL: [EngineName; 5] = [
-    EngineName::Liggghts,
-    EngineName::Yade,
-    EngineName::YadeFacet,
-    EngineName::YadeWall,
-    EngineName::Lammps,
+const EXTERNAL: [Code; 5] = [
+    Code::Liggghts,
+    Code::Yade,
+    Code::YadeFacet,
+    Code::YadeWall,
+    Code::Lammps,
 ];
 
-fn installed() -> Vec<EngineName> {
+fn installed() -> Vec<Code> {
     common::installed(&EXTERNAL)
 }
 
 /// The whole quick profile as `program` carries it out, with its files in `out` of the bench.
-fn quick_profile(program: &Path, engines: &[EngineName]) -> (Bench, Output) {
-    let names: Vec<&str> = engines.iter().map(|engine| engine.as_str()).collect();
+fn quick_profile(program: &Path, codes: &[Code]) -> (Bench, Output) {
+    let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
     let names = names.join(",");
     let bench = Bench::with_system_programs();
-    let line = format!("crosscheck --engines native,{names} --format json --out out");
+    let line = format!("crosscheck --codes native,{names} --format json --out out");
     let output = bench.process_of(program, &line).output();
     (bench, output.expect("it runs"))
 }
 
 #[test]
-fn all_installed_engines_agree_with_their_limit_on_the_quick_profile_in_the_same_bytes_twice() {
+fn all_installed_codes_agree_with_their_limit_on_the_quick_profile_in_the_same_bytes_twice() {
     let installed = installed();
     if installed.is_empty() {
         return;
@@ -61,42 +61,42 @@ fn all_installed_engines_agree_with_their_limit_on_the_quick_profile_in_the_same
     }
 }
 
-fn assert_live_agreement((bench, output): &(Bench, Output), installed: &[EngineName]) {
+fn assert_live_agreement((bench, output): &(Bench, Output), installed: &[Code]) {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
     let rows = json(&String::from_utf8_lossy(&output.stdout));
     let rows = rows.as_array().expect("a list");
     assert_eq!(rows.len(), 18 * (1 + installed.len()));
-    for engine in installed {
-        let own = rows.iter().filter(|row| row["engine"] == engine.as_str());
+    for code in installed {
+        let own = rows.iter().filter(|row| row["code"] == code.as_str());
         let errors = own.map(|row| {
             assert_eq!(row["source"], "live");
             row["error"].as_f64().expect("an error").abs()
         });
         let worst = errors.fold(0.0, f64::max);
-        println!("{engine}: largest error {worst:.1e} of F + 3");
+        println!("{code}: largest error {worst:.1e} of F + 3");
         // Far below what an agreement needs: 7e-8 is what was seen at most.
-        assert!(worst < 1e-7, "{engine}: {worst:e}");
+        assert!(worst < 1e-7, "{code}: {worst:e}");
     }
     assert_only(&bench.path("store/work"), &[]);
 }
 
 #[test]
-fn all_installed_engines_follow_their_native_twins() {
+fn all_installed_codes_follow_their_native_twins() {
     let installed = installed();
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|engine| engine.as_str()).collect();
+    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
     let bench = Bench::with_system_programs();
-    let line = format!("trajectories --engines {} --format json", names.join(","));
+    let line = format!("trajectories --codes {} --format json", names.join(","));
     let output = bench.tristack(&line).output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
     let rows = json(&String::from_utf8_lossy(&output.stdout));
     let rows = rows.as_array().expect("a list");
-    for engine in installed {
-        let own = rows.iter().filter(|row| row["engine"] == engine.as_str());
+    for code in installed {
+        let own = rows.iter().filter(|row| row["code"] == code.as_str());
         let own: Vec<_> = own.collect();
         // Two twins, three time steps; four quantities on two branches and three on the last.
         assert_eq!(own.len(), 2 * 3 * (2 * 4 + 3));
@@ -108,7 +108,7 @@ fn all_installed_engines_follow_their_native_twins() {
         for row in force {
             assert_eq!(row["source"], "live");
             println!(
-                "{engine}, {} twin: {} of the peak",
+                "{code}, {} twin: {} of the peak",
                 row["twin"], row["largest"]
             );
         }
@@ -118,8 +118,8 @@ fn all_installed_engines_follow_their_native_twins() {
 
 #[test]
 fn a_live_run_leaves_deck_output_and_series_for_inspection() {
-    let deck = |engine| match engine {
-        EngineName::Liggghts => vec![
+    let deck = |code| match code {
+        Code::Liggghts => vec![
             "contacts.in",
             "log.liggghts",
             "parameters.in",
@@ -127,7 +127,7 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
             "top_wall.in",
             "wall.stl",
         ],
-        EngineName::Lammps => vec![
+        Code::Lammps => vec![
             "contacts.in",
             "log.lammps",
             "parameters.in",
@@ -136,11 +136,11 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
         ],
         _ => vec!["cases.py", "contacts.py", "parameters.json", "stack.py"],
     };
-    for engine in installed() {
+    for code in installed() {
         let bench = Bench::with_system_programs();
-        let line = format!("simulate --engine {engine} --mu 0.2 --stiffness 100 --out run");
+        let line = format!("simulate --code {code} --mu 0.2 --stiffness 100 --out run");
         bench.tristack(&line).assert().code(0);
-        let mut files = deck(engine);
+        let mut files = deck(code);
         files.extend([
             "case.json",
             "series.csv",
@@ -154,13 +154,13 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
 }
 
 #[test]
-fn all_installed_engines_mean_by_a_contact_what_their_adapter_declares() {
+fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
     let installed = installed();
-    let names: Vec<&str> = installed.iter().map(|engine| engine.as_str()).collect();
+    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
     let bench = Bench::with_system_programs();
-    let mut engines = vec!["native"];
-    engines.extend(names);
-    let line = format!("probe --engines {} --format json", engines.join(","));
+    let mut codes = vec!["native"];
+    codes.extend(names);
+    let line = format!("probe --codes {} --format json", codes.join(","));
     let output = bench.tristack(&line).output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
@@ -169,8 +169,8 @@ fn all_installed_engines_mean_by_a_contact_what_their_adapter_declares() {
 
 #[test]
 fn a_live_run_repeats_its_recording() {
-    for engine in installed() {
-        let recorded = format!("{}/reference/{engine}", env!("CARGO_MANIFEST_DIR"));
+    for code in installed() {
+        let recorded = format!("{}/reference/{code}", env!("CARGO_MANIFEST_DIR"));
         let mut entries: Vec<_> = fs::read_dir(recorded)
             .expect("recorded runs")
             .flatten()
@@ -179,15 +179,12 @@ fn a_live_run_repeats_its_recording() {
         let entry = entries[entries.len() / 2].path();
         let bench = Bench::with_system_programs();
         let case = entry.join("case.json");
-        let line = format!(
-            "simulate --engine {engine} --out run --case {}",
-            case.display()
-        );
+        let line = format!("simulate --code {code} --out run --case {}", case.display());
         bench.tristack(&line).assert().code(0);
         let largest = largest_deviation(&entry.join("series.csv"), &bench.path("run/series.csv"));
-        println!("{engine}: largest deviation from its recording {largest:e}");
+        println!("{code}: largest deviation from its recording {largest:e}");
         // Another build of the same version may round differently; positions are of order 1.
-        assert!(largest < 1e-9, "{engine}: {largest:e}");
+        assert!(largest < 1e-9, "{code}: {largest:e}");
     }
 }
 
@@ -195,16 +192,16 @@ fn a_live_run_repeats_its_recording() {
 /// must be less than what halving the time step changes in the twin.
 #[test]
 fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_them() {
-    for engine in installed() {
-        let pushes: &[f64] = match engine {
-            EngineName::Lammps => continue,
-            EngineName::Liggghts | EngineName::Yade => &[0.005, 0.05],
+    for code in installed() {
+        let pushes: &[f64] = match code {
+            Code::Lammps => continue,
+            Code::Liggghts | Code::Yade => &[0.005, 0.05],
             _ => &[0.05],
         };
         for push in pushes {
             let bench = Bench::with_system_programs();
             let line = format!(
-                "simulate --engine {engine} --mu 0.2 --stiffness 100 --preparation side-walls \
+                "simulate --code {code} --mu 0.2 --stiffness 100 --preparation side-walls \
                  --push {push} --out run"
             );
             bench.tristack(&line).assert().code(0);
@@ -213,7 +210,7 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
             halved.protocol.time_step *= 0.5;
             let series = fs::File::open(bench.path("run/series.csv")).expect("a series");
             let schedule = case.protocol.schedule();
-            let own = Trace::read(series, &schedule, case.protocol.time_step).expect("a series");
+            let own = Series::read(series, &schedule, case.protocol.time_step).expect("a series");
             let native = |case: &Case| compress_stack(case, || true).expect("a finite series");
             let own = contact_and_slip(&own, &case);
             let twin = contact_and_slip(&native(&case), &case);
@@ -222,12 +219,12 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
                 let distance = (own[index] - twin[index]).abs();
                 let allowed = (twin[index] - finer[index]).abs();
                 println!(
-                    "{engine}, A = {push}: {what} = {}, {distance:.1e} of {allowed:.1e}",
+                    "{code}, A = {push}: {what} = {}, {distance:.1e} of {allowed:.1e}",
                     own[index]
                 );
                 assert!(
                     distance <= allowed,
-                    "{engine} {push}: {what} {distance:e} {allowed:e}"
+                    "{code} {push}: {what} {distance:e} {allowed:e}"
                 );
             }
         }
@@ -235,10 +232,10 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
 }
 
 /// c at the beginning of the compression and F at the onset of slip, in m g.
-fn contact_and_slip(trace: &Trace, case: &Case) -> [f64; 2] {
+fn contact_and_slip(series: &Series, case: &Case) -> [f64; 2] {
     let stack = &case.stack;
-    let contact = trace.samples()[0].bottom_contact_force() * stack.stiffness;
-    let slip = YieldEstimates::read(trace, stack).slip;
+    let contact = series.samples()[0].bottom_contact_force() * stack.stiffness;
+    let slip = YieldEstimates::read(series, stack).slip;
     [contact, slip.expect("an onset of slip").force]
 }
 
@@ -248,7 +245,7 @@ fn cases_of_both_preparations_come_back_in_order() {
     let interrupt = Interrupt::new();
     for name in installed() {
         let directory = tempfile::tempdir().expect("a directory");
-        let workplace = Workplace::new(directory.path(), &interrupt);
+        let context = RunContext::new(directory.path(), &interrupt);
         // The shortest that is a run.
         let mut ramp = plan(name, &Stack::paper(0.2, 1e2), name.convention()).cases[0];
         ramp.protocol.wall_travel *= 0.01;
@@ -259,9 +256,9 @@ fn cases_of_both_preparations_come_back_in_order() {
             rest_time: 10.0,
             ..SideWalls::paper(0.0, 0.01)
         });
-        let engine = name.find().expect("it is installed");
+        let code = name.find().expect("it is installed");
         let mut results = Vec::new();
-        engine.run(&[ramp, walls, ramp], &workplace, &mut |index, result| {
+        code.run(&[ramp, walls, ramp], &context, &mut |index, result| {
             results.push((index, result));
         });
         for (expected, (index, result)) in results.iter().enumerate() {
@@ -269,14 +266,14 @@ fn cases_of_both_preparations_come_back_in_order() {
             match result {
                 Ok(run) => assert_eq!(run.case, [ramp, walls, ramp][*index]),
                 Err(failure) => {
-                    assert_eq!((name, *index), (EngineName::Lammps, 1), "{failure}");
+                    assert_eq!((name, *index), (Code::Lammps, 1), "{failure}");
                     assert!(matches!(failure.kind, FailureKind::Unsupported(_)));
                 }
             }
         }
         assert_eq!(results.len(), 3);
         let refused = results.iter().filter(|(_, result)| result.is_err()).count();
-        assert_eq!(refused, usize::from(name == EngineName::Lammps));
+        assert_eq!(refused, usize::from(name == Code::Lammps));
     }
 }
 
@@ -286,9 +283,9 @@ fn no_code_sees_the_network() {
         return;
     }
     let own = fs::read_link("/proc/self/ns/net").expect("a name space");
-    for engine in installed() {
+    for code in installed() {
         let bench = Bench::with_system_programs();
-        let line = format!("simulate --engine {engine} --mu 0.3 --stiffness 10000 --out run");
+        let line = format!("simulate --code {code} --mu 0.3 --stiffness 10000 --out run");
         let mut child = bench.process(&line).spawn().expect("it starts");
         let place = bench.path("run");
         let mut seen = None;
@@ -298,7 +295,7 @@ fn no_code_sees_the_network() {
         let _ = child.kill();
         let _ = child.wait();
         let seen = seen.expect("the code has been seen running");
-        assert_ne!(seen, own, "{engine}");
+        assert_ne!(seen, own, "{code}");
     }
 }
 

@@ -1,19 +1,20 @@
 //! A table of wrong codes: twins of the native DEM with one line changed, and who notices.
 
 use std::path::Path;
-use tristack::archive::{Identity, Provenance, Run};
-use tristack::crosscheck::{
-    FLOOR, Judgement, Participant, Progress, Recorded, Settings, measure, plan, probe_all,
-};
+use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
+use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
     run_contact_test_with,
 };
-use tristack::engine::{Batching, Engine, EngineName, Failure, Finished, Interrupt, Workplace};
-use tristack::stack::{Case, ContactTest, Convention, Stack};
-use tristack::store::Store;
-use tristack::trace::{Motion, Trace};
-use tristack::verdict::Verdict;
+use tristack::model::{Case, ContactConvention, ContactTest, Stack};
+use tristack::runs::Store;
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::series::{Motion, Series};
+use tristack::study::MIN_TOLERANCE;
+use tristack::study::Verdict;
+use tristack::study::convention::probe_all;
+use tristack::study::yield_force::{Judgement, measure, plan};
 
 /// The line that is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +66,7 @@ struct Memory {
 }
 
 impl Twin {
-    fn new(convention: &Convention, tangential_stiffness: f64, mutation: Mutation) -> Self {
+    fn new(convention: &ContactConvention, tangential_stiffness: f64, mutation: Mutation) -> Self {
         let normal_damping = convention.damping(1.0);
         let damping = convention.damping(tangential_stiffness);
         Self {
@@ -157,19 +158,19 @@ impl ContactModel<f64> for Twin {
     }
 }
 
-/// The twin at the place of the native engine.
+/// The twin at the place of the native code.
 struct TwinEngine {
     identity: Identity,
     mutation: Mutation,
 }
 
 impl TwinEngine {
-    fn participant(mutation: Mutation) -> Participant {
-        Participant {
-            name: EngineName::Native,
-            engine: Some(Box::new(Self {
+    fn selected(mutation: Mutation) -> SelectedCode {
+        SelectedCode {
+            name: Code::Native,
+            code: Some(Box::new(Self {
                 identity: Identity {
-                    engine: "native".to_owned(),
+                    code: "native".to_owned(),
                     version: format!("{mutation:?}"),
                     package: None,
                     program_hash: None,
@@ -179,12 +180,12 @@ impl TwinEngine {
         }
     }
 
-    fn compress(&self, case: &Case) -> Result<Trace, Box<Failure>> {
+    fn compress(&self, case: &Case) -> Result<Series, Box<Failure>> {
         let stiffness = case.stack.tangential_stiffness();
         let twin = Twin::new(&case.convention, stiffness, self.mutation);
         compress_stack_with(case, twin, || true).map_err(|error| {
             Box::new(Failure {
-                engine: EngineName::Native,
+                code: Code::Native,
                 subject: case.to_string(),
                 kind: error.into(),
                 run_directory: None,
@@ -194,9 +195,9 @@ impl TwinEngine {
     }
 }
 
-impl Engine for TwinEngine {
-    fn name(&self) -> EngineName {
-        EngineName::Native
+impl InstalledCode for TwinEngine {
+    fn name(&self) -> Code {
+        Code::Native
     }
 
     fn identity(&self) -> &Identity {
@@ -207,14 +208,14 @@ impl Engine for TwinEngine {
         Batching::OneCallACase
     }
 
-    fn run(&self, cases: &[Case], _: &Workplace, finished: Finished<Run>) {
+    fn run(&self, cases: &[Case], _: &RunContext, finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
-            let run = self.compress(case).map(|trace| Run {
+            let run = self.compress(case).map(|series| Run {
                 case: *case,
-                trace,
+                series,
                 provenance: Provenance::now(
                     self.identity.clone(),
-                    EngineName::Native.deck_hash(case),
+                    Code::Native.deck_hash(case),
                     Vec::new(),
                     case.total_steps(),
                     0.0,
@@ -224,7 +225,7 @@ impl Engine for TwinEngine {
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _: &Workplace) -> Result<Vec<Motion>, Box<Failure>> {
+    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
         let motions = tests.iter().map(|test| {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);
@@ -239,7 +240,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -259,8 +260,8 @@ fn with_settings<T>(action: impl FnOnce(&Settings) -> T) -> T {
 
 /// Properties that the probe finds to differ from the declaration of native.
 fn differing_properties(mutation: Mutation) -> Vec<String> {
-    let participants = [TwinEngine::participant(mutation)];
-    let probed = with_settings(|settings| probe_all(&participants, settings, &Silent));
+    let codes = [TwinEngine::selected(mutation)];
+    let probed = with_settings(|settings| probe_all(&codes, settings, &Silent));
     let probe = probed[0].as_ref().expect("the probe works");
     let off = probe
         .findings
@@ -272,10 +273,9 @@ fn differing_properties(mutation: Mutation) -> Vec<String> {
 /// Crosscheck of one stack that yields at the floor.
 fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
-    let measurements = [plan(EngineName::Native, &stack, Convention::PAPER)];
-    let participants = [TwinEngine::participant(mutation)];
-    let judgements =
-        with_settings(|settings| measure(&measurements, &participants, settings, &Silent));
+    let measurements = [plan(Code::Native, &stack, ContactConvention::PAPER)];
+    let codes = [TwinEngine::selected(mutation)];
+    let judgements = with_settings(|settings| measure(&measurements, &codes, settings, &Silent));
     judgements.into_iter().next().expect("a row")
 }
 
@@ -293,7 +293,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
             row.verdict.as_str()
         };
     };
-    let allowed = uncertainty.max(FLOOR * (reference + 3.0));
+    let allowed = uncertainty.max(MIN_TOLERANCE * (reference + 3.0));
     if (force - reference).abs() > allowed {
         "differs"
     } else {
@@ -304,7 +304,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
 #[test]
 fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let stack = Stack::paper(0.3, 1e3);
-    let case = plan(EngineName::Native, &stack, Convention::PAPER).cases[0];
+    let case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[0];
     let stiffness = case.stack.tangential_stiffness();
     let twin = Twin::new(&case.convention, stiffness, Mutation::None);
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
@@ -338,19 +338,19 @@ fn every_changed_line_is_noticed() {
 /// The other way round: a right code under a wrong declaration.
 #[test]
 fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
-    let wrong = Convention {
+    let wrong = ContactConvention {
         floor_arm: -0.01,
-        ..Convention::PAPER
+        ..ContactConvention::PAPER
     };
-    let declared = tristack::engine::Declaration {
+    let declared = tristack::code::Declaration {
         convention: wrong,
-        ..EngineName::Native.declaration()
+        ..Code::Native.declaration()
     };
-    let properties = tristack::probe::probe(&declared, |tests| {
+    let properties = tristack::study::convention::probe(&declared, |tests| {
         let honest: Vec<ContactTest> = tests
             .iter()
             .map(|test| ContactTest {
-                convention: Convention {
+                convention: ContactConvention {
                     floor_arm: 0.0,
                     ..test.convention
                 },
@@ -363,7 +363,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     .expect("finite motions");
     let findings = properties
         .into_iter()
-        .map(|property| property.judge(EngineName::Native, ""));
+        .map(|property| property.judge(Code::Native, ""));
     let off: Vec<String> = findings
         .filter(|finding| finding.verdict == Verdict::Differs)
         .map(|finding| finding.property)

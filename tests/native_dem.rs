@@ -1,13 +1,13 @@
 //! The native DEM as physics: what a contact must do, for any number of cylinders, and the same bits
 //! everywhere.
 
-use tristack::crosscheck::plan;
+use tristack::code::Code;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
-use tristack::engine::EngineName;
-use tristack::stack::{Convention, PAPER_RESTITUTION, Stack, sha256_hex};
+use tristack::model::{ContactConvention, PAPER_RESTITUTION, Stack, sha256_hex};
+use tristack::study::yield_force::plan;
 
 fn law() -> SpringDashpot<f64> {
-    SpringDashpot::like(0.0, &Convention::PAPER, 0.4)
+    SpringDashpot::like(0.0, &ContactConvention::PAPER, 0.4)
 }
 
 fn floor(friction: f64) -> PlaneWall {
@@ -113,9 +113,9 @@ fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
 #[test]
 fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sliding() {
     for stack in [Stack::paper(0.12, 1e2), Stack::paper(0.3, 1e4)] {
-        let case = plan(EngineName::Native, &stack, Convention::PAPER).cases[1];
-        let trace = compress_stack(&case, || true).expect("a finite series");
-        let start = trace.samples()[0];
+        let case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[1];
+        let series = compress_stack(&case, || true).expect("a finite series");
+        let start = series.samples()[0];
         assert!(start.x2 - start.x3 > 2.0);
         let weight = 3.0 * stack.epsilon();
         assert!((start.floor_n2 + start.floor_n3 - weight).abs() < 1e-6 * weight);
@@ -128,13 +128,13 @@ fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sli
 #[test]
 fn left_and_right_stay_mirror_images_up_to_the_yield() {
     let case = plan(
-        EngineName::Native,
+        Code::Native,
         &Stack::paper(0.3, 1e2),
-        Convention::PAPER,
+        ContactConvention::PAPER,
     )
     .cases[0];
-    let trace = compress_stack(&case, || true).expect("a finite series");
-    for sample in trace.samples() {
+    let series = compress_stack(&case, || true).expect("a finite series");
+    for sample in series.samples() {
         assert!((sample.x2 + sample.x3).abs() < 1e-12, "{}", sample.step);
         assert!((sample.theta2 + sample.theta3).abs() < 1e-12);
         assert!(sample.x1.abs() < 1e-12);
@@ -146,12 +146,12 @@ fn left_and_right_stay_mirror_images_up_to_the_yield() {
 #[test]
 fn series_has_the_same_bits_everywhere() {
     let case = plan(
-        EngineName::Native,
+        Code::Native,
         &Stack::paper(0.3, 1e3),
-        Convention::PAPER,
+        ContactConvention::PAPER,
     )
     .cases[0];
-    let trace = compress_stack(&case, || true).expect("a finite series");
+    let series = compress_stack(&case, || true).expect("a finite series");
     let expected = "e6cc20d5f6a4a7b490bb97ce43d018c8d16891bc8b95aea61806c44e40aba7be";
-    assert_eq!(sha256_hex(&trace.to_csv()), expected);
+    assert_eq!(sha256_hex(&series.to_csv()), expected);
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The only place that starts a program.
-const STARTERS: [&str; 2] = ["src/engine/process.rs", "src/engine/guard.rs"];
+const STARTERS: [&str; 2] = ["src/code/process.rs", "src/code/guard.rs"];
 
 /// What starts a program in Rust, or is one that interprets what it is given.
 const STARTS: [&str; 4] = [

@@ -1,4 +1,4 @@
-//! Directories and files with names that a shell, a deck or a terminal would trip over, for every engine that
+//! Directories and files with names that a shell, a deck or a terminal would trip over, for every code that
 //! is installed: results are the same, nothing in a name is executed, and messages stay one line.
 #![cfg(target_os = "linux")] // Elsewhere names may have to be text.
 
@@ -11,9 +11,9 @@ use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tristack::crosscheck::plan;
-use tristack::engine::EngineName;
-use tristack::stack::{Case, Stack};
+use tristack::code::Code;
+use tristack::model::{Case, Stack};
+use tristack::study::yield_force::plan;
 
 /// If a name were executed, there would be a file of this name.
 const WITNESS: &str = "touched";
@@ -34,16 +34,11 @@ const NAMES: [&[u8]; 13] = [
     b"not-utf-8-\xe9\xff",
 ];
 
-const LIVE: [EngineName; 4] = [
-    EngineName::Native,
-    EngineName::Liggghts,
-    EngineName::Yade,
-    EngineName::Lammps,
-];
+const LIVE: [Code; 4] = [Code::Native, Code::Liggghts, Code::Yade, Code::Lammps];
 
 /// The start-up script of YADE fails where its home directory, a part of the run directory, is not text.
-fn names(engine: EngineName) -> impl Iterator<Item = &'static [u8]> {
-    let takes_all = engine != EngineName::Yade;
+fn names(code: Code) -> impl Iterator<Item = &'static [u8]> {
+    let takes_all = code != Code::Yade;
     NAMES
         .into_iter()
         .filter(move |name| takes_all || str::from_utf8(name).is_ok())
@@ -53,14 +48,14 @@ fn named(bytes: &[u8]) -> &OsStr {
     OsStr::from_bytes(bytes)
 }
 
-/// All of them that `engine` takes, below each other.
-fn nested(root: &Path, engine: EngineName) -> PathBuf {
-    names(engine).fold(root.to_owned(), |path, name| path.join(named(name)))
+/// All of them that `code` takes, below each other.
+fn nested(root: &Path, code: Code) -> PathBuf {
+    names(code).fold(root.to_owned(), |path, name| path.join(named(name)))
 }
 
-/// Some hundred steps under the convention of `engine`.
-fn short_case(engine: EngineName) -> Case {
-    let mut case = plan(engine, &Stack::paper(0.3, 1e2), engine.convention()).cases[0];
+/// Some hundred steps under the convention of `code`.
+fn short_case(code: Code) -> Case {
+    let mut case = plan(code, &Stack::paper(0.3, 1e2), code.convention()).cases[0];
     case.protocol.wall_travel *= 0.01;
     case.protocol.sampling.fine_from_travel = 0.0;
     case
@@ -97,12 +92,12 @@ fn below(directory: &Path, name: &str) -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_engine_works_in_directories_of_any_name() {
-    for engine in common::installed(&LIVE) {
+fn every_code_works_in_directories_of_any_name() {
+    for code in common::installed(&LIVE) {
         let bench = Bench::with_system_programs();
         let case = bench.path("case.json");
-        fs::write(&case, short_case(engine).to_json()).expect("a case");
-        let line = format!("simulate --engine {engine} --format json");
+        fs::write(&case, short_case(code).to_json()).expect("a case");
+        let line = format!("simulate --code {code} --format json");
         let plain = bench.path("plain");
         succeed(
             &bench,
@@ -112,7 +107,7 @@ fn every_engine_works_in_directories_of_any_name() {
                 .arg(flag("out", &plain)),
         );
         let expected = fs::read(plain.join("series.csv")).expect("a series");
-        for name in names(engine) {
+        for name in names(code) {
             // Relative, so that a leading dash stays one.
             let out = Path::new(named(name));
             succeed(
@@ -123,24 +118,24 @@ fn every_engine_works_in_directories_of_any_name() {
                     .arg(flag("out", out)),
             );
             let series = fs::read(bench.path("").join(out).join("series.csv")).expect("a series");
-            assert!(series == expected, "{engine} in {out:?}");
+            assert!(series == expected, "{code} in {out:?}");
         }
     }
 }
 
 #[test]
-fn every_engine_finds_its_way_from_and_through_names_of_any_kind() {
-    for engine in common::installed(&LIVE) {
+fn every_code_finds_its_way_from_and_through_names_of_any_kind() {
+    for code in common::installed(&LIVE) {
         let bench = Bench::with_system_programs();
-        let here = nested(&bench.path("here"), engine);
-        let temporary = nested(&bench.path("temporary"), engine);
+        let here = nested(&bench.path("here"), code);
+        let temporary = nested(&bench.path("temporary"), code);
         for directory in [&here, &temporary] {
             fs::create_dir_all(directory).expect("a directory");
         }
         let case = here.join("-$(touch touched)\n'case\".json");
-        fs::write(&case, short_case(engine).to_json()).expect("a case");
+        fs::write(&case, short_case(code).to_json()).expect("a case");
         let file = Path::new(case.file_name().expect("a name"));
-        let line = format!("simulate --engine {engine} --format json");
+        let line = format!("simulate --code {code} --format json");
         let run = |out: Option<&Path>| {
             let mut command = bench.process(&line);
             command
@@ -154,7 +149,7 @@ fn every_engine_finds_its_way_from_and_through_names_of_any_kind() {
         assert_eq!(force(&run(None)), force(&run(Some(Path::new("-out")))));
         assert!(here.join("-out/series.csv").is_file());
         let left = fs::read_dir(&temporary).expect("a directory").count();
-        assert_eq!(left, 0, "{engine} leaves something in TMPDIR");
+        assert_eq!(left, 0, "{code} leaves something in TMPDIR");
     }
 }
 
@@ -163,12 +158,12 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let [here, store, temporary] =
-        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), EngineName::Native));
+        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), Code::Native));
     for directory in [&here, &temporary] {
         fs::create_dir_all(directory).expect("a directory");
     }
     for times in 1..=2 {
-        let mut command = bench.process("crosscheck --engines yade --format json");
+        let mut command = bench.process("crosscheck --codes yade --format json");
         command.current_dir(&here).env("TMPDIR", &temporary);
         let out = Path::new(named(b"-out $(touch touched)\n\xff"));
         let output = succeed(
@@ -190,8 +185,8 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
 
 #[test]
 fn the_environment_may_name_the_store_in_any_bytes() {
-    let bench = Bench::without_engines();
-    let store = nested(&bench.path("store-"), EngineName::Native);
+    let bench = Bench::without_codes();
+    let store = nested(&bench.path("store-"), Code::Native);
     let mut command = bench.process("crosscheck --explain native/0.3/100");
     succeed(&bench, command.env("TRISTACK_STORE", &store));
     assert!(store.join("runs").is_dir());
@@ -199,14 +194,14 @@ fn the_environment_may_name_the_store_in_any_bytes() {
 
 #[test]
 fn what_cannot_be_read_or_written_is_named_in_one_line() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     fs::write(bench.path("file"), "").expect("a file where a directory is wanted");
     let name = Path::new(named(b"file/new\nline\x1b[31m\xff"));
     for (line, flag_name) in [
-        ("simulate --engine native", "case"),
-        ("simulate --engine native --mu 0.3 --stiffness 100", "out"),
-        ("crosscheck --engines native", "store"),
-        ("crosscheck --engines native", "out"),
+        ("simulate --code native", "case"),
+        ("simulate --code native --mu 0.3 --stiffness 100", "out"),
+        ("crosscheck --codes native", "store"),
+        ("crosscheck --codes native", "out"),
     ] {
         let output = bench
             .process(line)

@@ -3,14 +3,14 @@
 mod common;
 
 use common::installed;
-use tristack::bench::PyramidBench;
+use tristack::code::{Code, FailureKind, Interrupt, ParameterFile, RunContext, Task};
 use tristack::dem::{
     Cylinder, Facing, Material, PYRAMID_FLOOR, Packing, PlaneWall, Scene, run_pyramid,
 };
-use tristack::engine::{EngineName, FailureKind, Interrupt, ParameterFile, Task, Workplace};
-use tristack::stack::{Convention, Pyramid, Stack};
+use tristack::model::{ContactConvention, Pyramid, Stack};
+use tristack::study::cost::PyramidBench;
 
-const FLOOR: PlaneWall = PlaneWall {
+const MIN_TOLERANCE: PlaneWall = PlaneWall {
     facing: Facing::Up,
     offset: 0.0,
     speed: 0.0,
@@ -21,7 +21,7 @@ const FLOOR: PlaneWall = PlaneWall {
 fn twins<const N: usize, const W: usize>(
     cylinders: [Cylinder; N],
     walls: [PlaneWall; W],
-    convention: &Convention,
+    convention: &ContactConvention,
 ) -> (Scene<N, W>, Packing) {
     let (time_step, stack) = (0.1, Stack::paper(0.3, 1e3));
     let material = Material::new(&stack, convention);
@@ -67,9 +67,9 @@ fn three_cylinders_have_the_same_bits_as_in_the_small_scene() {
         speed: 1e-3,
         friction: 0.0,
     };
-    for engine in [EngineName::Native, EngineName::Liggghts, EngineName::Lammps] {
-        let convention = engine.convention();
-        let (mut scene, mut packing) = twins(stack, [FLOOR, lid], &convention);
+    for code in [Code::Native, Code::Liggghts, Code::Lammps] {
+        let convention = code.convention();
+        let (mut scene, mut packing) = twins(stack, [MIN_TOLERANCE, lid], &convention);
         assert_same_bits(&mut scene, &mut packing, 1e-3, 8000);
         // It has yielded: cylinders slid on the floor and lost each other.
         assert!(packing.cylinders()[1].position[0] > 2.0);
@@ -91,10 +91,14 @@ fn a_tumbling_heap_has_the_same_bits_as_in_the_small_scene() {
     let side = |facing, offset| PlaneWall {
         facing,
         offset,
-        ..FLOOR
+        ..MIN_TOLERANCE
     };
-    let walls = [FLOOR, side(Facing::Right, -1.0), side(Facing::Left, -13.0)];
-    let (mut scene, mut packing) = twins(cylinders, walls, &Convention::PAPER);
+    let walls = [
+        MIN_TOLERANCE,
+        side(Facing::Right, -1.0),
+        side(Facing::Left, -13.0),
+    ];
+    let (mut scene, mut packing) = twins(cylinders, walls, &ContactConvention::PAPER);
     assert_same_bits(&mut scene, &mut packing, 1e-3, 4000);
     let top = |cylinders: &[Cylinder]| {
         let heights = cylinders.iter().map(|cylinder| cylinder.position[1]);
@@ -116,7 +120,7 @@ fn settle(packing: &mut Packing, pyramid: &Pyramid) {
 fn a_pyramid_stands_on_its_floor_in_equilibrium_and_symmetric() {
     let pyramid = Pyramid {
         rest_steps: 20_000,
-        ..Pyramid::touching(20, 1e4, Convention::PAPER)
+        ..Pyramid::touching(20, 1e4, ContactConvention::PAPER)
     };
     let mut packing = Packing::pyramid(&pyramid);
     settle(&mut packing, &pyramid);
@@ -152,12 +156,12 @@ fn on_the_floor_alone_four_rows_stand_and_five_roll_apart() {
     for (rows, stands) in [(4, true), (5, false)] {
         let pyramid = Pyramid {
             rest_steps: 20_000,
-            ..Pyramid::touching(rows, 1e4, Convention::PAPER)
+            ..Pyramid::touching(rows, 1e4, ContactConvention::PAPER)
         };
         let cylinders = pyramid.centres().into_iter();
         let floor = PlaneWall {
             friction: pyramid.groups.floor_friction,
-            ..FLOOR
+            ..MIN_TOLERANCE
         };
         let mut packing = Packing::new(
             cylinders.map(|[x, y]| Cylinder::at(x, y)).collect(),
@@ -188,7 +192,7 @@ fn asymmetry(pyramid: &Pyramid, cylinders: &[Cylinder]) -> f64 {
     farthest
 }
 
-const BUILDERS: [EngineName; 2] = [EngineName::Lammps, EngineName::Liggghts];
+const BUILDERS: [Code; 2] = [Code::Lammps, Code::Liggghts];
 
 /// Leapfrog and velocity Verlet are the same positions at the same times as long as everything starts from rest
 /// without forces, and the convention of each code is that of its twin: what is left is rounding.
@@ -201,8 +205,8 @@ fn other_codes_move_every_cylinder_of_a_pyramid_to_the_same_place() {
             ..Pyramid::touching(10, 1e3, name.convention())
         };
         let directory = tempfile::tempdir().expect("a directory");
-        let engine = name.find().expect("it is installed");
-        let run = engine.pyramid(&pyramid, &Workplace::new(directory.path(), &interrupt));
+        let code = name.find().expect("it is installed");
+        let run = code.pyramid(&pyramid, &RunContext::new(directory.path(), &interrupt));
         let run = run.expect("a run");
         let twin = run_pyramid(&pyramid, || true).expect("a run");
         let centres = run.centres().iter().zip(twin.centres());
@@ -228,20 +232,17 @@ fn other_codes_move_every_cylinder_of_a_pyramid_to_the_same_place() {
 fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
     let interrupt = Interrupt::new();
     let directory = tempfile::tempdir().expect("a directory");
-    let workplace = Workplace::new(directory.path(), &interrupt);
-    assert!(!EngineName::Yade.builds_pyramids());
-    for name in installed(&[EngineName::Yade]) {
+    let context = RunContext::new(directory.path(), &interrupt);
+    assert!(!Code::Yade.builds_pyramids());
+    for name in installed(&[Code::Yade]) {
         let pyramid = Pyramid::touching(2, 1e3, name.convention());
-        let failure = name
-            .find()
-            .expect("installed")
-            .pyramid(&pyramid, &workplace);
+        let failure = name.find().expect("installed").pyramid(&pyramid, &context);
         let kind = failure.expect_err("no deck").kind;
         assert!(matches!(kind, FailureKind::Unsupported(_)));
     }
-    let none = Pyramid::touching(0, 1e3, Convention::PAPER);
-    let native = EngineName::Native.find().expect("always there");
-    let failure = native.pyramid(&none, &workplace).expect_err("no rows");
+    let none = Pyramid::touching(0, 1e3, ContactConvention::PAPER);
+    let native = Code::Native.find().expect("always there");
+    let failure = native.pyramid(&none, &context).expect_err("no rows");
     assert!(
         failure.to_string().contains("`pyramid.rows` is 0"),
         "{failure}"
@@ -249,23 +250,23 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
 }
 
 #[test]
-fn the_cost_of_a_step_is_measured_for_every_engine_and_pyramid() {
+fn the_cost_of_a_step_is_measured_for_every_code_and_pyramid() {
     let interrupt = Interrupt::new();
     let directory = tempfile::tempdir().expect("a directory");
-    let mut engines = vec![EngineName::Native];
-    engines.extend(installed(&BUILDERS));
+    let mut codes = vec![Code::Native];
+    codes.extend(installed(&BUILDERS));
     let bench = PyramidBench {
         rows: vec![3, 5],
-        engines: engines.clone(),
+        codes: codes.clone(),
         cylinder_steps: 3000,
         repeats: 2,
     };
-    let costs = bench.measure(&Workplace::new(directory.path(), &interrupt));
+    let costs = bench.measure(&RunContext::new(directory.path(), &interrupt));
     let costs = costs.expect("measurements");
-    assert_eq!(costs.len(), 2 * engines.len());
+    assert_eq!(costs.len(), 2 * codes.len());
     for (index, cost) in costs.iter().enumerate() {
-        assert_eq!(cost.engine, engines[index % engines.len()]);
-        assert_eq!(cost.rows, bench.rows[index / engines.len()]);
+        assert_eq!(cost.code, codes[index % codes.len()]);
+        assert_eq!(cost.rows, bench.rows[index / codes.len()]);
         assert_eq!(cost.nanoseconds.len(), 2);
         assert!(cost.fastest() > 0.0 && cost.fastest() <= cost.median());
     }
@@ -274,11 +275,11 @@ fn the_cost_of_a_step_is_measured_for_every_engine_and_pyramid() {
 /// The examples beside the decks are what the program would give for the pyramid that they say.
 #[test]
 fn examples_for_running_a_pyramid_by_hand_are_up_to_date() {
-    for (engine, folder) in [
-        (EngineName::Lammps, "lammps_inputs"),
-        (EngineName::Liggghts, "liggghts_inputs"),
+    for (code, folder) in [
+        (Code::Lammps, "lammps_inputs"),
+        (Code::Liggghts, "liggghts_inputs"),
     ] {
-        let pyramid = Pyramid::touching(4, 1e3, engine.convention());
+        let pyramid = Pyramid::touching(4, 1e3, code.convention());
         let beside = |name: &str| {
             let path = format!("{}/{folder}/{name}", env!("CARGO_MANIFEST_DIR"));
             std::fs::read_to_string(path).expect("an example")

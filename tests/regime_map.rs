@@ -1,17 +1,17 @@
 //! The regime map: known boundaries, and what the events do.
 
-use tristack::stack::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::theory::{
-    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Event,
-    Line, Outcome, RegimeMap, Stage, bracketed_root, pair_overlap, quasistatic_limit,
-    released_frictions,
+    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Event,
+    FailureMode, Line, LoadingPhase, Outcome, RegimeMap, bracketed_root, pair_overlap,
+    quasistatic_limit, released_frictions,
 };
 
 /// Relative distance of the neighbours of a boundary: it is right to three digits.
 const THREE_DIGITS: f64 = 5e-4;
 
 fn boundaries(stack: &Stack) -> Vec<Boundary> {
-    Boundary::in_friction(&Course::new(stack), stack)
+    Boundary::in_friction(&EquilibriumPath::new(stack), stack)
 }
 
 fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
@@ -60,7 +60,7 @@ fn a_yield_is_that_of_the_quasistatic_limit() {
         let outcome = Outcome::of(&stack).unwrap();
         let limit = quasistatic_limit(&stack, 0.0, 0.0);
         assert_eq!(outcome.first.event, limit.event);
-        assert_eq!(outcome.consequence, Consequence::Yields);
+        assert_eq!(outcome.failure_mode, FailureMode::Yields);
         let (force, expected) = (outcome.largest_force.unwrap(), limit.yield_force.unwrap());
         assert!((force / expected - 1.0).abs() < 1e-10);
         assert!((outcome.last.wall_travel / limit.wall_travel.unwrap() - 1.0).abs() < 1e-9);
@@ -76,7 +76,7 @@ fn saturated_force_does_not_depend_on_the_floor() {
     let expected = 200.0 * pair_overlap(0.4 - CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO) - 1.0;
     for mu in [0.4, 0.5, 0.9, 100.0] {
         let outcome = Outcome::of(&slippery(mu)).unwrap();
-        assert_eq!(outcome.consequence, Consequence::Saturates);
+        assert_eq!(outcome.failure_mode, FailureMode::Saturates);
         assert!((outcome.largest_force.unwrap() / expected - 1.0).abs() < 1e-12);
     }
     assert!(Outcome::of(&slippery(0.38)).unwrap().largest_force.unwrap() < expected);
@@ -99,7 +99,7 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
     );
     for kappa in [0.2, 0.5, 0.9] {
         let outcome = outcome(kappa);
-        assert_eq!(outcome.consequence, Consequence::Shares);
+        assert_eq!(outcome.failure_mode, FailureMode::Shares);
         assert_eq!(outcome.first.event, Event::ContactCloses);
         assert_eq!(outcome.last.event, Event::FloorSlip);
         assert!(outcome.last.bottom_force > 0.0 && outcome.last.force < forces[0]);
@@ -112,10 +112,10 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
 #[test]
 fn a_stack_without_friction_falls_and_one_with_much_of_it_has_no_peak() {
     let falls = Outcome::of(&Stack::paper(0.05, 1e2)).unwrap();
-    assert_eq!(falls.consequence, Consequence::Collapses);
-    assert_eq!(falls.first.stage, Stage::OwnWeight);
+    assert_eq!(falls.failure_mode, FailureMode::Collapses);
+    assert_eq!(falls.first.stage, LoadingPhase::OwnWeight);
     let rough = Outcome::of(&Stack::paper(0.6, 1e2)).unwrap();
-    assert_eq!(rough.consequence, Consequence::SecondLoadPath);
+    assert_eq!(rough.failure_mode, FailureMode::SecondLoadPath);
     assert_eq!([falls.largest_force, rough.largest_force], [None, None]);
 }
 
@@ -192,7 +192,7 @@ fn outcomes_are_those_that_the_dem_has_shown() {
 fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
     let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 10.0);
     let outcome = Outcome::of(&stack(0.78, 1.0, 1e2, 10.0)).unwrap();
-    assert_eq!(outcome.consequence, Consequence::Softens);
+    assert_eq!(outcome.failure_mode, FailureMode::Softens);
     assert!(outcome.largest_force.unwrap() > outcome.end.unwrap().force * (1.0 + 1e-9));
     // The largest force of the path is 2 max G/epsilon - 1, where the right-hand side of its equation vanishes.
     let slope = |tangent: f64| {
@@ -208,7 +208,7 @@ fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
 fn of_two_contacts_that_are_too_smooth_the_one_that_lacks_more_slides() {
     let first = |mu, mu_d| {
         let outcome = Outcome::of(&stack(mu, mu_d, 1e2, 2.5)).unwrap();
-        assert_eq!(outcome.consequence, Consequence::Collapses);
+        assert_eq!(outcome.failure_mode, FailureMode::Collapses);
         assert_eq!(outcome.first.wall_travel, 0.0);
         outcome.first.event
     };
@@ -223,28 +223,28 @@ fn of_two_contacts_that_are_too_smooth_the_one_that_lacks_more_slides() {
 #[test]
 fn course_knows_its_state_at_rest_and_at_wall_contact() {
     let stack = stack(0.3, 0.7, 1e2, 2.5);
-    let course = Course::new(&stack);
+    let path = EquilibriumPath::new(&stack);
     let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 2.5);
     let outward = |tangent: f64| (2.0 - overlap(tangent)) * (2.0 * tangent.atan()).sin() - 1.0;
     let at_rest = |tangent: f64| 2.0 * overlap(tangent) - 0.01;
     let rest = bracketed_root(at_rest, CRITICAL_FRICTION, 1.0).unwrap();
-    assert!((course.settled_pair_ratio() - rest).abs() < 1e-12);
-    assert!((course.settled_outward() - outward(rest)).abs() < 1e-12);
+    assert!((path.settled_pair_ratio() - rest).abs() < 1e-12);
+    assert!((path.settled_outward() - outward(rest)).abs() < 1e-12);
     let above = |tangent: f64| {
         let rise = (2.0 - overlap(tangent)) * (2.0 * tangent.atan()).cos();
         rise - (2.0 * overlap(tangent) - 0.01)
     };
     let contact = bracketed_root(above, CRITICAL_FRICTION, 1.0).unwrap();
-    assert!((course.wall_contact_pair_ratio().unwrap() - contact).abs() < 1e-12);
-    assert!((course.wall_contact_outward().unwrap() - outward(contact)).abs() < 1e-12);
+    assert!((path.wall_contact_pair_ratio().unwrap() - contact).abs() < 1e-12);
+    assert!((path.wall_contact_outward().unwrap() - outward(contact)).abs() < 1e-12);
 }
 
 #[test]
 fn a_path_without_wall_contact_has_no_state_there() {
     // So compliant that the springs never bear what the wall would need.
-    let course = Course::new(&stack(0.3, 0.7, 1e2, 1e3));
-    assert_eq!(course.wall_contact_pair_ratio(), None);
-    assert_eq!(course.wall_contact_outward(), None);
+    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 1e3));
+    assert_eq!(path.wall_contact_pair_ratio(), None);
+    assert_eq!(path.wall_contact_outward(), None);
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn boundaries_beside_the_map_are_left_out() {
 fn lines_are_where_their_conditions_hold() {
     let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5);
     assert_eq!(over_stiffness.lines(), []);
-    let course = Course::new(&stack(0.3, 0.7, 1e2, 2.5));
+    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 2.5));
     let [
         Line::CylindersBearTheirWeight(weight),
         Line::WallArrivesAsCylindersSlip(wall),
@@ -337,8 +337,8 @@ fn lines_are_where_their_conditions_hold() {
     else {
         panic!("two lines: {:?}", over_friction.lines());
     };
-    assert!((weight - course.settled_pair_ratio()).abs() < 1e-12);
-    assert!((wall - course.wall_contact_pair_ratio().unwrap()).abs() < 1e-12);
+    assert!((weight - path.settled_pair_ratio()).abs() < 1e-12);
+    assert!((wall - path.wall_contact_pair_ratio().unwrap()).abs() < 1e-12);
     let [
         Line::WallArrivesAsCylindersSlip(ratio),
         Line::ContactCloses(CLOSING_STIFFNESS_RATIO),
@@ -346,7 +346,7 @@ fn lines_are_where_their_conditions_hold() {
     else {
         panic!("two lines: {:?}", over_ratio.lines());
     };
-    let at_wall = Course::new(&stack(0.3, 0.7, 1e2, ratio)).wall_contact_pair_ratio();
+    let at_wall = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, ratio)).wall_contact_pair_ratio();
     assert!((at_wall.unwrap() - 0.7).abs() < 1e-10);
     let above = RegimeMap {
         range: (1.1, 2.0),
@@ -416,9 +416,9 @@ fn reopenings_are_where_the_fifth_contact_just_opens() {
     let [_, over_friction, over_ratio] = RegimeMap::standard(2.5);
     let values = over_ratio.reopenings();
     assert_eq!(values.len(), 2, "{values:?}");
-    let course = |kappa| Course::new(&stack(0.3, 0.7, 1e2, kappa));
-    assert!(course(values[0]).settled_outward().abs() < 1e-12);
-    assert!(course(values[1]).wall_contact_outward().unwrap().abs() < 1e-12);
+    let path = |kappa| EquilibriumPath::new(&stack(0.3, 0.7, 1e2, kappa));
+    assert!(path(values[0]).settled_outward().abs() < 1e-12);
+    assert!(path(values[1]).wall_contact_outward().unwrap().abs() < 1e-12);
     let [wall_tangent] = over_friction.reopenings()[..] else {
         panic!("one value: {:?}", over_friction.reopenings());
     };
@@ -440,7 +440,7 @@ fn a_released_stack_ends_where_its_bottom_cylinders_part() {
         assert!(((2.0 - overlap) * angle.sin() - 1.0).abs() < 1e-12);
         assert!((end.force - (200.0 * overlap - 1.0)).abs() < 1e-9);
         assert!((end.floor_overlap - (end.force + 3.0) * 0.005).abs() < 1e-12);
-        assert_eq!((end.bottom_force, end.stage), (0.0, Stage::Wall));
+        assert_eq!((end.bottom_force, end.stage), (0.0, LoadingPhase::Wall));
         if end.event == Event::FloorSlip {
             assert!((overlap * (end.tangent - mu) - 0.01 * mu).abs() < 1e-12);
         } else {

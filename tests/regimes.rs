@@ -1,11 +1,11 @@
 //! The regime map against the native DEM, on both sides of every boundary.
 
-use tristack::crosscheck::{THREE_DIGITS, confirm, examine, examined_stacks};
+use tristack::code::Interrupt;
 use tristack::dem::{Loading, Until, watch_stack};
-use tristack::engine::Interrupt;
-use tristack::stack::{PAPER_STIFFNESS_RATIO, Stack};
-use tristack::theory::{BoundaryPoint, Event, Outcome, RegimeMap, Stage};
-use tristack::verdict::Verdict;
+use tristack::model::{PAPER_STIFFNESS_RATIO, Stack};
+use tristack::study::Verdict;
+use tristack::study::regimes::{THREE_DIGITS, confirm, examine, examined_stacks};
+use tristack::theory::{BoundaryPoint, Event, LoadingPhase, Outcome, RegimeMap};
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -58,7 +58,7 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
                 time_step: 0.1,
             };
             let seen = watch_stack(&stack, &loading, Until::LastEvent, || true);
-            assert_eq!(seen.last, Some((Event::FloorSlip, Stage::Wall)));
+            assert_eq!(seen.last, Some((Event::FloorSlip, LoadingPhase::Wall)));
             seen.force
         };
         let extrapolated = 2.0 * force(2e-5) - force(4e-5);

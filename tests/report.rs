@@ -1,4 +1,4 @@
-//! `tristack report` on a machine without engines, and its page in a real browser.
+//! `tristack report` on a machine without codes, and its page in a real browser.
 
 mod common;
 
@@ -16,7 +16,7 @@ const REQUIRED: &str = "TRISTACK_REQUIRE_BROWSER";
 fn report() -> &'static (Bench, Output) {
     static REPORT: OnceLock<(Bench, Output)> = OnceLock::new();
     REPORT.get_or_init(|| {
-        let bench = Bench::without_engines();
+        let bench = Bench::without_codes();
         let output = bench.tristack("report --out report").output();
         (bench, output.expect("it runs"))
     })
@@ -37,7 +37,7 @@ fn message() -> String {
 }
 
 #[test]
-fn a_machine_without_engines_gets_the_whole_report_from_recorded_runs() {
+fn a_machine_without_codes_gets_the_whole_report_from_recorded_runs() {
     assert!(is_complete(&report().1), "{}", message());
     let page = file("report.md");
     for section in [
@@ -129,7 +129,7 @@ fn metadata_name_every_file_and_its_digest() {
     for entry in described {
         let name = entry["@id"].as_str().expect("a name");
         let content = fs::read(report().0.path("report").join(name)).expect("a file");
-        assert_eq!(entry["sha256"], tristack::stack::sha256_hex(&content));
+        assert_eq!(entry["sha256"], tristack::model::sha256_hex(&content));
         names.push(name.into());
     }
     names.push("ro-crate-metadata.json".into());
@@ -157,7 +157,7 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
 /// What a browser finds on the page: see tests/page_inspection.js.
 fn inspected(width: u32) -> Option<serde_json::Value> {
     let browser = browser()?;
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let script = include_str!("page_inspection.js");
     let page = file("report.html").replace("</body>", &format!("<script>{script}</script></body>"));
     let output = laid_out(&browser, &bench, &page, width);
@@ -240,7 +240,7 @@ fn a_browser_draws_every_figure_fetches_nothing_and_overlaps_no_text() {
 #[test]
 fn the_inspection_sees_what_it_looks_for() {
     let Some(browser) = browser() else { return };
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let script = include_str!("page_inspection.js");
     let page = format!(
         "<!doctype html><body><img src=\"http://example.invalid/a.png\"><figure><svg width=\"90\" height=\"90\">\

@@ -1,19 +1,19 @@
 //! The round-off in the error budget, held against twins that compute with more digits.
 
-use tristack::crosscheck::{Extrapolation, extrapolate, plan};
-use tristack::engine::{Engine, EngineName, Interrupt, Workplace};
-use tristack::stack::{CRITICAL_FRICTION, Stack};
-use tristack::trace::YieldEstimates;
+use tristack::code::{Code, InstalledCode, Interrupt, RunContext};
+use tristack::model::{CRITICAL_FRICTION, Stack};
+use tristack::series::YieldEstimates;
+use tristack::study::yield_force::{Extrapolation, extrapolate, plan};
 
-fn slip(engine: &dyn Engine, stack: &Stack) -> Extrapolation {
-    let cases = plan(engine.name(), stack, engine.name().convention()).cases;
+fn slip(code: &dyn InstalledCode, stack: &Stack) -> Extrapolation {
+    let cases = plan(code.name(), stack, code.name().convention()).cases;
     let directory = tempfile::tempdir().expect("a directory");
     let interrupt = Interrupt::new();
-    let workplace = Workplace::new(directory.path(), &interrupt);
+    let context = RunContext::new(directory.path(), &interrupt);
     let mut estimates = vec![None; cases.len()];
-    engine.run(&cases, &workplace, &mut |index, result| {
+    code.run(&cases, &context, &mut |index, result| {
         let run = result.expect("it delivers");
-        estimates[index] = Some(YieldEstimates::read(&run.trace, stack));
+        estimates[index] = Some(YieldEstimates::read(&run.series, stack));
     });
     let estimates: Vec<YieldEstimates> = estimates.into_iter().flatten().collect();
     let steps: Vec<u64> = cases.iter().map(|case| case.total_steps()).collect();
@@ -21,13 +21,13 @@ fn slip(engine: &dyn Engine, stack: &Stack) -> Extrapolation {
 }
 
 /// Round-off found by the twin, as a part of what the budget says.
-fn part_of_budget(engine: EngineName, stack: &Stack) -> Option<f64> {
-    let (engine, twin) = (engine.find()?, engine.find_precise()?);
-    let (double, precise) = (slip(engine.as_ref(), stack), slip(twin.as_ref(), stack));
+fn part_of_budget(code: Code, stack: &Stack) -> Option<f64> {
+    let (code, twin) = (code.find()?, code.find_precise()?);
+    let (double, precise) = (slip(code.as_ref(), stack), slip(twin.as_ref(), stack));
     let found = (double.force - precise.force).abs();
     println!(
         "{} mu = {}, stiffness = {}: round-off {found:.1e}, in the budget {:.1e}",
-        engine.name(),
+        code.name(),
         stack.floor_friction,
         stack.stiffness,
         double.budget.round_off
@@ -36,17 +36,17 @@ fn part_of_budget(engine: EngineName, stack: &Stack) -> Option<f64> {
 }
 
 /// Not above the budget anywhere; and the budget is no more than a hundred times what is found somewhere.
-fn assert_fair(engine: EngineName, stacks: &[Stack]) {
+fn assert_fair(code: Code, stacks: &[Stack]) {
     let parts: Vec<f64> = stacks
         .iter()
-        .filter_map(|stack| part_of_budget(engine, stack))
+        .filter_map(|stack| part_of_budget(code, stack))
         .collect();
     if parts.is_empty() {
-        eprintln!("{engine} or its twin is not installed: skipped");
+        eprintln!("{code} or its twin is not installed: skipped");
         return;
     }
     let largest = parts.iter().copied().fold(0.0, f64::max);
-    assert!((0.01..1.0).contains(&largest), "{engine}: {parts:?}");
+    assert!((0.01..1.0).contains(&largest), "{code}: {parts:?}");
 }
 
 #[test]
@@ -57,11 +57,11 @@ fn native_is_within_its_round_off_of_a_double_double_twin() {
         Stack::paper(0.2, 1e4),
         Stack::paper(CRITICAL_FRICTION, 1e4),
     ];
-    assert_fair(EngineName::Native, &stacks);
+    assert_fair(Code::Native, &stacks);
 }
 
 #[test]
 fn yade_is_within_its_round_off_of_a_long_double_twin() {
     let stacks = [Stack::paper(0.2, 1e2), Stack::paper(0.2, 1e4)];
-    assert_fair(EngineName::Yade, &stacks);
+    assert_fair(Code::Yade, &stacks);
 }

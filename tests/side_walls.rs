@@ -4,15 +4,15 @@
 mod common;
 
 use common::{Bench, json, standard_error, standard_output};
-use tristack::archive::Run;
-use tristack::crosscheck::{Progress, Recorded, Settings, Workload};
+use tristack::code::Run;
+use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::compress_stack;
-use tristack::engine::{EngineName, Failure, Interrupt};
-use tristack::reproduction::{
+use tristack::model::{Case, Preparation, Stack};
+use tristack::runs::Store;
+use tristack::runs::{Progress, Recorded, Settings, Workload};
+use tristack::study::preparation::{
     Estimator, PreparationStudy, critical_pushes, plan_preparation, study_preparation,
 };
-use tristack::stack::{Case, Preparation, Stack};
-use tristack::store::Store;
 use tristack::theory::{critical_push, pushed_slip_force};
 
 static INTERRUPT: Interrupt = Interrupt::new();
@@ -22,7 +22,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _total: usize, _reused: usize, _seconds: f64) {}
     fn advanced(&self, _seconds: f64) {}
-    fn finished(&self, _engine: EngineName, _case: &Case, _result: Result<&Run, &Failure>) {}
+    fn finished(&self, _code: Code, _case: &Case, _result: Result<&Run, &Failure>) {}
     fn warn(&self, message: &str) {
         panic!("{message}");
     }
@@ -40,7 +40,7 @@ fn settings(bench: &Bench) -> Settings<'static> {
 }
 
 fn study(stacks: &[Stack], relative_pushes: &[f64]) -> Vec<PreparationStudy> {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let settings = settings(&bench);
     study_preparation(stacks, relative_pushes, &[], &settings, &Silent).expect("native runs")
 }
@@ -96,7 +96,7 @@ fn bottom_cylinders_touch_beyond_the_critical_push_and_not_before() {
 /// The theory is of leading order: what it leaves out is relatively of order ε.
 #[test]
 fn critical_push_is_the_predicted_one_to_leading_order() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let stacks = [1e2, 1e4].map(|stiffness| Stack::paper(0.2, stiffness));
     let found = critical_pushes(&stacks, &settings(&bench), &Silent).expect("native runs");
     assert_eq!(found.len(), stacks.len());
@@ -129,19 +129,19 @@ fn a_stack_that_slides_while_the_walls_go_is_judged_by_its_peak() {
 /// Pinned on x86-64 Linux, debug build of version 0.1.0; see tests/native_dem.rs.
 #[test]
 fn series_has_the_same_bits_everywhere() {
-    let name = EngineName::Native;
+    let name = Code::Native;
     let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.005)).cases()[0];
-    let trace = compress_stack(&case, || true).expect("a finite series");
+    let series = compress_stack(&case, || true).expect("a finite series");
     let expected = "cf9a41750af317855ae9cca19b87acfc9e4e5f84b78dde668581c110eeb4ca07";
-    assert_eq!(tristack::stack::sha256_hex(&trace.to_csv()), expected);
+    assert_eq!(tristack::model::sha256_hex(&series.to_csv()), expected);
 }
 
 const RUN: &str = "simulate --mu 0.2 --stiffness 100";
 
 #[test]
 fn simulate_prepares_between_side_walls() {
-    let bench = Bench::without_engines();
-    let line = format!("{RUN} --engine native --preparation side-walls --format json");
+    let bench = Bench::without_codes();
+    let line = format!("{RUN} --code native --preparation side-walls --format json");
     let pushed = json(&standard_output(
         &mut bench.tristack(&format!("{line} --push 0.005")),
     ));
@@ -156,19 +156,19 @@ fn simulate_prepares_between_side_walls() {
 
 #[test]
 fn what_cannot_be_prepared_is_refused_with_what_can() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let walls = "--preparation side-walls";
     for (line, expected) in [
         (
-            format!("{RUN} --engine lammps {walls}"),
+            format!("{RUN} --code lammps {walls}"),
             "`--preparation` is side-walls, but must be gravity-ramp for lammps",
         ),
         (
-            format!("{RUN} --engine native {walls} --push -0.1"),
+            format!("{RUN} --code native {walls} --push -0.1"),
             "`--push` is -0.1, but must be a number from 0 to 0.5",
         ),
         (
-            format!("{RUN} --engine native --push 0.1"),
+            format!("{RUN} --code native --push 0.1"),
             "`--push` is 0.1, but must be left out, unless --preparation is side-walls",
         ),
     ] {
@@ -180,15 +180,15 @@ fn what_cannot_be_prepared_is_refused_with_what_can() {
 
 #[test]
 fn a_case_file_with_side_walls_is_refused_where_they_are_not_offered() {
-    let bench = Bench::without_engines();
-    let name = EngineName::Lammps;
+    let bench = Bench::without_codes();
+    let name = Code::Lammps;
     let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
     assert!(matches!(
         case.protocol.preparation,
         Preparation::SideWalls(_)
     ));
     std::fs::write(bench.path("case.json"), case.to_json()).expect("a file");
-    let line = "simulate --engine lammps --case case.json";
+    let line = "simulate --code lammps --case case.json";
     bench.tristack(line).assert().code(1);
     let message = standard_error(&mut bench.tristack(line));
     let expected = "`protocol.preparation.kind` is side-walls, but must be gravity-ramp for lammps";

@@ -9,7 +9,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-const SWEEP: &str = "sweep --engine native --mu 0.3 --stiffness 100 --format csv";
+const SWEEP: &str = "sweep --code native --mu 0.3 --stiffness 100 --format csv";
 
 fn entries(bench: &Bench) -> Vec<PathBuf> {
     let below = |directory: &Path| {
@@ -23,7 +23,7 @@ fn entries(bench: &Bench) -> Vec<PathBuf> {
 
 #[test]
 fn an_entry_can_be_checked_without_tristack() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     bench.tristack(SWEEP).assert().code(0);
     let entries = entries(&bench);
     assert_eq!(entries.len(), 5);
@@ -42,7 +42,7 @@ fn an_entry_can_be_checked_without_tristack() {
 
 #[test]
 fn a_damaged_entry_is_put_aside_and_kept() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let first = standard_output(&mut bench.tristack(SWEEP));
     let entry = &entries(&bench)[0];
     let path = entry.join("series.csv");
@@ -68,7 +68,7 @@ fn a_damaged_entry_is_put_aside_and_kept() {
 
 #[test]
 fn a_store_of_another_format_is_refused_and_left_as_it_is() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let store = bench.path("store");
     for (file, content) in [
         ("format", "tristack store, format 3\n"),
@@ -93,9 +93,9 @@ fn a_store_of_another_format_is_refused_and_left_as_it_is() {
 
 #[test]
 fn runs_are_kept_though_nobody_listens_any_more() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let mut command =
-        bench.process("sweep --engine native --mu 0.2:0.5:0.02 --stiffness 100 --jobs 2");
+        bench.process("sweep --code native --mu 0.2:0.5:0.02 --stiffness 100 --jobs 2");
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("it starts");
     drop(child.stderr.take());
@@ -107,9 +107,8 @@ fn runs_are_kept_though_nobody_listens_any_more() {
 
 #[test]
 fn native_runs_that_are_late_are_told_of_one_by_one() {
-    let bench = Bench::without_engines();
-    let line =
-        "sweep --engine native --mu 0.2:0.5:0.05 --stiffness 1e6 --jobs 1 --time-limit 0.001";
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.2:0.5:0.05 --stiffness 1e6 --jobs 1 --time-limit 0.001";
     let output = bench.tristack(&format!("{line} --format csv")).output();
     let output = output.expect("it runs");
     let rows = String::from_utf8(output.stdout).expect("text");
@@ -145,7 +144,7 @@ fn install_slow_replay(bench: &Bench, wait: &str) -> PathBuf {
 fn two_programs_at_one_store_make_every_run_once() {
     let bench = Bench::with_system_programs();
     let asked = install_slow_replay(&bench, "sleep 0.1");
-    let line = "crosscheck --engines yade --jobs 2 --format csv";
+    let line = "crosscheck --codes yade --jobs 2 --format csv";
     let programs = [start(&bench, line), start(&bench, line)];
     let numbers = [programs[0].id(), programs[1].id()];
     let outputs = programs.map(|program| program.wait_with_output().expect("it ends"));
@@ -169,7 +168,7 @@ fn what_a_killed_program_was_making_is_made_by_the_one_that_waits() {
     fs::write(&hold, "").expect("a file");
     let wait = format!("while [ -e {} ]; do sleep 0.01; done", hold.display());
     let asked = install_slow_replay(&bench, &wait);
-    let line = "sweep --engine yade --mu 0.3 --stiffness 100 --jobs 1 --format csv";
+    let line = "sweep --code yade --mu 0.3 --stiffness 100 --jobs 1 --format csv";
     let mut first = start(&bench, line);
     wait_for(|| asked.exists().then_some(()));
     let told = bench.path("told");

@@ -2,7 +2,7 @@
 //! relations that must hold between them.
 
 use proptest::prelude::*;
-use tristack::stack::Stack;
+use tristack::model::Stack;
 use tristack::theory::{Predictions, closed_form_limit, followed_limit};
 
 /// Values spread evenly over the logarithm.

@@ -1,17 +1,18 @@
 //! A native twin with one part of its convention wrong differs from the code; from recorded runs.
 
 use std::path::Path;
-use tristack::archive::Run;
-use tristack::crosscheck::{
-    Branch, Participant, Progress, Recorded, Settings, TIME_STEPS, TrajectoryJudgement, Twin,
-    measure_trajectories, plan_trajectory, trajectory_stack,
+use tristack::code::Run;
+use tristack::code::{Code, Failure, Interrupt};
+use tristack::model::{
+    Case, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
 };
-use tristack::engine::{EngineName, Failure, Interrupt};
-use tristack::stack::{
-    Case, Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport,
+use tristack::runs::Store;
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::study::Verdict;
+use tristack::study::trajectory::{
+    Branch, TIME_STEPS, TrajectoryJudgement, Twin, measure_trajectories, plan_trajectory,
+    trajectory_stack,
 };
-use tristack::store::Store;
-use tristack::verdict::Verdict;
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -20,12 +21,12 @@ struct Silence;
 impl Progress for Silence {
     fn planned(&self, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: EngineName, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
-/// The recorded runs of `engine` beside twins with the convention `declared`.
-fn judged(engine: EngineName, declared: Convention) -> TrajectoryJudgement {
+/// The recorded runs of `code` beside twins with the convention `declared`.
+fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
     let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
     let settings = Settings {
@@ -36,20 +37,20 @@ fn judged(engine: EngineName, declared: Convention) -> TrajectoryJudgement {
         time_limit: None,
         interrupt: &INTERRUPT,
     };
-    let participants = [
-        Participant {
-            name: engine,
-            engine: None,
+    let codes = [
+        SelectedCode {
+            name: code,
+            code: None,
         },
-        Participant::find(EngineName::Native),
+        SelectedCode::find(Code::Native),
     ];
-    let plan = plan_trajectory(engine, &trajectory_stack(), declared);
-    let mut judgements = measure_trajectories(&[plan], &participants, &settings, &Silence);
+    let plan = plan_trajectory(code, &trajectory_stack(), declared);
+    let mut judgements = measure_trajectories(&[plan], &codes, &settings, &Silence);
     judgements.pop().expect("one code")
 }
 
 /// `convention` with one thing changed, each named.
-fn wrong(convention: Convention) -> Vec<(&'static str, Convention)> {
+fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)> {
     let mut all = vec![
         ("pair arm", convention),
         ("floor arm", convention),
@@ -69,13 +70,13 @@ fn wrong(convention: Convention) -> Vec<(&'static str, Convention)> {
         CoulombOperand::SpringAndDamping => CoulombOperand::Spring,
     };
     all[5].1.sliding_spring = SlidingSpring::Frozen;
-    all[6].1.spring_transport = match convention.spring_transport {
-        SpringTransport::Linearised => SpringTransport::Projected,
-        _ => SpringTransport::Linearised,
+    all[6].1.history_update = match convention.history_update {
+        HistoryUpdate::Linearised => HistoryUpdate::Projected,
+        _ => HistoryUpdate::Linearised,
     };
-    all[7].1.separating_force = match convention.separating_force {
-        SeparatingForce::MayPull => SeparatingForce::NeverPulls,
-        SeparatingForce::NeverPulls => SeparatingForce::MayPull,
+    all[7].1.tensile_force = match convention.tensile_force {
+        TensileForce::MayPull => TensileForce::NeverPulls,
+        TensileForce::NeverPulls => TensileForce::MayPull,
     };
     all
 }
@@ -87,14 +88,14 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 
 #[test]
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
-    for engine in [EngineName::Liggghts, EngineName::Yade, EngineName::Lammps] {
-        let own = judged(engine, engine.convention());
+    for code in [Code::Liggghts, Code::Yade, Code::Lammps] {
+        let own = judged(code, code.convention());
         assert_eq!(count(&own, Verdict::Agrees), own.comparisons.len());
-        for (what, convention) in wrong(engine.convention()) {
-            let judgement = judged(engine, convention);
+        for (what, convention) in wrong(code.convention()) {
+            let judgement = judged(code, convention);
             let differing = count(&judgement, Verdict::Differs);
-            println!("{engine}, another {what}: {differing} comparisons differ");
-            assert!(differing > 0, "{engine}: another {what} is not seen");
+            println!("{code}, another {what}: {differing} comparisons differ");
+            assert!(differing > 0, "{code}: another {what} is not seen");
         }
     }
 }
@@ -103,12 +104,12 @@ fn a_twin_with_one_part_of_its_convention_wrong_differs() {
 #[test]
 fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
     for what in ["inertia", "operand", "sliding spring"] {
-        let engine = EngineName::Liggghts;
-        let (_, convention) = wrong(engine.convention())
+        let code = Code::Liggghts;
+        let (_, convention) = wrong(code.convention())
             .into_iter()
             .find(|(name, _)| *name == what)
             .expect("its name");
-        let judgement = judged(engine, convention);
+        let judgement = judged(code, convention);
         let full = judgement.comparisons.iter().filter(|comparison| {
             comparison.branch == Branch::Collapse && comparison.twin == Twin::Full
         });

@@ -1,30 +1,30 @@
 //! `tristack bench`.
 
-use super::options::{Format, participants, writable};
+use super::options::{Format, selected_codes, writable};
 use super::{CliError, ExitStatus, INTERRUPT, print};
-use crate::archive::{ArchiveError, write_atomically};
-use crate::bench::{Contestant, PyramidBench, ScalingBench, StackBench};
-use crate::engine::{EngineName, Workplace};
-use crate::report::{
+use crate::code::{Code, RunContext};
+use crate::files::{FileError, write_atomically};
+use crate::output::{
     BenchRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows, bench_table,
     performance_svg, pyramid_rows, pyramid_table, scaling_table,
 };
+use crate::study::cost::{BenchTarget, PyramidBench, ScalingBench, StackBench};
 use clap::Args;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// What a step and a yield force cost, engine by engine
+/// What a step and a yield force cost, code by code
 ///
 /// Native is always timed, a run at a time and in the lanes of vectors, since the others are compared with
-/// it. A step costs the difference of a long and a short run, so that start-up cancels; all engines take
-/// turns. Every engine runs on one core. Nothing is taken from a store.
+/// it. A step costs the difference of a long and a short run, so that start-up cancels; all codes take
+/// turns. Every code runs on one core. Nothing is taken from a store.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack bench --engines native,lammps --repeats 3")]
+#[command(after_help = "Example: tristack bench --codes native,lammps --repeats 3")]
 pub struct Arguments {
-    /// Which engines, separated by commas; each must be installed [default: all that are, YADE on its box]
+    /// Which codes, separated by commas; each must be installed [default: all that are, YADE on its box]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     /// How often everything is measured; medians are printed
     #[arg(long, value_name = "N")]
     repeats: Option<NonZeroUsize>,
@@ -44,16 +44,16 @@ pub struct Arguments {
 
 /// Measures, prints and writes.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let engines = engines(&arguments.engines)?;
+    let codes = timed_codes(&arguments.codes)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
     let temporary = std::env::temp_dir();
-    let directory = tempfile::tempdir().map_err(ArchiveError::writing(&temporary))?;
-    let workplace = Workplace::new(directory.path(), &INTERRUPT);
+    let directory = tempfile::tempdir().map_err(FileError::writing(&temporary))?;
+    let context = RunContext::new(directory.path(), &INTERRUPT);
     let measured = match arguments.pyramids {
-        true => measure_pyramids(arguments, engines, &workplace),
-        false => measure_stack(arguments, &engines, &workplace),
+        true => measure_pyramids(arguments, codes, &context),
+        false => measure_stack(arguments, &codes, &context),
     };
     match measured {
         Err(_) if INTERRUPT.requested() => Ok(ExitStatus::Interrupted),
@@ -62,32 +62,32 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
 }
 
-/// The engines named and native, or those of the default that are installed.
-fn engines(named: &[EngineName]) -> Result<Vec<EngineName>, CliError> {
+/// The codes named and native, or those of the default that are installed.
+fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
         return Ok(StackBench::installed());
     }
-    let mut names = vec![EngineName::Native];
+    let mut names = vec![Code::Native];
     names.extend(named);
-    let participants = participants(&names)?;
-    Ok(participants.iter().map(|who| who.name).collect())
+    let codes = selected_codes(&names)?;
+    Ok(codes.iter().map(|who| who.name).collect())
 }
 
 fn measure_stack(
     arguments: &Arguments,
-    engines: &[EngineName],
-    workplace: &Workplace,
+    codes: &[Code],
+    context: &RunContext,
 ) -> Result<Vec<u8>, CliError> {
     let default = StackBench::default();
     let bench = StackBench {
-        contestants: engines.iter().copied().flat_map(Contestant::of).collect(),
+        targets: codes.iter().copied().flat_map(BenchTarget::of).collect(),
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let rows = bench_rows(&bench.measure(workplace)?);
+    let rows = bench_rows(&bench.measure(context)?);
     let mut output = printed(arguments.format, &rows, || bench_table(&rows).terminal());
     if arguments.scaling || arguments.out.is_some() {
-        let further = measure_scaling(arguments, &rows, workplace)?;
+        let further = measure_scaling(arguments, &rows, context)?;
         if arguments.format == Format::Table {
             output.extend(further.into_bytes());
         }
@@ -99,14 +99,14 @@ fn measure_stack(
 fn measure_scaling(
     arguments: &Arguments,
     rows: &[BenchRow],
-    workplace: &Workplace,
+    context: &RunContext,
 ) -> Result<String, CliError> {
     let default = ScalingBench::default();
     let bench = ScalingBench {
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let scaling = bench.measure(workplace)?;
+    let scaling = bench.measure(context)?;
     if let Some(directory) = &arguments.out {
         let all = [scaling.cases.as_slice(), &scaling.cores].concat();
         let markdown = bench_markdown(rows, &scaling);
@@ -125,25 +125,25 @@ fn measure_scaling(
     ))
 }
 
-fn write(directory: &Path, name: &str, content: &[u8]) -> Result<(), ArchiveError> {
+fn write(directory: &Path, name: &str, content: &[u8]) -> Result<(), FileError> {
     write_atomically(&directory.join(name), content)
 }
 
 fn measure_pyramids(
     arguments: &Arguments,
-    mut engines: Vec<EngineName>,
-    workplace: &Workplace,
+    mut codes: Vec<Code>,
+    context: &RunContext,
 ) -> Result<Vec<u8>, CliError> {
-    if arguments.engines.is_empty() {
-        engines.retain(|engine| engine.builds_pyramids());
+    if arguments.codes.is_empty() {
+        codes.retain(|code| code.builds_pyramids());
     }
     let default = PyramidBench::default();
     let bench = PyramidBench {
-        engines,
+        codes,
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let costs = bench.measure(workplace)?;
+    let costs = bench.measure(context)?;
     let rows = pyramid_rows(&costs);
     Ok(printed(arguments.format, &rows, || {
         pyramid_table(&rows).terminal()

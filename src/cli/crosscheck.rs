@@ -1,42 +1,44 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{Format, RunOptions, participants, writable};
+use super::options::{Format, RunOptions, selected_codes, writable};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{Judgement, Measurement, Participant, Profile, Source, measure};
-use crate::engine::EngineName;
-use crate::report::{
+use crate::code::Code;
+use crate::files::{FileError, write_atomically};
+use crate::output::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
-use crate::verdict::Verdict;
+use crate::runs::SelectedCode;
+use crate::study::Source;
+use crate::study::Verdict;
+use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// The main job: run, compare, judge, write tables
 ///
-/// Measures the yield force of every stack of the profile with every engine, extrapolates it to vanishing
-/// wall speed, and holds it against the exact quasi-static limit under the engine's own contact
-/// convention. Engines that are not installed are represented by their recorded runs.
+/// Measures the yield force of every stack of the profile with every code, extrapolates it to vanishing
+/// wall speed, and holds it against the exact quasi-static limit under the code's own contact
+/// convention. Codes that are not installed are represented by their recorded runs.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: tristack crosscheck --engines native,liggghts --out results\n          \
+    after_help = "Examples: tristack crosscheck --codes native,liggghts --out results\n          \
     tristack crosscheck --explain yade/0.3/100"
 )]
 pub struct Arguments {
     /// Which stacks
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     profile: Profile,
-    /// Which engines, separated by commas; each must be installed [default: all, recorded if necessary]
+    /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Explain one row, ENGINE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["engines", "out", "format", "profile"])]
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile"])]
     explain: Option<RowName>,
     /// Let native walls approach the yield up to ten times faster and stop after it; a run without, for each
     /// row, says what this changes
@@ -54,12 +56,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if let Some(row) = &arguments.explain {
         return explain(row, &arguments.run);
     }
-    let participants = participants(&arguments.engines)?;
+    let codes = selected_codes(&arguments.codes)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
-    let engines: Vec<EngineName> = participants.iter().map(|who| who.name).collect();
-    let mut measurements = arguments.profile.measurements(&engines);
+    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
+    let mut measurements = arguments.profile.measurements(&names);
     if arguments.shortcuts {
         measurements = measurements
             .into_iter()
@@ -68,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let judgements = measure(&measurements, &participants, &settings, &reporter);
+    let judgements = measure(&measurements, &codes, &settings, &reporter);
     drop(reporter);
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, &command_line(arguments))?;
@@ -79,10 +81,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => crosscheck_json(&judgements).into_bytes(),
         Format::Csv => crosscheck_csv(&judgements),
     })?;
-    Ok(conclude(&judgements, measurements.len(), &participants))
+    Ok(conclude(&judgements, measurements.len(), &codes))
 }
 
-fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), ArchiveError> {
+fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), FileError> {
     write_atomically(
         &directory.join("crosscheck.csv"),
         &crosscheck_csv(judgements),
@@ -101,9 +103,9 @@ fn command_line(arguments: &Arguments) -> String {
     let profile = arguments.profile.to_possible_value();
     let profile = profile.as_ref().map_or("", |value| value.get_name());
     let mut line = format!("tristack crosscheck --profile {profile}");
-    if !arguments.engines.is_empty() {
-        let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
-        line += &format!(" --engines {}", names.join(","));
+    if !arguments.codes.is_empty() {
+        let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
+        line += &format!(" --codes {}", names.join(","));
     }
     line
 }
@@ -112,7 +114,7 @@ fn command_line(arguments: &Arguments) -> String {
 pub(super) fn conclude(
     judgements: &[Judgement],
     planned: usize,
-    participants: &[Participant],
+    codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
         let row = &judgement.row;
@@ -120,17 +122,17 @@ pub(super) fn conclude(
             tell!(
                 "{}: {} mu={} stiffness={}: {note}",
                 row.verdict,
-                row.engine,
+                row.code,
                 friction(row.mu),
                 row.stiffness
             );
         }
     }
-    for participant in participants.iter().filter(|who| who.engine.is_none()) {
+    for selected in codes.iter().filter(|who| who.code.is_none()) {
         tell!(
             "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            participant.name,
-            participant.name.installation_hint()
+            selected.name,
+            selected.name.installation_hint()
         );
     }
     tell!("{}", summary(judgements));

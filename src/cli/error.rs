@@ -1,15 +1,15 @@
 //! How a command ends.
 
-use crate::archive::ArchiveError;
-use crate::bench::BenchError;
-use crate::claims::RegisterError;
-use crate::crosscheck::{Judgement, NoYield};
-use crate::engine::{EngineName, Failure, FailureKind};
-use crate::report::PdfError;
-use crate::reproduction::ReproductionError;
-use crate::stack::{CaseError, InvalidValue, shown};
-use crate::store::StoreError;
-use crate::verdict::Verdict;
+use crate::code::{Code, Failure, FailureKind};
+use crate::files::FileError;
+use crate::model::{CaseError, InvalidValue, shown};
+use crate::output::PdfError;
+use crate::paper::claims::RegisterError;
+use crate::paper::reproduction::ReproductionError;
+use crate::runs::StoreError;
+use crate::study::Verdict;
+use crate::study::cost::BenchError;
+use crate::study::yield_force::{Judgement, NoYield};
 use std::path::Path;
 use thiserror::Error;
 
@@ -22,7 +22,7 @@ pub enum ExitStatus {
     Inconclusive,
     /// A disagreement was found.
     Disagreement,
-    /// An engine failed, timed out or is missing.
+    /// An code failed, timed out or is missing.
     EngineFailed,
     /// Wrong usage or input.
     WrongInput,
@@ -81,13 +81,13 @@ pub enum CliError {
     Case(#[from] CaseError),
     /// Something cannot be written or read.
     #[error("{}", in_one_line(.0))]
-    Files(#[from] ArchiveError),
+    Files(#[from] FileError),
     /// The store cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// An engine was asked for by name, but is not installed.
+    /// An code was asked for by name, but is not installed.
     #[error("{0} is not installed: its program is not in the search path, or does not say its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
-    MissingEngine(EngineName),
+    MissingEngine(Code),
     /// A run that everything else needs is not there.
     #[error(transparent)]
     Reproduction(#[from] ReproductionError),
@@ -97,15 +97,15 @@ pub enum CliError {
     /// A figure cannot be written as PDF.
     #[error(transparent)]
     Pdf(#[from] PdfError),
-    /// An engine failed.
+    /// An code failed.
     #[error(transparent)]
-    Engine(#[from] Box<Failure>),
+    InstalledCode(#[from] Box<Failure>),
 }
 
 /// Paths may hold anything. What a parser says of a case file has lines of its own.
-fn in_one_line(error: &ArchiveError) -> String {
+fn in_one_line(error: &FileError) -> String {
     match error {
-        ArchiveError::Case(error) => error.to_string(),
+        FileError::Case(error) => error.to_string(),
         _ => shown(Path::new(&error.to_string())),
     }
 }
@@ -113,8 +113,8 @@ fn in_one_line(error: &ArchiveError) -> String {
 impl From<BenchError> for CliError {
     fn from(error: BenchError) -> Self {
         match error {
-            BenchError::Missing { engine } => Self::MissingEngine(engine),
-            BenchError::Failed(failure) => Self::Engine(failure),
+            BenchError::Missing { code } => Self::MissingEngine(code),
+            BenchError::Failed(failure) => Self::InstalledCode(failure),
             BenchError::Files(error) => Self::Files(error),
         }
     }
@@ -124,7 +124,7 @@ impl CliError {
     /// The exit status that goes with it.
     pub fn status(&self) -> ExitStatus {
         match self {
-            Self::Engine(failure) => match failure.kind {
+            Self::InstalledCode(failure) => match failure.kind {
                 FailureKind::Interrupted => ExitStatus::Interrupted,
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
                 _ => ExitStatus::EngineFailed,

@@ -3,28 +3,29 @@
 use super::options::{RunOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::crosscheck::{Participant, measure, measure_with_twin, plan};
-use crate::engine::EngineName;
-use crate::report::explanation;
-use crate::stack::Stack;
+use crate::code::Code;
+use crate::model::Stack;
+use crate::output::explanation;
+use crate::runs::SelectedCode;
+use crate::study::yield_force::{measure, measure_with_twin, plan};
 use clap::ValueEnum;
 
 /// One row of a crosscheck.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowName {
-    engine: EngineName,
+    code: Code,
     stack: Stack,
 }
 
 /// Reads ENGINE/MU/STIFFNESS.
 pub fn row_name(text: &str) -> Result<RowName, String> {
     let parts: Vec<&str> = text.split('/').collect();
-    let [engine, mu, stiffness] = parts[..] else {
+    let [code, mu, stiffness] = parts[..] else {
         return Err("accepted is ENGINE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
     };
-    let engine = EngineName::from_str(engine, true).map_err(|_| {
-        let names: Vec<&str> = EngineName::ALL.iter().map(|name| name.as_str()).collect();
-        format!("`{engine}` is no engine; accepted are {}", names.join(", "))
+    let code = Code::from_str(code, true).map_err(|_| {
+        let names: Vec<&str> = Code::ALL.iter().map(|name| name.as_str()).collect();
+        format!("`{code}` is no code; accepted are {}", names.join(", "))
     })?;
     let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
     let stiffness: f64 = stiffness
@@ -34,19 +35,19 @@ pub fn row_name(text: &str) -> Result<RowName, String> {
     stack
         .validate()
         .map_err(|error| as_flag(error).to_string())?;
-    Ok(RowName { engine, stack })
+    Ok(RowName { code, stack })
 }
 
 /// Measures one row and prints the whole chain from its runs to its verdict.
 pub fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
-    let participant = Participant::find(row.engine);
-    let measurement = plan(row.engine, &row.stack, row.engine.convention());
+    let selected = SelectedCode::find(row.code);
+    let measurement = plan(row.code, &row.stack, row.code.convention());
     let settings = options.settings()?;
     let reporter = Reporter::new();
     let measurements = std::slice::from_ref(&measurement);
     let judgements = measure(
         measurements,
-        std::slice::from_ref(&participant),
+        std::slice::from_ref(&selected),
         &settings,
         &reporter,
     );

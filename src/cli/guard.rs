@@ -1,7 +1,7 @@
 //! `tristack guard`: how tristack starts foreign programs, not something to type.
 
 use super::tell;
-use crate::engine::{end_like, guard};
+use crate::code::{end_like, guard};
 use clap::Args;
 use std::ffi::OsString;
 

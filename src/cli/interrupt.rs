@@ -1,15 +1,15 @@
 //! What the user does to end it: Ctrl-C, `kill`, closing the terminal.
 
 use super::{ExitStatus, tell};
-use crate::engine::Interrupt;
+use crate::code::Interrupt;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 /// The user's wish to stop.
 pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
 
-/// An interrupt stops the engines; what is done is printed, and kept in the store. A second one ends the program
-/// at once, and the guards of the engines with it.
+/// An interrupt stops the codes; what is done is printed, and kept in the store. A second one ends the program
+/// at once, and the guards of the codes with it.
 pub(super) fn listen() {
     match Signals::new(wanted()) {
         Ok(mut signals) => {
@@ -23,7 +23,7 @@ fn interrupt() {
     if INTERRUPT.request() {
         std::process::exit(ExitStatus::Interrupted.code().into());
     }
-    // Whoever reads the messages may have stopped reading, and a second interrupt is not to wait for that.
+    // Whoever reads the messages may have stopped summary, and a second interrupt is not to wait for that.
     std::thread::spawn(|| {
         tell!("interrupted: finished runs are kept; a second interrupt ends everything at once");
     });

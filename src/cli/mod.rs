@@ -1,8 +1,8 @@
 //! The command line: arguments in, library call, exit status out.
 
 mod bench;
+mod codes;
 mod crosscheck;
-mod engines;
 mod error;
 mod explain;
 mod guard;
@@ -22,8 +22,8 @@ mod trajectories;
 
 pub use error::{CliError, ExitStatus};
 
-use crate::archive::ArchiveError;
-use crate::engine::GUARD_COMMAND;
+use crate::code::GUARD_COMMAND;
+use crate::files::FileError;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 pub(crate) use interrupt::INTERRUPT;
 use std::cell::RefCell;
@@ -38,7 +38,7 @@ pub(crate) use tell::tell;
 #[command(
     after_help = "Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
     --stiffness is k_n r/(m g).\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
-    3 an engine failed or is missing, 4 inconclusive, 130 interrupted."
+    3 an code failed or is missing, 4 inconclusive, 130 interrupted."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -52,7 +52,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Crosscheck(crosscheck::Arguments),
     Trajectories(trajectories::Arguments),
-    Engines(engines::Arguments),
+    Codes(codes::Arguments),
     Probe(probe::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
@@ -81,7 +81,7 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::
 /// Runs the command line `arguments`, the first of which is the program.
 ///
 /// # Errors
-/// If the input is wrong or an engine that was asked for does not deliver.
+/// If the input is wrong or an code that was asked for does not deliver.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, CliError> {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
@@ -96,7 +96,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Crosscheck(arguments) => crosscheck::run(&arguments),
         Command::Trajectories(arguments) => trajectories::run(&arguments),
-        Command::Engines(arguments) => engines::run(&arguments),
+        Command::Codes(arguments) => codes::run(&arguments),
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments),
@@ -113,7 +113,7 @@ fn print(bytes: &[u8]) -> Result<ExitStatus, CliError> {
     let written = output.write_all(bytes).and_then(|()| output.flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(ArchiveError::writing(Path::new("standard output"))(error).into())
+            Err(FileError::writing(Path::new("standard output"))(error).into())
         }
         _ => Ok(ExitStatus::Success),
     }

@@ -1,14 +1,14 @@
 //! Options that several commands share.
 
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::ArchiveError;
-use crate::crosscheck::{Participant, Recorded, Settings};
-use crate::engine::EngineName;
-use crate::stack::{
-    CRITICAL_FRICTION, Convention, InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO,
-    Stack,
+use crate::code::Code;
+use crate::files::FileError;
+use crate::model::{
+    CRITICAL_FRICTION, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
+    PAPER_STIFFNESS_RATIO, Stack,
 };
-use crate::store::Store;
+use crate::runs::Store;
+use crate::runs::{Recorded, SelectedCode, Settings};
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -75,7 +75,7 @@ impl StackOptions {
     }
 }
 
-/// Torque arms, where they are not the engine's own.
+/// Torque arms, where they are not the code's own.
 #[derive(Debug, Clone, Args)]
 pub struct ArmOptions {
     /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap
@@ -87,17 +87,17 @@ pub struct ArmOptions {
 }
 
 impl ArmOptions {
-    /// The convention of `engine`, with the arms that were given in place of its own.
-    pub fn convention(&self, engine: EngineName) -> Result<Convention, InvalidValue> {
-        let own = engine.convention();
-        let convention = Convention {
+    /// The convention of `code`, with the arms that were given in place of its own.
+    pub fn convention(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
+        let own = code.convention();
+        let convention = ContactConvention {
             // Adding zero turns -0 into 0, which is the same arm and must be the same case.
             pair_arm: self.pair_arm.unwrap_or(own.pair_arm) + 0.0,
             floor_arm: self.floor_arm.unwrap_or(own.floor_arm) + 0.0,
             ..own
         };
         convention.validate().map_err(as_flag)?;
-        engine.check_convention(&convention).map_err(as_flag)?;
+        code.check_convention(&convention).map_err(as_flag)?;
         Ok(convention)
     }
 }
@@ -115,7 +115,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
     /// Longest time in seconds without a finished run [default: 30 s and 100 us a step for external
-    /// engines, none for native]
+    /// codes, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time_limit: Option<f64>,
 }
@@ -183,28 +183,28 @@ fn directory_from(variable: &str) -> Option<PathBuf> {
     value.map(PathBuf::from)
 }
 
-/// The engines named, each of which must be installed; all engines if none is named.
-pub fn participants(named: &[EngineName]) -> Result<Vec<Participant>, CliError> {
+/// The codes named, each of which must be installed; all codes if none is named.
+pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(EngineName::ALL.into_iter().map(Participant::find).collect());
+        return Ok(Code::ALL.into_iter().map(SelectedCode::find).collect());
     }
     let mut names = named.to_vec();
     names.sort();
     names.dedup();
     let found = names.into_iter().map(|name| {
-        let participant = Participant::find(name);
-        let installed = participant.engine.is_some();
+        let selected = SelectedCode::find(name);
+        let installed = selected.code.is_some();
         installed
-            .then_some(participant)
+            .then_some(selected)
             .ok_or(CliError::MissingEngine(name))
     });
     found.collect()
 }
 
 /// Creates `directory` and makes sure that files can be written there.
-pub fn writable(directory: &Path) -> Result<(), ArchiveError> {
-    std::fs::create_dir_all(directory).map_err(ArchiveError::writing(directory))?;
-    tempfile::tempfile_in(directory).map_err(ArchiveError::writing(directory))?;
+pub fn writable(directory: &Path) -> Result<(), FileError> {
+    std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
+    tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
 };
-use crate::report::{forecast_csv, forecast_json, forecast_table};
+use crate::output::{forecast_csv, forecast_json, forecast_table};
 use clap::{ArgGroup, Args};
 
 /// ε, regime and yield force of cylinders that one can hold, in SI units

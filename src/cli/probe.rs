@@ -1,28 +1,29 @@
 //! `tristack probe`.
 
-use super::options::{Format, RunOptions, participants};
+use super::options::{Format, RunOptions, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::crosscheck::{Participant, Probed, probe_all};
-use crate::engine::EngineName;
-use crate::probe::Finding;
-use crate::report::{probe_csv, probe_json, probe_table};
-use crate::verdict::Verdict;
+use crate::code::Code;
+use crate::output::{probe_csv, probe_json, probe_table};
+use crate::runs::SelectedCode;
+use crate::study::Verdict;
+use crate::study::convention::Finding;
+use crate::study::convention::{Probed, probe_all};
 use clap::Args;
 
-/// Measure what each engine means by a contact, and compare it with what its adapter declares
+/// Measure what each code means by a contact, and compare it with what its adapter declares
 ///
 /// Runs micro-tests of a single contact (cylinder on cylinder, on the floor, on the top wall) and reads
 /// stiffness, damping, torque arm, kinematic arm, friction, Coulomb operand and the treatment of the
-/// tangential spring off the reported motion and forces. Engines that are not installed are represented by
+/// tangential spring off the reported motion and forces. Codes that are not installed are represented by
 /// their recorded answers.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack probe --engines native,lammps --format json")]
+#[command(after_help = "Example: tristack probe --codes native,lammps --format json")]
 pub struct Arguments {
-    /// Which engines, separated by commas; each must be installed [default: all, recorded if necessary]
+    /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     #[command(flatten)]
     run: RunOptions,
     /// How to print the findings
@@ -32,10 +33,10 @@ pub struct Arguments {
 
 /// Probes, and prints the findings.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let participants = participants(&arguments.engines)?;
+    let codes = selected_codes(&arguments.codes)?;
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let probed = probe_all(&participants, &settings, &reporter);
+    let probed = probe_all(&codes, &settings, &reporter);
     drop(reporter);
     let findings: Vec<Finding> = probed
         .iter()
@@ -47,17 +48,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => probe_json(&findings).into_bytes(),
         Format::Csv => probe_csv(&findings),
     })?;
-    Ok(conclude(&participants, &probed, &findings))
+    Ok(conclude(&codes, &probed, &findings))
 }
 
 /// Says on standard error what the findings amount to, and returns the exit status.
-fn conclude(participants: &[Participant], probed: &[Probed], findings: &[Finding]) -> ExitStatus {
-    for (who, result) in participants.iter().zip(probed) {
+fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> ExitStatus {
+    for (who, result) in codes.iter().zip(probed) {
         if let Err(error) = result
             && !INTERRUPT.requested()
         {
             tell!("{} was not probed: {error}", who.name);
-        } else if who.engine.is_none() {
+        } else if who.code.is_none() {
             tell!(
                 "{} is not installed: its recorded answers stand in for it",
                 who.name

@@ -1,11 +1,11 @@
 //! Progress on standard error: a bar on a terminal, plain lines elsewhere.
 
 use super::tell;
-use crate::archive::Run;
-use crate::crosscheck::Progress;
-use crate::engine::{EngineName, Failure};
-use crate::report::friction;
-use crate::stack::Case;
+use crate::code::Run;
+use crate::code::{Code, Failure};
+use crate::model::Case;
+use crate::output::friction;
+use crate::runs::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -87,14 +87,14 @@ impl Progress for Reporter {
         }
     }
 
-    fn finished(&self, engine: EngineName, case: &Case, result: Result<&Run, &Failure>) {
+    fn finished(&self, code: Code, case: &Case, result: Result<&Run, &Failure>) {
         let (finished, open) = {
             let mut counts = self.counts();
             counts.finished += 1;
             (counts.finished, counts.open)
         };
         let subject = format!(
-            "[{finished}/{open}] {engine} mu={} stiffness={} speed={:.2e} dt={}",
+            "[{finished}/{open}] {code} mu={} stiffness={} speed={:.2e} dt={}",
             friction(case.stack.floor_friction),
             case.stack.stiffness,
             case.protocol.wall_speed,

@@ -1,17 +1,17 @@
 //! `tristack record`.
 
-use super::options::{RunOptions, participants, recorded_trajectories, reference_directory};
+use super::options::{RunOptions, recorded_trajectories, reference_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::trajectories::trajectories;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::Run;
-use crate::crosscheck::{
-    Participant, Profile, Recorded, RunError, Settings, Workload, record_probe, run_all,
-};
-use crate::engine::EngineName;
-use crate::reproduction::readings_to_record;
-use crate::stack::shown;
+use crate::code::Code;
+use crate::code::Run;
+use crate::model::shown;
+use crate::paper::reproduction::readings_to_record;
+use crate::runs::{Recorded, RunError, SelectedCode, Settings, Workload, run_all};
+use crate::study::convention::record_probe;
+use crate::study::yield_force::Profile;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -24,20 +24,20 @@ enum Set {
     Crosscheck,
     /// The series of `tristack trajectories`.
     Trajectories,
-    /// The readings of `tristack report`.
+    /// The summaries of `tristack report`.
     Report,
 }
 
 /// Refresh the recorded runs under reference/
 ///
-/// Runs the quick profile, the trajectories and the report with the external engines and keeps every run, or
-/// what is read off it, with its provenance, so that it can stand in where an engine is not installed.
+/// Runs the quick profile, the trajectories and the report with the external codes and keeps every run, or
+/// what is read off it, with its provenance, so that it can stand in where an code is not installed.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack record --engines yade --fresh")]
+#[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub struct Arguments {
-    /// Which engines, separated by commas; each must be installed [default: all external ones]
+    /// Which codes, separated by commas; each must be installed [default: all external ones]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     /// Only what one command needs [default: all]
     #[arg(long, value_enum, value_name = "COMMAND")]
     only: Option<Set>,
@@ -45,20 +45,20 @@ pub struct Arguments {
     run: RunOptions,
 }
 
-/// Runs and records, engine by engine; an engine with a failed run keeps its old recordings.
+/// Runs and records, code by code; an code with a failed run keeps its old recordings.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let external: Vec<EngineName> = match arguments.engines.as_slice() {
-        [] => EngineName::ALL
+    let external: Vec<Code> = match arguments.codes.as_slice() {
+        [] => Code::ALL
             .into_iter()
             .filter(|name| !name.accepts_any_convention())
             .collect(),
         named => named.to_vec(),
     };
-    let participants = participants(&external)?;
+    let codes = selected_codes(&external)?;
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
-    for participant in participants {
-        worst = worst.max(record(participant, arguments.only, &settings)?);
+    for selected in codes {
+        worst = worst.max(record(selected, arguments.only, &settings)?);
     }
     Ok(if INTERRUPT.requested() {
         ExitStatus::Interrupted
@@ -67,23 +67,23 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     })
 }
 
-/// Records one engine, set by set.
+/// Records one code, set by set.
 fn record(
-    participant: Participant,
+    selected: SelectedCode,
     only: Option<Set>,
     settings: &Settings,
 ) -> Result<ExitStatus, CliError> {
-    let name = participant.name;
-    let participant = [participant];
+    let name = selected.name;
+    let selected = [selected];
     let wanted = |set: Set| only.is_none_or(|only| only == set);
     let mut worst = ExitStatus::Success;
     if wanted(Set::Probe) {
-        worst = worst.max(record_probe_of(&participant[0], settings)?);
+        worst = worst.max(record_probe_of(&selected[0], settings)?);
     }
     if wanted(Set::Crosscheck) {
         let plans = Profile::Quick.measurements(&[name]);
         let place = (&settings.recorded, reference_directory());
-        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+        worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Trajectories) {
         let plans = trajectories(std::iter::once(name));
@@ -91,48 +91,48 @@ fn record(
             &recorded_trajectories(),
             reference_directory().join("trajectories"),
         );
-        worst = worst.max(record_runs(&plans, &participant, settings, place)?);
+        worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Report) {
-        worst = worst.max(record_readings(&participant[0], settings)?);
+        worst = worst.max(record_readings(&selected[0], settings)?);
     }
     Ok(worst)
 }
 
 /// Records what is read off the runs of the report, in place of what is there.
-fn record_readings(participant: &Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
-    let name = participant.name;
+fn record_readings(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
+    let name = selected.name;
     let reporter = Reporter::new();
-    let readings = readings_to_record(participant, settings, &reporter);
+    let summaries = readings_to_record(selected, settings, &reporter);
     drop(reporter);
-    match readings {
-        Ok(readings) => {
-            settings.recorded.replace_readings(name, &readings)?;
-            let (count, directory) = (readings.len(), reference_directory());
-            let directory = directory.join("readings");
+    match summaries {
+        Ok(summaries) => {
+            settings.recorded.replace_readings(name, &summaries)?;
+            let (count, directory) = (summaries.len(), reference_directory());
+            let directory = directory.join("summaries");
             tell!(
-                "{count} readings of {name} recorded under {}",
+                "{count} summaries of {name} recorded under {}",
                 shown(&directory)
             );
             Ok(ExitStatus::Success)
         }
         Err(error) => {
-            tell!("the readings of {name} are not recorded: {error}");
+            tell!("the summaries of {name} are not recorded: {error}");
             Ok(ExitStatus::EngineFailed)
         }
     }
 }
 
-/// Records the runs of one engine, in place of those that are there.
+/// Records the runs of one code, in place of those that are there.
 fn record_runs<W: Workload>(
     workloads: &[W],
-    participant: &[Participant; 1],
+    selected: &[SelectedCode; 1],
     settings: &Settings,
     (recorded, directory): (&Recorded, PathBuf),
 ) -> Result<ExitStatus, CliError> {
-    let name = participant[0].name;
+    let name = selected[0].name;
     let reporter = Reporter::new();
-    let results = run_all(workloads, participant, settings, &reporter, |run| run);
+    let results = run_all(workloads, selected, settings, &reporter, |run| run);
     drop(reporter);
     let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
     match runs {
@@ -153,11 +153,11 @@ fn record_runs<W: Workload>(
     }
 }
 
-/// Records the probe of one engine, in place of the one that is there.
-fn record_probe_of(participant: &Participant, settings: &Settings) -> Result<ExitStatus, CliError> {
-    let name = participant.name;
+/// Records the probe of one code, in place of the one that is there.
+fn record_probe_of(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
+    let name = selected.name;
     let reporter = Reporter::new();
-    let probe = record_probe(participant, settings, &reporter);
+    let probe = record_probe(selected, settings, &reporter);
     drop(reporter);
     match probe {
         Ok(probe) => {

@@ -4,15 +4,15 @@ use super::options::{Format, as_flag, writable};
 use super::progress::Counter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{Survey, THREE_DIGITS, examined_stacks, survey};
-use crate::report::{
+use crate::files::{FileError, write_atomically};
+use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
+use crate::output::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, regimes_svg, survey_json,
     survey_table,
 };
-use crate::stack::{InvalidValue, PAPER_STIFFNESS_RATIO};
+use crate::study::Verdict;
+use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
 use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
-use crate::verdict::Verdict;
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -101,7 +101,7 @@ fn write(
     maps: &[RegimeMap],
     survey: &Survey,
     command: &str,
-) -> Result<(), ArchiveError> {
+) -> Result<(), FileError> {
     let files = [
         ("regimes.csv", regimes_csv(maps, GRID.0, GRID.1)),
         ("boundaries.csv", boundaries_csv(survey)),

@@ -1,16 +1,16 @@
 //! `tristack report`.
 
-use super::options::{RunOptions, participants, recorded_trajectories, writable};
+use super::options::{RunOptions, recorded_trajectories, selected_codes, writable};
 use super::progress::{Counter, Reporter};
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::{ArchiveError, write_atomically};
-use crate::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
-use crate::crosscheck::Participant;
-use crate::engine::EngineName;
-use crate::report::{Origin, ReportFile, report_files};
-use crate::reproduction::{Reproduction, Scope, examined_points, reproduce};
-use crate::stack::shown;
+use crate::code::Code;
+use crate::files::{FileError, write_atomically};
+use crate::model::shown;
+use crate::output::{Origin, ReportFile, report_files};
+use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
+use crate::paper::reproduction::{Reproduction, Scope, examined_points, reproduce};
+use crate::runs::SelectedCode;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -21,14 +21,14 @@ const DEFAULT_DIRECTORY: &str = "report";
 ///
 /// Carries out everything behind the paper's figures, and some that it lacks, tests every statement of the
 /// paper, and writes report.html, report.md, claims.json, junit.xml, ro-crate-metadata.json, tables/ and
-/// figures/. Finished runs are reused, and engines that are not installed are represented by recorded runs.
+/// figures/. Finished runs are reused, and codes that are not installed are represented by recorded runs.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack report --out report")]
 pub struct Arguments {
-    /// Which engines, separated by commas, native among them; each must be installed [default: all, recorded
+    /// Which codes, separated by commas, native among them; each must be installed [default: all, recorded
     /// if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     /// Also run all of figure 2(a) at the paper's literal wall speed and time step: some ten minutes
     #[arg(long)]
     literal: bool,
@@ -41,16 +41,16 @@ pub struct Arguments {
 
 /// Reproduces the paper and writes the report.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let mut engines = arguments.engines.clone();
-    if !engines.is_empty() && !engines.contains(&EngineName::Native) {
-        engines.push(EngineName::Native);
+    let mut codes = arguments.codes.clone();
+    if !codes.is_empty() && !codes.contains(&Code::Native) {
+        codes.push(Code::Native);
     }
-    let participants = participants(&engines)?;
+    let codes = selected_codes(&codes)?;
     let register = Register::paper()?;
     writable(&arguments.out)?;
     let settings = arguments.run.settings()?;
     let scope = Scope {
-        participants: &participants,
+        codes: &codes,
         settings: &settings,
         trajectories: recorded_trajectories(),
         literal: arguments.literal,
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Err(error) => return Err(error.into()),
     };
     let claims = judge(&register, &PaperTheory::printed(), &reproduced);
-    let origin = origin(arguments, &participants);
+    let origin = origin(arguments, &codes);
     let files = report_files(&reproduced, &claims, &origin)?;
     write(&arguments.out, &files)?;
     Ok(conclude(&arguments.out, &reproduced, &claims))
@@ -79,16 +79,16 @@ fn interrupted() -> ExitStatus {
 }
 
 /// How the report came about; where it is written does not matter.
-fn origin(arguments: &Arguments, participants: &[Participant]) -> Origin {
+fn origin(arguments: &Arguments, codes: &[SelectedCode]) -> Origin {
     let mut command = "tristack report".to_owned();
-    if !arguments.engines.is_empty() {
-        let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
-        command += &format!(" --engines {}", names.join(","));
+    if !arguments.codes.is_empty() {
+        let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
+        command += &format!(" --codes {}", names.join(","));
     }
     if arguments.literal {
         command += " --literal";
     }
-    let absent = participants.iter().filter(|who| who.engine.is_none());
+    let absent = codes.iter().filter(|who| who.code.is_none());
     Origin {
         command,
         recorded: absent.map(|who| who.name).collect(),
@@ -96,7 +96,7 @@ fn origin(arguments: &Arguments, participants: &[Participant]) -> Origin {
     }
 }
 
-fn write(directory: &Path, files: &[ReportFile]) -> Result<(), ArchiveError> {
+fn write(directory: &Path, files: &[ReportFile]) -> Result<(), FileError> {
     for file in files {
         let path = directory.join(&file.name);
         write_atomically(&path, &file.content)?;

@@ -2,17 +2,18 @@
 
 use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_limit, writable};
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::{ArchiveError, Run, write_atomically};
-use crate::crosscheck::{gentle_speed, no_yield, planned_protocol, protocol_at_speed};
+use crate::code::Run;
+use crate::code::{Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
 use crate::dem::compress_stack_into_frames;
-use crate::engine::{Engine, EngineName, Failure, FailureKind, Workplace, keep_evidence};
-use crate::report::{
+use crate::files::{FileError, write_atomically};
+use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
+use crate::output::{
     Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
 };
-use crate::reproduction::between_side_walls;
-use crate::stack::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
+use crate::series::{Frames, YieldEstimates};
+use crate::study::preparation::between_side_walls;
+use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
 use crate::theory::quasistatic_limit;
-use crate::trace::{Frames, YieldEstimates};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -32,13 +33,13 @@ enum PreparationKind {
 /// One compression run
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: tristack simulate --engine native --mu 0.3 --stiffness 1e3 --out run\n          \
-    tristack simulate --engine native --mu 0.2 --stiffness 1e2 --preparation side-walls --push 0.005"
+    after_help = "Examples: tristack simulate --code native --mu 0.3 --stiffness 1e3 --out run\n          \
+    tristack simulate --code native --mu 0.2 --stiffness 1e2 --preparation side-walls --push 0.005"
 )]
 pub struct Arguments {
     /// Who runs it
     #[arg(long, value_enum)]
-    engine: EngineName,
+    code: Code,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
     #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
     case: Option<PathBuf>,
@@ -81,7 +82,7 @@ pub struct Arguments {
     /// Directory for a time series that ParaView opens (stack.pvd): cylinders and contact forces, at most some 500 rows
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
-    /// Longest time in seconds [default: 30 s and 100 us a step for external engines, none for native]
+    /// Longest time in seconds [default: 30 s and 100 us a step for external codes, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
     /// How to print the result
@@ -96,8 +97,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if let Some(directory) = &arguments.vtk {
         writable(directory)?;
     }
-    let name = arguments.engine;
-    let engine = name.find().ok_or(CliError::MissingEngine(name))?;
+    let name = arguments.code;
+    let code = name.find().ok_or(CliError::MissingEngine(name))?;
     let scratch = match &arguments.out {
         Some(directory) => {
             writable(directory)?;
@@ -108,18 +109,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             tempfile::Builder::new()
                 .prefix("tristack-")
                 .tempdir()
-                .map_err(ArchiveError::writing(&std::env::temp_dir()))?,
+                .map_err(FileError::writing(&std::env::temp_dir()))?,
         ),
     };
     let directory = arguments
         .out
         .as_deref()
         .or(scratch.as_ref().map(tempfile::TempDir::path));
-    let workplace = Workplace {
+    let context = RunContext {
         time_limit: limit,
-        ..Workplace::new(directory.unwrap_or(Path::new(".")), &INTERRUPT)
+        ..RunContext::new(directory.unwrap_or(Path::new(".")), &INTERRUPT)
     };
-    let run = match execute(engine.as_ref(), &case, &workplace) {
+    let run = match execute(code.as_ref(), &case, &context) {
         Ok(run) => run,
         Err(failure) => {
             if failure.left_evidence()
@@ -130,7 +131,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             return Err(failure.into());
         }
     };
-    let simulation = Simulation::new(&run, YieldEstimates::read(&run.trace, &case.stack));
+    let simulation = Simulation::new(&run, YieldEstimates::read(&run.series, &case.stack));
     if let Some(directory) = &arguments.out {
         write(directory, &run, &simulation)?;
     }
@@ -147,9 +148,9 @@ fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
     if arguments.svg.is_none() && arguments.vtk.is_none() {
         return Ok(());
     }
-    let frames = frames(arguments.engine, run)?;
+    let frames = frames(arguments.code, run)?;
     if let Some(file) = &arguments.svg {
-        let name = &run.provenance.identity.engine;
+        let name = &run.provenance.identity.code;
         write_atomically(file, run_svg(name, &run.case, &frames).as_bytes())?;
     }
     if let Some(directory) = &arguments.vtk {
@@ -163,12 +164,12 @@ fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
 }
 
 /// Removes the files of an earlier series, which may have had more rows.
-fn remove_vtk_series(directory: &Path) -> Result<(), ArchiveError> {
-    let entries = std::fs::read_dir(directory).map_err(ArchiveError::writing(directory))?;
+fn remove_vtk_series(directory: &Path) -> Result<(), FileError> {
+    let entries = std::fs::read_dir(directory).map_err(FileError::writing(directory))?;
     for entry in entries.flatten() {
         if is_vtk_row(&entry.file_name().to_string_lossy()) {
             let path = entry.path();
-            std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
+            std::fs::remove_file(&path).map_err(FileError::writing(&path))?;
         }
     }
     Ok(())
@@ -176,14 +177,14 @@ fn remove_vtk_series(directory: &Path) -> Result<(), ArchiveError> {
 
 /// Every sampled moment of the run. The native DEM, whose series leaves out the forces between the cylinders,
 /// runs once more, to the same bits.
-fn frames(engine: EngineName, run: &Run) -> Result<Frames, CliError> {
-    if engine != EngineName::Native {
-        return Ok(Frames::of_trace(&run.trace, run.case.protocol.wall_speed));
+fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
+    if code != Code::Native {
+        return Ok(Frames::of_trace(&run.series, run.case.protocol.wall_speed));
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
     let (_, frames) = repeated.map_err(|error| {
         Box::new(Failure {
-            engine,
+            code,
             subject: run.case.to_string(),
             kind: if INTERRUPT.requested() {
                 FailureKind::Interrupted
@@ -200,11 +201,11 @@ fn frames(engine: EngineName, run: &Run) -> Result<Frames, CliError> {
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
         let case = Case::read(path)?;
-        arguments.engine.check_convention(&case.convention)?;
+        arguments.code.check_convention(&case.convention)?;
         let preparation = &case.protocol.preparation;
-        arguments.engine.check_preparation(preparation)?;
+        arguments.code.check_preparation(preparation)?;
         let shortcuts = case.protocol.shortcuts.is_some();
-        arguments.engine.check_shortcuts(shortcuts)?;
+        arguments.code.check_shortcuts(shortcuts)?;
         return Ok(case);
     }
     let (mu, stiffness) = (
@@ -212,17 +213,17 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         arguments.stiffness.unwrap_or(f64::NAN),
     );
     let stack: Stack = arguments.stack.stack(mu, stiffness)?;
-    let convention = arguments.arms.convention(arguments.engine)?;
+    let convention = arguments.arms.convention(arguments.code)?;
     let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
     let protocol = match arguments.speed {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
         None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),
     };
     let mut protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
-    let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
+    let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     if let Some(travel) = limit.wall_travel.filter(|_| arguments.shortcuts) {
-        let gentle = gentle_speed(&stack, &convention);
+        let gentle = max_touch_speed(&stack, &convention);
         protocol.shortcuts = Shortcuts::towards(travel, protocol.wall_speed, gentle);
     }
     let case = Case {
@@ -250,19 +251,23 @@ fn prepared(
             // Adding zero turns -0 into 0, which is the same push and must be the same case.
             let walls = SideWalls::paper(push.unwrap_or(0.0) + 0.0, stack.epsilon());
             let protocol = between_side_walls(protocol, walls);
-            let accepted = arguments.engine.check_preparation(&protocol.preparation);
+            let accepted = arguments.code.check_preparation(&protocol.preparation);
             accepted.map_err(as_flag)?;
             Ok(protocol)
         }
     }
 }
 
-fn execute(engine: &dyn Engine, case: &Case, workplace: &Workplace) -> Result<Run, Box<Failure>> {
+fn execute(
+    code: &dyn InstalledCode,
+    case: &Case,
+    context: &RunContext,
+) -> Result<Run, Box<Failure>> {
     let mut outcome = None;
     let case = std::slice::from_ref(case);
-    engine.run(case, workplace, &mut |_, result| outcome = Some(result));
+    code.run(case, context, &mut |_, result| outcome = Some(result));
     outcome
-        .expect("an engine reports every case")
+        .expect("an code reports every case")
         .map_err(Box::new)
 }
 
@@ -272,19 +277,19 @@ const SUMMARY: &str = "summary.json";
 
 /// Replaces the case of an earlier run by this one and removes its results, which must not stand beside
 /// the deck of this run.
-fn begin(directory: &Path, case: &Case) -> Result<(), ArchiveError> {
+fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
     write_atomically(&directory.join(CASE), case.to_json().as_bytes())?;
     for name in [SERIES, SUMMARY] {
         let path = directory.join(name);
         if path.exists() {
-            std::fs::remove_file(&path).map_err(ArchiveError::writing(&path))?;
+            std::fs::remove_file(&path).map_err(FileError::writing(&path))?;
         }
     }
     Ok(())
 }
 
-fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), ArchiveError> {
-    write_atomically(&directory.join(SERIES), &run.trace.to_csv())?;
+fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), FileError> {
+    write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
     write_atomically(
         &directory.join(SUMMARY),
         simulation_json(simulation).as_bytes(),

@@ -2,14 +2,14 @@
 
 use super::crosscheck::conclude;
 use super::options::{
-    ArmOptions, Format, RunOptions, StackOptions, as_flag, friction, participants, writable,
+    ArmOptions, Format, RunOptions, StackOptions, as_flag, friction, selected_codes, writable,
 };
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::write_atomically;
-use crate::crosscheck::{Judgement, Measurement, measure, plan};
-use crate::engine::EngineName;
-use crate::report::{crosscheck_csv, crosscheck_json, crosscheck_table};
+use crate::code::Code;
+use crate::files::write_atomically;
+use crate::output::{crosscheck_csv, crosscheck_json, crosscheck_table};
+use crate::study::yield_force::{Judgement, Measurement, measure, plan};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,12 +24,12 @@ const STACKS_AT_ONCE: usize = 2000;
 /// floor slip, nothing is run and the row says so.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: tristack sweep --engine native --mu 0.1:0.5:0.05 --stiffness 1e2,1e3 --out curve"
+    after_help = "Example: tristack sweep --code native --mu 0.1:0.5:0.05 --stiffness 1e2,1e3 --out curve"
 )]
 pub struct Arguments {
     /// Who measures
     #[arg(long, value_enum)]
-    engine: EngineName,
+    code: Code,
     /// Floor frictions from A to B in steps, or a single one
     #[arg(long, value_name = "A:B:STEP", value_parser = Frictions::parse, allow_negative_numbers = true)]
     mu: Frictions,
@@ -100,10 +100,10 @@ fn without_runs(judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let convention = arguments.arms.convention(arguments.engine)?;
-    let accepted = arguments.engine.check_shortcuts(arguments.shortcuts);
+    let convention = arguments.arms.convention(arguments.code)?;
+    let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
-    let participants = participants(&[arguments.engine])?;
+    let codes = selected_codes(&[arguments.code])?;
     let stacks = arguments
         .stack
         .stacks(&arguments.mu.0, &arguments.stiffness)?;
@@ -116,14 +116,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     for stacks in stacks.chunks(STACKS_AT_ONCE) {
         let planned = stacks.iter();
         let planned = planned.map(|stack| {
-            let measurement = plan(arguments.engine, stack, convention);
+            let measurement = plan(arguments.code, stack, convention);
             match arguments.shortcuts {
                 true => measurement.shortened(),
                 false => measurement,
             }
         });
         let planned: Vec<Measurement> = planned.collect();
-        let judged = measure(&planned, &participants, &settings, &reporter);
+        let judged = measure(&planned, &codes, &settings, &reporter);
         judgements.extend(judged.into_iter().map(without_runs));
         if INTERRUPT.requested() {
             break;
@@ -144,7 +144,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => json,
         Format::Csv => csv,
     })?;
-    Ok(conclude(&judgements, stacks.len(), &participants))
+    Ok(conclude(&judgements, stacks.len(), &codes))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::options::{ArmOptions, Format, StackOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::engine::EngineName;
-use crate::report::{theory_csv, theory_json, theory_table};
+use crate::code::Code;
+use crate::output::{theory_csv, theory_json, theory_table};
 use crate::theory::Predictions;
 use clap::Args;
 
@@ -36,7 +36,7 @@ pub struct Arguments {
 
 /// Prints the predictions for every combination of friction and stiffness.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let convention = arguments.arms.convention(EngineName::Native)?;
+    let convention = arguments.arms.convention(Code::Native)?;
     let stacks = arguments
         .stack
         .stacks(&arguments.mu, &arguments.stiffness)?;

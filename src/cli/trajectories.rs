@@ -1,20 +1,21 @@
 //! `tristack trajectories`.
 
-use super::options::{Format, RunOptions, participants, recorded_trajectories, writable};
+use super::options::{Format, RunOptions, recorded_trajectories, selected_codes, writable};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::archive::{ArchiveError, write_atomically};
-use crate::crosscheck::{
-    Participant, Settings, Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory,
-    probe_all, trajectory_stack,
-};
-use crate::engine::EngineName;
-use crate::report::{
+use crate::code::Code;
+use crate::files::{FileError, write_atomically};
+use crate::model::InvalidValue;
+use crate::output::{
     trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
 };
-use crate::stack::InvalidValue;
-use crate::verdict::Verdict;
+use crate::runs::{SelectedCode, Settings};
+use crate::study::Verdict;
+use crate::study::convention::probe_all;
+use crate::study::trajectory::{
+    Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory, trajectory_stack,
+};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -25,11 +26,11 @@ use std::path::{Path, PathBuf};
 /// positions and angle row by row, through yield and collapse; and judges whether what is left falls with
 /// the time step as it must. Codes that are not installed are represented by their recorded runs.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack trajectories --engines liggghts,lammps --out results")]
+#[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out results")]
 pub struct Arguments {
     /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
-    engines: Vec<EngineName>,
+    codes: Vec<Code>,
     /// Directory for trajectories.csv, trajectories.json and trajectories.md
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -42,25 +43,25 @@ pub struct Arguments {
 
 /// Runs and compares, prints and writes the rows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    refuse_native(&arguments.engines)?;
-    let mut participants = participants(&arguments.engines)?;
-    participants.retain(|participant| participant.name != EngineName::Native);
+    refuse_native(&arguments.codes)?;
+    let mut codes = selected_codes(&arguments.codes)?;
+    codes.retain(|selected| selected.name != Code::Native);
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
-    let plans = trajectories(participants.iter().map(|participant| participant.name));
-    participants.push(Participant::find(EngineName::Native));
+    let plans = trajectories(codes.iter().map(|selected| selected.name));
+    codes.push(SelectedCode::find(Code::Native));
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let probes = probe_all(&participants, &settings, &reporter);
+    let probes = probe_all(&codes, &settings, &reporter);
     let settings = Settings {
         recorded: recorded_trajectories(),
         ..settings
     };
-    let judgements = measure_trajectories(&plans, &participants, &settings, &reporter);
+    let judgements = measure_trajectories(&plans, &codes, &settings, &reporter);
     drop(reporter);
     let judged = judgements.into_iter().map(|judgement| {
-        let names = participants.iter().map(|who| who.name);
+        let names = codes.iter().map(|who| who.name);
         judgement.unless_contradicted(names.zip(&probes))
     });
     let judgements: Vec<TrajectoryJudgement> = judged.collect();
@@ -73,27 +74,27 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => trajectories_json(&judgements).into_bytes(),
         Format::Csv => trajectories_csv(&judgements),
     })?;
-    Ok(conclude(&judgements, plans.len(), &participants))
+    Ok(conclude(&judgements, plans.len(), &codes))
 }
 
 /// The plans of the codes, each beside the convention that is declared for it.
-pub(super) fn trajectories(names: impl Iterator<Item = EngineName>) -> Vec<Trajectory> {
+pub(super) fn trajectories(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
     let stack = trajectory_stack();
     names
         .map(|name| plan_trajectory(name, &stack, name.convention()))
         .collect()
 }
 
-fn refuse_native(named: &[EngineName]) -> Result<(), InvalidValue> {
-    if !named.contains(&EngineName::Native) {
+fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
+    if !named.contains(&Code::Native) {
         return Ok(());
     }
-    let others = EngineName::ALL.into_iter().skip(1).map(EngineName::as_str);
+    let others = Code::ALL.into_iter().skip(1).map(Code::as_str);
     Err(InvalidValue {
-        key: "--engines".to_owned(),
-        value: EngineName::Native.to_string(),
+        key: "--codes".to_owned(),
+        value: Code::Native.to_string(),
         accepted: format!(
-            "{}: the native engine is what they are compared with",
+            "{}: the native code is what they are compared with",
             others.collect::<Vec<_>>().join(", ")
         ),
     })
@@ -103,7 +104,7 @@ fn write(
     directory: &Path,
     judgements: &[TrajectoryJudgement],
     command: &str,
-) -> Result<(), ArchiveError> {
+) -> Result<(), FileError> {
     let put = |name: &str, content: &[u8]| write_atomically(&directory.join(name), content);
     put("trajectories.csv", &trajectories_csv(judgements))?;
     put(
@@ -116,37 +117,37 @@ fn write(
 
 /// The command that gives the same rows again; where it writes them does not matter.
 fn command_line(arguments: &Arguments) -> String {
-    let names: Vec<&str> = arguments.engines.iter().map(|name| name.as_str()).collect();
+    let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
     if names.is_empty() {
         return "tristack trajectories".to_owned();
     }
-    format!("tristack trajectories --engines {}", names.join(","))
+    format!("tristack trajectories --codes {}", names.join(","))
 }
 
 /// Says on standard error what the comparisons amount to, and returns the exit status.
 fn conclude(
     judgements: &[TrajectoryJudgement],
     planned: usize,
-    participants: &[Participant],
+    codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
         for note in &judgement.notes {
-            tell!("{}: {}: {note}", judgement.verdict, judgement.engine);
+            tell!("{}: {}: {note}", judgement.verdict, judgement.code);
         }
         for comparison in &judgement.comparisons {
             if let Some(note) = &comparison.note {
-                let (engine, verdict) = (judgement.engine, comparison.verdict);
+                let (code, verdict) = (judgement.code, comparison.verdict);
                 let twin = comparison.twin.as_str();
                 let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
-                tell!("{verdict}: {engine}, {twin} twin, {branch}, {quantity}: {note}");
+                tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
             }
         }
     }
-    for participant in participants.iter().filter(|who| who.engine.is_none()) {
+    for selected in codes.iter().filter(|who| who.code.is_none()) {
         tell!(
             "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            participant.name,
-            participant.name.installation_hint()
+            selected.name,
+            selected.name.installation_hint()
         );
     }
     let verdicts: Vec<Verdict> = judgements

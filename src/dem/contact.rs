@@ -1,7 +1,7 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
 use super::real::{LaneWise, Real, composite, lane_wise};
-use crate::stack::{Convention, CoulombOperand, SeparatingForce, SlidingSpring, SpringTransport};
+use crate::model::{ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};
 
 /// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,9 +94,9 @@ pub struct SpringDashpot<R> {
     /// The spring of a sliding contact.
     pub sliding_spring: SlidingSpring,
     /// The spring of a turning contact.
-    pub spring_transport: SpringTransport,
+    pub history_update: HistoryUpdate,
     /// The normal force of a separating contact.
-    pub separating_force: SeparatingForce,
+    pub tensile_force: TensileForce,
 }
 
 composite!(SpringDashpot {
@@ -119,15 +119,15 @@ lane_wise!(Spring { length, normal });
 
 impl<R: Real> SpringDashpot<R> {
     /// The law of `convention` with k_n = 1 and the given k_t, in numbers like `number`.
-    pub fn like(number: R, convention: &Convention, tangential_stiffness: f64) -> Self {
+    pub fn like(number: R, convention: &ContactConvention, tangential_stiffness: f64) -> Self {
         Self {
             tangential_stiffness: number.like(tangential_stiffness),
             normal_damping: number.like(convention.damping(1.0)),
             tangential_damping: number.like(convention.damping(tangential_stiffness)),
             coulomb_operand: convention.coulomb_operand,
             sliding_spring: convention.sliding_spring,
-            spring_transport: convention.spring_transport,
-            separating_force: convention.separating_force,
+            history_update: convention.history_update,
+            tensile_force: convention.tensile_force,
         }
     }
 
@@ -136,19 +136,19 @@ impl<R: Real> SpringDashpot<R> {
     ///
     /// ```
     /// use tristack::dem::SpringDashpot;
-    /// use tristack::stack::Convention;
+    /// use tristack::model::ContactConvention;
     /// let law = SpringDashpot {
     ///     normal_damping: 0.25,
-    ///     ..SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
+    ///     ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
     /// };
     /// assert_eq!(law.normal_force(0.5, -1.0), 0.75);
     /// ```
     #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
         let force = overlap - self.normal_damping * separation_speed;
-        match self.separating_force {
-            SeparatingForce::MayPull => force,
-            SeparatingForce::NeverPulls => {
+        match self.tensile_force {
+            TensileForce::MayPull => force,
+            TensileForce::NeverPulls => {
                 let zero = force.like(0.0);
                 R::select(force.less(zero), zero, force)
             }
@@ -188,10 +188,10 @@ impl<R: Real> SpringDashpot<R> {
     #[inline(always)]
     fn transport(&self, from: [R; 2], to: [R; 2]) -> R {
         let cosine = along(from, to);
-        match self.spring_transport {
-            SpringTransport::Rotated => cosine.like(1.0),
-            SpringTransport::Projected => cosine,
-            SpringTransport::Linearised => {
+        match self.history_update {
+            HistoryUpdate::Rotated => cosine.like(1.0),
+            HistoryUpdate::Projected => cosine,
+            HistoryUpdate::Linearised => {
                 let sine = tangential(from, to);
                 cosine + sine * sine
             }
@@ -217,7 +217,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
         let velocity = contact.sliding_speed - radius * contact.spin;
         let normal = self.normal_force(contact.overlap, contact.separation_speed);
         let limit = contact.friction * normal.abs();
-        if self.spring_transport != SpringTransport::Rotated {
+        if self.history_update != HistoryUpdate::Rotated {
             memory.length *= self.transport(memory.normal, contact.normal);
             memory.normal = contact.normal;
         }
@@ -263,7 +263,7 @@ mod tests {
             tangential_damping: 0.1,
             coulomb_operand,
             sliding_spring,
-            ..SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
+            ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
         }
     }
 
@@ -330,17 +330,17 @@ mod tests {
     fn transports_differ_by_the_square_of_the_turn() {
         let turn: f64 = 1e-3;
         let turned = [-turn.sin(), turn.cos()];
-        let factor = |spring_transport| {
+        let factor = |history_update| {
             let law: SpringDashpot<f64> = SpringDashpot {
-                spring_transport,
+                history_update,
                 ..paper()
             };
             law.transport(CONTACT.normal, turned)
         };
         let half_square = 0.5 * turn * turn;
-        assert_eq!(factor(SpringTransport::Rotated), 1.0);
-        assert!((factor(SpringTransport::Projected) - 1.0 + half_square).abs() < 1e-12);
-        assert!((factor(SpringTransport::Linearised) - 1.0 - half_square).abs() < 1e-12);
+        assert_eq!(factor(HistoryUpdate::Rotated), 1.0);
+        assert!((factor(HistoryUpdate::Projected) - 1.0 + half_square).abs() < 1e-12);
+        assert!((factor(HistoryUpdate::Linearised) - 1.0 - half_square).abs() < 1e-12);
     }
 
     #[test]
@@ -361,7 +361,7 @@ mod tests {
     #[test]
     fn damping_pulls_on_separating_surfaces_unless_that_is_excluded() {
         let never_pulls = SpringDashpot {
-            separating_force: SeparatingForce::NeverPulls,
+            tensile_force: TensileForce::NeverPulls,
             ..paper()
         };
         for (speed, may_pull, never) in [(-1.0, 0.7, 0.7), (1.0, 0.3, 0.3), (3.0, -0.1, 0.0)] {
@@ -401,7 +401,7 @@ mod tests {
     #[test]
     fn a_projected_spring_is_shortened_in_the_step_in_which_the_contact_turns() {
         let law = SpringDashpot {
-            spring_transport: SpringTransport::Projected,
+            history_update: HistoryUpdate::Projected,
             ..paper()
         };
         let turned = Contact {

@@ -3,8 +3,8 @@
 use super::contact::{ContactModel, SpringDashpot};
 use super::scene::{Cylinder, Scene};
 use super::wall::{Facing, PlaneWall};
-use crate::stack::{ContactTest, Launch};
-use crate::trace::{Motion, MotionRow, SeriesError};
+use crate::model::{ContactTest, InitialMotion};
+use crate::series::{Motion, MotionRow, SeriesError};
 
 const BODIES: [usize; 2] = [0, 1];
 const TOP_WALL: usize = 1;
@@ -36,7 +36,7 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
         wall(Facing::Up, 0.0, 0.0, test.floor_friction),
         wall(Facing::Down, -test.wall_height, test.wall_speed, 0.0),
     ];
-    let cylinders = BODIES.map(|body| launched(&test.launches[body]));
+    let cylinders = BODIES.map(|body| launched(&test.initial_motions[body]));
     let mut scene = Scene::new(cylinders, walls, model, test.time_step);
     scene.cylinder_friction = test.cylinder_friction;
     scene.pair_arm = test.convention.pair_arm;
@@ -51,11 +51,11 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     Motion::new(rows.collect(), test.steps)
 }
 
-fn launched(launch: &Launch) -> Cylinder {
+fn launched(initial_motion: &InitialMotion) -> Cylinder {
     Cylinder {
-        velocity: [launch.vx, launch.vy],
-        spin: launch.spin,
-        ..Cylinder::at(launch.x, launch.y)
+        velocity: [initial_motion.vx, initial_motion.vy],
+        spin: initial_motion.spin,
+        ..Cylinder::at(initial_motion.x, initial_motion.y)
     }
 }
 

@@ -86,7 +86,7 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
 mod tests {
     use super::super::contact::{Spring, SpringDashpot};
     use super::*;
-    use crate::stack::Convention;
+    use crate::model::ContactConvention;
 
     type State = ContactState<f64, Spring<f64>>;
 
@@ -102,7 +102,7 @@ mod tests {
     };
 
     fn law() -> SpringDashpot<f64> {
-        SpringDashpot::like(1.0, &Convention::PAPER, 0.4)
+        SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
     }
 
     fn after_one_step(touches: Touch<f64>) -> State {

@@ -7,8 +7,8 @@
 
 use super::contact::SpringDashpot;
 use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
-use crate::stack::{Case, Convention, Preparation, Protocol, Sampling, Stack};
-use crate::theory::{Event, Stage};
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
+use crate::theory::{Event, LoadingPhase};
 
 /// How slowly the stack is loaded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,9 +36,9 @@ pub enum Until {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {
     /// When contact 2–3 formed, if it did before `last`.
-    pub closed: Option<Stage>,
+    pub closed: Option<LoadingPhase>,
     /// The first of floor slip, cylinder slip and wall contact, and when it came.
-    pub last: Option<(Event, Stage)>,
+    pub last: Option<(Event, LoadingPhase)>,
     /// Force of the top wall on cylinder 1 at that moment, in m g; 0 under own weight.
     pub force: f64,
     /// How far the wall had moved then.
@@ -77,7 +77,7 @@ pub fn watch_stack(
     until: Until,
     wanted: impl Fn() -> bool,
 ) -> Observation {
-    let law = SpringDashpot::like(0.0, &Convention::PAPER, stack.tangential_stiffness());
+    let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.tangential_stiffness());
     let scene = StackScene::of(&case(stack, loading), law, 0.0);
     let mut run = Run {
         scene,
@@ -124,7 +124,7 @@ impl Run {
             self.scene.evaluate_forces();
             if load >= COUNTED_LOAD {
                 if self.observation.last.is_none() {
-                    self.watch(Stage::OwnWeight);
+                    self.watch(LoadingPhase::OwnWeight);
                 }
                 if until == Until::LastEvent && self.observation.last.is_some() {
                     return true;
@@ -189,12 +189,12 @@ impl Run {
         if self.observation.last.is_none() {
             self.observation.force = on_top;
             self.observation.travel = travel;
-            self.watch(Stage::Wall);
+            self.watch(LoadingPhase::Wall);
         }
     }
 
     /// Notes what has happened, once the forces are evaluated.
-    fn watch(&mut self, stage: Stage) {
+    fn watch(&mut self, stage: LoadingPhase) {
         let scene = &self.scene;
         let touches = |cylinder| scene.wall_force(TOP_WALL, cylinder).normal != 0.0;
         let event = if self.floor_slides() {
@@ -237,7 +237,7 @@ impl Run {
 fn case(stack: &Stack, loading: &Loading) -> Case {
     Case {
         stack: *stack,
-        convention: Convention::PAPER,
+        convention: ContactConvention::PAPER,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 1.0 / loading.gravity_rate,

@@ -3,8 +3,8 @@
 use super::contact::SpringDashpot;
 use super::stack_run::{compress_stack_watched, law};
 use super::stack_scene::{FLOOR, StackScene, TOP, TOP_WALL};
-use crate::stack::Case;
-use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, SeriesError, Trace};
+use crate::model::Case;
+use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, Series, SeriesError};
 
 /// Does what [`compress_stack`](super::compress_stack) does, to the same bits, and keeps every contact force
 /// at every row of the series.
@@ -14,12 +14,12 @@ use crate::trace::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, SeriesE
 pub fn compress_stack_into_frames(
     case: &Case,
     wanted: impl Fn() -> bool,
-) -> Result<(Trace, Frames), SeriesError> {
+) -> Result<(Series, Frames), SeriesError> {
     let mut scenes = Vec::new();
-    let trace = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene| {
+    let series = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene| {
         scenes.push(frame(scene));
     })?;
-    let stamped = scenes.into_iter().zip(trace.samples());
+    let stamped = scenes.into_iter().zip(series.samples());
     let frames = stamped.map(|(frame, sample)| Frame {
         step: sample.step,
         time: sample.time,
@@ -29,7 +29,7 @@ pub fn compress_stack_into_frames(
         frames: frames.collect(),
         pair_forces_known: true,
     };
-    Ok((trace, frames))
+    Ok((series, frames))
 }
 
 /// The scene as it is, without a date.

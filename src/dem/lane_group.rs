@@ -4,8 +4,8 @@ use super::contact::ContactModel;
 use super::loading::LoadingProgram;
 use super::real::{Real, Work};
 use super::stack_scene::StackScene;
-use crate::stack::Case;
-use crate::trace::{DropWatch, Sample};
+use crate::model::Case;
+use crate::series::{DropWatch, Sample};
 
 /// Some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;

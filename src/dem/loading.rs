@@ -1,7 +1,7 @@
 //! What is done to a stack, and at which step.
 
-use crate::stack::{Case, PreparationSteps, Schedule, SideWallSteps};
-use crate::trace::DropWatch;
+use crate::model::{Case, PreparationSteps, Schedule, SideWallSteps};
+use crate::series::DropWatch;
 
 /// Something that is done before the forces of a step are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +126,7 @@ fn smooth_step(step: u64, steps: u64) -> f64 {
     x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x))
 }
 
-/// When the phases of the preparation between side walls begin (see [`crate::stack::SideWalls`]).
+/// When the phases of the preparation between side walls begin (see [`crate::model::SideWalls`]).
 struct SideWallPhases<'a> {
     steps: &'a SideWallSteps,
     hold: u64,

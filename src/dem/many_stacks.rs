@@ -6,8 +6,8 @@ use super::lanes::{Lanes, Pair};
 use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
-use crate::stack::{Case, Convention, Preparation};
-use crate::trace::{DropWatch, Sample, SeriesError, Trace};
+use crate::model::{Case, ContactConvention, Preparation};
+use crate::series::{DropWatch, Sample, Series, SeriesError};
 use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +63,7 @@ pub trait RunQueue {
     /// Whether to go on; asked every few milliseconds.
     fn wanted(&mut self, open: &dyn OpenRuns) -> bool;
     /// Run `index` has ended: its series, truncated if no longer wanted.
-    fn ended(&mut self, index: usize, series: Result<Trace, SeriesError>);
+    fn ended(&mut self, index: usize, series: Result<Series, SeriesError>);
 }
 
 /// The runs that are in lanes, by index.
@@ -78,7 +78,7 @@ pub trait OpenRuns {
 /// of them, in which only numbers differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneKind {
-    convention: Convention,
+    convention: ContactConvention,
     between_side_walls: bool,
 }
 
@@ -86,7 +86,7 @@ impl LaneKind {
     /// The kind of `case`.
     pub fn of(case: &Case) -> Self {
         Self {
-            convention: Convention {
+            convention: ContactConvention {
                 pair_arm: 0.0,
                 floor_arm: 0.0,
                 restitution: 1.0,
@@ -210,7 +210,7 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
 
     fn ended(&mut self, lane: Lane) {
         let protocol = &lane.case.protocol;
-        let series = Trace::new(lane.samples, &protocol.schedule(), protocol.time_step);
+        let series = Series::new(lane.samples, &protocol.schedule(), protocol.time_step);
         self.queue.ended(lane.index, series);
     }
 }

@@ -4,7 +4,7 @@ use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along, 
 use super::contact_state::{ContactState, Touch};
 use super::real::{Composite, Real, composite, lane_wise};
 use super::wall::PlaneWall;
-use crate::stack::CYLINDER_INERTIA;
+use crate::model::CYLINDER_INERTIA;
 
 /// A loop over all indices below a count, the first three of which the compiler knows.
 macro_rules! unrolled {

@@ -5,8 +5,8 @@ use super::double_double::DoubleDouble;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::real::Real;
 use super::stack_scene::StackScene;
-use crate::stack::{Case, sha256_hex};
-use crate::trace::{SeriesError, Trace};
+use crate::model::{Case, sha256_hex};
+use crate::series::{Series, SeriesError};
 use std::sync::LazyLock;
 
 /// Digest of the sources that decide the numbers of the native DEM; it takes the place that the hash of
@@ -33,7 +33,7 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
 ///
 /// # Errors
 /// If the motion leaves the finite numbers, or is no longer wanted.
-pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Trace, SeriesError> {
+pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Series, SeriesError> {
     compress_stack_with(case, law(case, 0.0), wanted)
 }
 
@@ -45,7 +45,7 @@ pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Trace, S
 pub fn compress_stack_precisely(
     case: &Case,
     wanted: impl Fn() -> bool,
-) -> Result<Trace, SeriesError> {
+) -> Result<Series, SeriesError> {
     let zero = DoubleDouble::new(0.0);
     compress_stack_watched(case, (law(case, zero), zero), wanted, |_| ())
 }
@@ -63,7 +63,7 @@ pub fn compress_stack_with<Model: ContactModel<f64>>(
     case: &Case,
     model: Model,
     wanted: impl Fn() -> bool,
-) -> Result<Trace, SeriesError> {
+) -> Result<Series, SeriesError> {
     compress_stack_watched(case, (model, 0.0), wanted, |_| ())
 }
 
@@ -73,7 +73,7 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
     (model, number): (Model, R),
     wanted: impl Fn() -> bool,
     watch: impl FnMut(&StackScene<R, Model>),
-) -> Result<Trace, SeriesError> {
+) -> Result<Series, SeriesError> {
     let mut single = Single {
         case: Some(*case),
         wanted,
@@ -82,7 +82,7 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
     };
     LaneGroup::new(StackScene::of(case, model, number)).run(&mut single);
     let protocol = &case.protocol;
-    Trace::new(single.samples, &protocol.schedule(), protocol.time_step)
+    Series::new(single.samples, &protocol.schedule(), protocol.time_step)
 }
 
 /// Supervises the one run of a stack.
@@ -90,7 +90,7 @@ struct Single<Wanted, Watch> {
     case: Option<Case>,
     wanted: Wanted,
     watch: Watch,
-    samples: Vec<crate::trace::Sample>,
+    samples: Vec<crate::series::Sample>,
 }
 
 impl<R, Model, Wanted, Watch> Supervisor<R, Model> for Single<Wanted, Watch>

@@ -5,8 +5,8 @@ use super::loading::Action;
 use super::real::{Composite, Real};
 use super::scene::{Cylinder, Scene};
 use super::wall::{Facing, PlaneWall};
-use crate::stack::{Case, Preparation};
-use crate::trace::Sample;
+use crate::model::{Case, Preparation};
+use crate::series::Sample;
 
 pub(super) const TOP: usize = 0;
 pub(super) const RIGHT: usize = 1;

@@ -1,9 +1,9 @@
 //! What an experiment will show, for every estimate of the contact.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
-use crate::stack::{CRITICAL_FRICTION, InvalidValue, Stack};
+use crate::model::{CRITICAL_FRICTION, InvalidValue, Stack};
 use crate::theory::{
-    Consequence, Event, Limit, Outcome, pair_overlap, perturbation_load, quasistatic_limit,
+    Event, FailureMode, Limit, Outcome, pair_overlap, perturbation_load, quasistatic_limit,
 };
 use serde::Serialize;
 use std::fmt;
@@ -126,7 +126,7 @@ impl Forecast {
     /// let estimate = &forecast.estimates[0];
     /// assert!((estimate.epsilon - 9.80665e-5).abs() < 1e-12);
     /// assert!((estimate.paper_formula.newton - 100.0).abs() < 1e-9);
-    /// # Ok::<(), tristack::stack::InvalidValue>(())
+    /// # Ok::<(), tristack::model::InvalidValue>(())
     /// ```
     ///
     /// # Errors
@@ -241,9 +241,9 @@ fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
         && let Some(outcome) = Outcome::of(stack)
     {
-        return match outcome.consequence {
-            Consequence::Collapses => Some(0.0),
-            Consequence::Yields => limit.yield_force.or(outcome.largest_force),
+        return match outcome.failure_mode {
+            FailureMode::Collapses => Some(0.0),
+            FailureMode::Yields => limit.yield_force.or(outcome.largest_force),
             _ => outcome.largest_force,
         };
     }

@@ -15,7 +15,7 @@ pub use contact::ContactEstimate;
 pub use forecast::{Force, ForceRange, Forecast, Forecasted, FrictionRegime};
 pub use quantity::{density, length, mass, modulus};
 
-use crate::stack::{InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
+use crate::model::{InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 use serde::Serialize;
 use std::f64::consts::PI;
 

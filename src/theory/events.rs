@@ -1,7 +1,7 @@
 //! What ends the path of equilibria: the four events, and which one comes first (docs/theory.md, Eq. 43).
 
 use super::root::bracketed_root;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 use serde::{Deserialize, Serialize};
 
 /// The first thing that happens to the stack on its way up in load.

@@ -5,7 +5,7 @@
 //! quadratic equation, the one that joins the three regimes of stiff cylinders (Eqs. 28 and 72).
 
 use super::overlap::{HIGHEST_TANGENT, OverlapCurve};
-use crate::stack::Stack;
+use crate::model::Stack;
 
 /// Relative to the whole way. A step leaves at most 1.5 times the square of its relative length (docs/theory.md,
 /// Eq. 72): 1.5 × 10⁻¹⁴.
@@ -67,7 +67,7 @@ fn step_to_slip(overlap: f64, slope: f64, clearance: f64, target: f64) -> f64 {
 /// if the floor has not slipped before T = 1.
 ///
 /// ```
-/// use tristack::stack::Stack;
+/// use tristack::model::Stack;
 /// let force = tristack::theory::floor_slip_force(&Stack::paper(0.3, 1e4)).unwrap();
 /// assert!((force - 2124.669_922_2).abs() < 1e-7);
 /// ```
@@ -95,7 +95,7 @@ pub fn floor_slip_forces(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stack::CRITICAL_FRICTION;
+    use crate::model::CRITICAL_FRICTION;
 
     #[test]
     fn square_root_law_holds_at_the_critical_friction() {

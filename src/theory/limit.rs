@@ -1,7 +1,7 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
 use super::events::{Event, Path, PathPoint, locate};
-use crate::stack::Stack;
+use crate::model::Stack;
 use serde::Serialize;
 
 /// The quasi-static limit of a DEM with the given torque arms.
@@ -103,7 +103,7 @@ mod tests {
     use super::super::root::bracketed_root;
     use super::super::{closed_form_limit, followed_limit, pair_overlap};
     use super::*;
-    use crate::stack::CRITICAL_FRICTION;
+    use crate::model::CRITICAL_FRICTION;
 
     #[test]
     fn a_limit_without_a_yield_force_says_why() {

@@ -20,8 +20,8 @@ pub use path::followed_limit;
 pub use predictions::{Prediction, Predictions};
 pub use quasistatic::closed_form_limit;
 pub use regimes::{
-    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, Consequence, Course, Happening,
-    Line, Outcome, Regime, RegimeMap, Stage, released_frictions,
+    Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, CriticalState, EquilibriumPath,
+    FailureMode, Line, LoadingPhase, Outcome, Regime, RegimeMap, released_frictions,
 };
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};
@@ -30,7 +30,7 @@ pub use small_displacement::{
     perturbation_load, quintic_displacement, rigid_yield,
 };
 
-use crate::stack::Stack;
+use crate::model::Stack;
 
 /// The exact quasi-static limit of `stack` for the given torque arms: the closed form where both are 0,
 /// the path follower otherwise.

@@ -5,7 +5,7 @@
 //! contact 1–2 obeys a linear differential equation in T = tan(ψ/2), which an integrating factor turns into
 //! one quadrature (docs/theory.md, Eqs. 11 to 14, 17 to 19 and 71).
 
-use crate::stack::CRITICAL_FRICTION;
+use crate::model::CRITICAL_FRICTION;
 use gauss_quad::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;

@@ -18,7 +18,7 @@
 use super::events::{Event, Path, PathPoint, half_angle_tangent, locate, outward_displacement};
 use super::limit::Limit;
 use super::root::bracketed_root;
-use crate::stack::Stack;
+use crate::model::Stack;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_6;

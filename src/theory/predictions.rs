@@ -4,7 +4,7 @@ use super::{
     ElasticRoot, Limit, RigidYield, elastic_root, naive_load, perturbation_load, quasistatic_limit,
     rigid_yield,
 };
-use crate::stack::Stack;
+use crate::model::Stack;
 use serde::Serialize;
 
 /// The yield force according to one theory, or the reason why it has none.

@@ -5,7 +5,7 @@ use super::floor_slip::FloorSlip;
 use super::limit::Limit;
 use super::overlap::{HIGHEST_TANGENT, OverlapCurve, pair_overlap};
 use super::root::bracketed_root;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 const STATIONS: usize = 256;

@@ -13,7 +13,7 @@
 
 use super::floor_slip::FloorSlip;
 use super::overlap::OverlapCurve;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// A*, the largest push after which the bottom cylinders end without contact, in r, to leading order in ε, if
 /// nothing slides during the preparation (docs/theory.md, Eq. 70).
@@ -28,7 +28,7 @@ use crate::stack::{CRITICAL_FRICTION, Stack};
 /// It is 0 at κ = 1.07735, below which contact 2–3 closes under any load (docs/theory.md, section 7.3).
 ///
 /// ```
-/// use tristack::stack::Stack;
+/// use tristack::model::Stack;
 /// let push = tristack::theory::critical_push(&Stack::paper(0.2, 1e4));
 /// assert!((push - 0.53074e-4).abs() < 1e-9);
 /// ```
@@ -43,7 +43,7 @@ pub fn critical_push(stack: &Stack) -> f64 {
 /// ignored.
 ///
 /// ```
-/// use tristack::stack::Stack;
+/// use tristack::model::Stack;
 /// use tristack::theory::{closed_form_limit, pushed_slip_force};
 /// let stack = Stack::paper(0.2, 100.0);
 /// let [unpushed, pushed] = [0.0, 0.005].map(|push| pushed_slip_force(&stack, push).unwrap());

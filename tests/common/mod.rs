@@ -11,8 +11,8 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-use tristack::engine::EngineName;
-use tristack::stack::sha256_hex;
+use tristack::code::Code;
+use tristack::model::sha256_hex;
 
 /// What was built for the tests.
 pub const OWN_PROGRAM: &str = env!("CARGO_BIN_EXE_tristack");
@@ -28,13 +28,13 @@ pub fn released_program() -> Option<PathBuf> {
 /// A place of its own for a test: store, programs in the search path, results.
 pub struct Bench {
     root: TempDir,
-    /// Whether the search path holds the programs of the system, and with them installed engines.
+    /// Whether the search path holds the programs of the system, and with them installed codes.
     system_programs: bool,
 }
 
 impl Bench {
-    /// A machine on which no engine is installed.
-    pub fn without_engines() -> Self {
+    /// A machine on which no code is installed.
+    pub fn without_codes() -> Self {
         Self::new(false)
     }
 
@@ -97,21 +97,20 @@ impl Bench {
     }
 }
 
-/// Those of `engines` that are installed; fails if one that TRISTACK_REQUIRE_ENGINES names is not.
-pub fn installed(engines: &[EngineName]) -> Vec<EngineName> {
+/// Those of `codes` that are installed; fails if one that TRISTACK_REQUIRE_ENGINES names is not.
+pub fn installed(codes: &[Code]) -> Vec<Code> {
     let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
     for name in required.split(',').filter(|name| !name.is_empty()) {
-        let engine =
-            EngineName::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names engines");
+        let code = Code::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names codes");
         assert!(
-            engine.find().is_some(),
-            "{engine} is required, but not installed"
+            code.find().is_some(),
+            "{code} is required, but not installed"
         );
     }
     let (installed, missing): (Vec<_>, Vec<_>) =
-        engines.iter().partition(|engine| engine.find().is_some());
-    for engine in missing {
-        eprintln!("{engine} is not installed: its live tests are skipped");
+        codes.iter().partition(|code| code.find().is_some());
+    for code in missing {
+        eprintln!("{code} is not installed: its live tests are skipped");
     }
     installed
 }

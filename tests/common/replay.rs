@@ -1,13 +1,13 @@
 //! A fake YADE that replays recorded runs, so that the whole way from plan to verdict can be tested
-//! without engines, and disturbed at will.
+//! without codes, and disturbed at will.
 
 use super::Bench;
 use std::fs;
 use std::path::Path;
-use tristack::archive::ProbeRecord;
-use tristack::engine::{ParameterFile, Task};
-use tristack::stack::{Case, sha256_hex};
-use tristack::trace::MotionRow;
+use tristack::code::{ParameterFile, Task};
+use tristack::model::{Case, sha256_hex};
+use tristack::runs::ProbeRecord;
+use tristack::series::MotionRow;
 
 /// What happens to the recorded series of one case.
 pub enum Disturbance {

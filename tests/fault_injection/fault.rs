@@ -7,7 +7,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
     Process(ProcessFault),
-    Engine(EngineFault),
+    InstalledCode(EngineFault),
     Store(StoreFault),
     Disk(DiskFault),
 }
@@ -96,7 +96,7 @@ impl Fault {
             P::TwoAtOnceOneKilled,
             P::ClockJumps,
         ];
-        let engine = [
+        let code = [
             E::Crashes,
             E::IsKilledForItsMemory,
             E::TakesTooMuchMemory,
@@ -129,10 +129,10 @@ impl Fault {
         ];
         let disk = [D::Full, D::ReadOnly, D::RunsReadOnly];
         let process = process.into_iter().map(Self::Process);
-        let engine = engine.into_iter().map(Self::Engine);
+        let code = code.into_iter().map(Self::InstalledCode);
         let store = store.into_iter().map(Self::Store);
         process
-            .chain(engine)
+            .chain(code)
             .chain(store)
             .chain(disk.into_iter().map(Self::Disk))
     }

@@ -7,8 +7,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod code_faults;
 mod disk;
-mod engine_faults;
 mod fault;
 mod process_faults;
 mod processes;

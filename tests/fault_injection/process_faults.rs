@@ -12,7 +12,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Output};
 use std::time::{Duration, Instant};
-use tristack::stack::sha256_hex;
+use tristack::model::sha256_hex;
 
 /// A second interrupt is immediate: no more than this on a busy machine.
 const IMMEDIATE: Duration = Duration::from_secs(1);
@@ -21,7 +21,7 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
     match fault {
         ProcessFault::Killed => Ok(kill_times(1, round)),
         ProcessFault::KilledTwice => Ok(kill_times(2, round)),
-        ProcessFault::KilledWhileEngineHangs => kill_while_engine_hangs(round),
+        ProcessFault::KilledWhileEngineHangs => kill_while_code_hangs(round),
         ProcessFault::Interrupted => interrupt(Signal::SIGINT, round),
         ProcessFault::Terminated => interrupt(Signal::SIGTERM, round),
         ProcessFault::InterruptedTwice => interrupt_twice(round),
@@ -33,7 +33,7 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
             Ok(signal_others(Process::is_foreign, Signal::SIGSTOP, round))
         }
         ProcessFault::GuardKilled => Ok(signal_others(Process::is_guard, Signal::SIGKILL, round)),
-        ProcessFault::EngineReplaced => Ok(replace_engine(round)),
+        ProcessFault::EngineReplaced => Ok(replace_code(round)),
         ProcessFault::ClockJumps => Ok(let_clock_jump(round)),
         ProcessFault::TwoAtOnce => run_two(round, false),
         ProcessFault::TwoAtOnceOneKilled => run_two(round, true),
@@ -75,8 +75,8 @@ fn kill_times(times: usize, round: &mut Round) -> Aftermath {
     aftermath
 }
 
-/// The engine would go on for ten minutes, and so would what it has started.
-fn kill_while_engine_hangs(round: &mut Round) -> Result<Aftermath, String> {
+/// The code would go on for ten minutes, and so would what it has started.
+fn kill_while_code_hangs(round: &mut Round) -> Result<Aftermath, String> {
     let first = address(&round.workload.cases[0]);
     let hang = round.bench.path(&format!("replay/{first}.sh"));
     fs::write(&hang, "setsid sleep 600 & sleep 600").expect("a script");
@@ -187,7 +187,7 @@ fn signal_others(which: fn(&Process) -> bool, how: Signal, round: &mut Round) ->
     }
 }
 
-fn replace_engine(round: &mut Round) -> Aftermath {
+fn replace_code(round: &mut Round) -> Aftermath {
     let mut child = round.start("");
     round.wait_for_a_moment(&mut child);
     let program = round.bench.path("programs/yade");

@@ -45,7 +45,7 @@ pub fn write(
     let report = serde_json::json!({
         "command": "bash .ci/reliability faults",
         "commit": commit,
-        "machine": tristack::archive::machine(),
+        "machine": tristack::code::machine(),
         "date": jiff::Timestamp::now().to_string(),
         "rounds": rounds,
         "seed": seed,
@@ -63,7 +63,7 @@ pub fn commit() -> String {
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 
-/// `Engine(SeriesEmpty)` as "engine" and "series empty".
+/// `InstalledCode(SeriesEmpty)` as "code" and "series empty".
 fn names(fault: Fault) -> (String, String) {
     let text = format!("{fault:?}");
     let (kind, name) = text.trim_end_matches(')').split_once('(').expect("a kind");

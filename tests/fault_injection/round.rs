@@ -4,14 +4,14 @@ use super::common::Bench;
 use super::fault::{Fault, ProcessFault, StoreFault};
 use super::processes;
 use super::workload::{Workload, Workloads};
-use super::{disk, engine_faults, process_faults, store_faults};
+use super::{code_faults, disk, process_faults, store_faults};
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
-use tristack::stack::sha256_hex;
+use tristack::model::sha256_hex;
 
 /// A place, something to compute there, and chance.
 pub struct Round<'a> {
@@ -82,7 +82,7 @@ impl<'a> Round<'a> {
         }
         let aftermath = match fault {
             Fault::Process(fault) => process_faults::strike(fault, &mut round),
-            Fault::Engine(fault) => engine_faults::strike(fault, &mut round),
+            Fault::InstalledCode(fault) => code_faults::strike(fault, &mut round),
             Fault::Store(fault) => store_faults::strike(fault, &mut round),
             Fault::Disk(fault) => disk::strike(fault, &mut round),
         };
@@ -326,7 +326,7 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
     let native = &all.real[0];
     let often_real = random.f64() < 0.4;
     match fault {
-        Fault::Engine(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
+        Fault::InstalledCode(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
         // What hangs without an end of its own in sight must not be waited for.
         Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs | P::InterruptedTwice) => {
             &all.replayed

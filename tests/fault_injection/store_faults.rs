@@ -4,7 +4,7 @@ use super::fault::StoreFault;
 use super::round::{Aftermath, Round, finished_runs};
 use std::fs;
 use std::path::Path;
-use tristack::stack::sha256_hex;
+use tristack::model::sha256_hex;
 
 const FILES: [&str; 4] = ["case.json", "series.csv", "provenance.json", "SHA256SUMS"];
 

@@ -4,9 +4,9 @@ use super::common::Bench;
 use super::common::replay::{self, Disturbance};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use tristack::crosscheck::plan;
-use tristack::engine::{EngineName, ParameterFile, Task};
-use tristack::stack::{Case, Stack, sha256_hex};
+use tristack::code::{Code, ParameterFile, Task};
+use tristack::model::{Case, Stack, sha256_hex};
+use tristack::study::yield_force::plan;
 
 /// A sweep, and what comes out if nothing happens.
 pub struct Workload {
@@ -35,15 +35,15 @@ impl Workloads {
         replay::install(&shared, |_| Disturbance::None);
         let place = Bench::with_system_programs();
         install(&place, &shared.path("replay"));
-        let replayed = Workload::new(&place, EngineName::Yade, &[0.2, 0.3], 100.0);
-        let codes = [EngineName::Liggghts, EngineName::Lammps, EngineName::Yade];
-        let mut real = vec![(EngineName::Native, 1e4)];
+        let replayed = Workload::new(&place, Code::Yade, &[0.2, 0.3], 100.0);
+        let codes = [Code::Liggghts, Code::Lammps, Code::Yade];
+        let mut real = vec![(Code::Native, 1e4)];
         let installed = codes.iter().filter(|code| code.find().is_some());
         real.extend(installed.map(|&code| (code, 100.0)));
-        let real = real.into_iter().map(|(engine, stiffness)| {
+        let real = real.into_iter().map(|(code, stiffness)| {
             Workload::new(
                 &Bench::with_system_programs(),
-                engine,
+                code,
                 &[0.25, 0.35],
                 stiffness,
             )
@@ -73,14 +73,14 @@ pub fn address(case: &Case) -> String {
 }
 
 impl Workload {
-    fn new(place: &Bench, engine: EngineName, frictions: &[f64], stiffness: f64) -> Self {
+    fn new(place: &Bench, code: Code, frictions: &[f64], stiffness: f64) -> Self {
         let [first, last] = [frictions[0], frictions[frictions.len() - 1]];
         let line = format!(
-            "sweep --engine {engine} --mu {first}:{last}:0.1 --stiffness {stiffness} --format csv --jobs 2"
+            "sweep --code {code} --mu {first}:{last}:0.1 --stiffness {stiffness} --format csv --jobs 2"
         );
         let cases = frictions.iter().flat_map(|&friction| {
             let stack = Stack::paper(friction, stiffness);
-            plan(engine, &stack, engine.convention()).cases
+            plan(code, &stack, code.convention()).cases
         });
         let start = Instant::now();
         let output = place.process(&line).output().expect("it runs");

@@ -6,13 +6,13 @@ use super::soundness::scenes::{short_case, short_test};
 use super::soundness::{check_within, options};
 use std::ffi::OsString;
 use std::path::Path;
-use tristack::archive::{ProbeRecord, Reading};
-use tristack::claims::Register;
+use tristack::code::{Code, Interrupt, RunContext, pyramid_in_log, version_in_answer};
 use tristack::dem::{Checkpoint, compress_stack, run_contact_test};
-use tristack::engine::{EngineName, Interrupt, Workplace, pyramid_in_log, version_in_answer};
-use tristack::report::run_svg;
-use tristack::stack::{Case, ContactTest, Convention, Pyramid};
-use tristack::trace::{Frames, Motion, SeriesError, Trace};
+use tristack::model::{Case, ContactConvention, ContactTest, Pyramid};
+use tristack::output::run_svg;
+use tristack::paper::claims::Register;
+use tristack::runs::{ProbeRecord, RunSummary};
+use tristack::series::{Frames, Motion, Series, SeriesError};
 
 /// It overflowed: a panic, or a record without rows that passed for one of 2⁶⁴ − 1 steps.
 #[test]
@@ -35,7 +35,7 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
     let last = text.lines().last().expect("a row");
     let rows = usize::try_from(schedule.rows()).expect("few");
     let long = format!("{text}{}", format!("{last}\n").repeat(1000));
-    let refusal = Trace::read(long.as_bytes(), &schedule, time_step).unwrap_err();
+    let refusal = Series::read(long.as_bytes(), &schedule, time_step).unwrap_err();
     let SeriesError::Truncated { found, expected } = refusal else {
         panic!("{refusal}");
     };
@@ -45,13 +45,16 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
 /// What was out of its range was taken for recorded.
 #[test]
 fn a_reading_of_an_impossible_case_is_refused_with_its_line() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/readings/liggghts.jsonl");
-    let text = std::fs::read_to_string(&path).expect("readings");
-    let line = text.lines().next().expect("a reading");
-    assert_eq!(Reading::parse_all(line, &path).expect("a reading").len(), 1);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/summaries/liggghts.jsonl");
+    let text = std::fs::read_to_string(&path).expect("summaries");
+    let line = text.lines().next().expect("a summary");
+    assert_eq!(
+        RunSummary::parse_all(line, &path).expect("a summary").len(),
+        1
+    );
     let time_step = line.find("\"time_step\":").expect("a time step") + "\"time_step\":".len();
     let impossible = format!("{line}\n{}9{}", &line[..time_step], &line[time_step..]);
-    let message = Reading::parse_all(&impossible, &path)
+    let message = RunSummary::parse_all(&impossible, &path)
         .unwrap_err()
         .to_string();
     assert!(
@@ -88,12 +91,12 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
     for far in [1e12, -1e300, f64::MAX] {
         rows.last_mut().expect("a row").x2 = far;
         rows.last_mut().expect("a row").y1 = far.abs();
-        let trace = Trace::new(
+        let series = Series::new(
             rows.clone(),
             &case.protocol.schedule(),
             case.protocol.time_step,
         );
-        let frames = Frames::of_trace(&trace.expect("finite"), case.protocol.wall_speed);
+        let frames = Frames::of_trace(&series.expect("finite"), case.protocol.wall_speed);
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }
 }
@@ -119,7 +122,7 @@ fn the_version_in_an_answer_is_readable_and_short() {
 /// Sums of steps overflowed.
 #[test]
 fn a_pyramid_that_would_take_for_ever_is_refused() {
-    let pyramid = Pyramid::touching(2, 100.0, Convention::PAPER);
+    let pyramid = Pyramid::touching(2, 100.0, ContactConvention::PAPER);
     for endless in [
         Pyramid {
             ramp_steps: u64::MAX,
@@ -144,7 +147,7 @@ fn a_pyramid_that_would_take_for_ever_is_refused() {
 
 #[test]
 fn steps_that_took_less_than_no_time_are_refused() {
-    let pyramid = Pyramid::touching(1, 100.0, Convention::PAPER);
+    let pyramid = Pyramid::touching(1, 100.0, ContactConvention::PAPER);
     let dump = b"ITEM: ATOMS id x y\n1 0 1\n";
     assert!(pyramid_in_log(b"Loop time of 1 on 1 procs", dump, &pyramid).is_ok());
     assert!(pyramid_in_log(b"Loop time of -1 on 1 procs", dump, &pyramid).is_err());
@@ -153,17 +156,17 @@ fn steps_that_took_less_than_no_time_are_refused() {
 /// They reached the deck as `null`.
 #[test]
 fn a_micro_test_with_a_number_that_is_none_is_not_put() {
-    for name in installed(&[EngineName::Liggghts, EngineName::Yade, EngineName::Lammps]) {
+    for name in installed(&[Code::Liggghts, Code::Yade, Code::Lammps]) {
         let directory = tempfile::tempdir().expect("a directory");
         let interrupt = Interrupt::new();
         let mut test = ContactTest {
             convention: name.convention(),
             ..short_test()
         };
-        test.launches[0].spin = f64::INFINITY;
-        let engine = name.find().expect("it is installed");
-        let failure = engine
-            .probe(&[test], &Workplace::new(directory.path(), &interrupt))
+        test.initial_motions[0].spin = f64::INFINITY;
+        let code = name.find().expect("it is installed");
+        let failure = code
+            .probe(&[test], &RunContext::new(directory.path(), &interrupt))
             .expect_err("it cannot be put");
         let message = failure.to_string();
         assert!(
@@ -176,9 +179,9 @@ fn a_micro_test_with_a_number_that_is_none_is_not_put() {
 /// The product of two lists has no bound of its own.
 #[test]
 fn too_many_combinations_of_friction_and_stiffness_are_refused_at_once() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     let list = |value: &str| vec![value; 1001].join(",");
-    for command in ["theory", "sweep --engine native"] {
+    for command in ["theory", "sweep --code native"] {
         let mu = match command {
             "theory" => list("0.3"),
             _ => "0.1:0.5:0.0004".to_owned(),
@@ -192,9 +195,9 @@ fn too_many_combinations_of_friction_and_stiffness_are_refused_at_once() {
 
 #[test]
 fn a_case_file_that_is_not_text_is_refused_by_name() {
-    let bench = Bench::without_engines();
+    let bench = Bench::without_codes();
     std::fs::write(bench.path("case.json"), b"{\"stack\xff\":").expect("a file");
-    let line = "simulate --engine native --case case.json";
+    let line = "simulate --code native --case case.json";
     let message = standard_error(&mut bench.tristack(line));
     assert!(
         message.starts_with("error: case.json is not a case: invalid unicode"),
@@ -203,7 +206,7 @@ fn a_case_file_that_is_not_text_is_refused_by_name() {
     bench.tristack(line).assert().code(1);
 }
 
-/// A record nested so deeply that reading it takes all of the stack is refused by the parser.
+/// A record nested so deeply that summary it takes all of the stack is refused by the parser.
 #[test]
 fn deep_nesting_ends_no_parser() {
     let deep = "[".repeat(200_000);

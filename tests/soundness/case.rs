@@ -2,8 +2,8 @@
 
 use super::{Seed, marked, reference, scenes};
 use std::path::Path;
-use tristack::engine::Task;
-use tristack::stack::{Case, SideWalls};
+use tristack::code::Task;
+use tristack::model::{Case, SideWalls};
 
 const FILES: [&str; 2] = ["case.json", "case.toml"];
 
@@ -41,7 +41,7 @@ fn is_sound(case: &Case) {
 pub fn seeds() -> Vec<Seed> {
     let mut walls = scenes::short_case();
     walls.protocol.preparation =
-        tristack::stack::Preparation::SideWalls(SideWalls::paper(0.005, 0.01));
+        tristack::model::Preparation::SideWalls(SideWalls::paper(0.005, 0.01));
     let toml = "[stack]\nfloor_friction = 0.3\nstiffness = 100.0\n[convention]\npair_arm = -0.5\n\
         coulomb_operand = \"spring\"\n[protocol]\ntime_step = 0.1\nwall_speed = 1e-3\nwall_travel = 0.8\n\
         preparation = { kind = \"gravity-ramp\", ramp_time = 100.0, rest_time = 100.0 }\n\

@@ -3,8 +3,8 @@
 use super::{Seed, marked, scenes};
 use std::sync::LazyLock;
 use tristack::dem::{Checkpoint, LaneWidth, OpenRun, OpenRuns, RunQueue};
-use tristack::stack::{Case, Preparation};
-use tristack::trace::{SeriesError, Trace};
+use tristack::model::{Case, Preparation};
+use tristack::series::{Series, SeriesError};
 
 /// Bytes of one change: what (1), which (2), the new number (8).
 const CHANGE: usize = 11;
@@ -27,7 +27,7 @@ struct Queue {
     run: Option<OpenRun>,
     /// The last that was taken.
     checkpoint: Option<Checkpoint>,
-    series: Vec<Result<Trace, SeriesError>>,
+    series: Vec<Result<Series, SeriesError>>,
 }
 
 impl Queue {
@@ -55,7 +55,7 @@ impl RunQueue for Queue {
         true
     }
 
-    fn ended(&mut self, _: usize, series: Result<Trace, SeriesError>) {
+    fn ended(&mut self, _: usize, series: Result<Series, SeriesError>) {
         self.series.push(series);
     }
 }
@@ -77,7 +77,7 @@ pub fn check(data: &[u8]) {
 }
 
 /// Goes on from `checkpoint` to the end.
-fn resume(checkpoint: Checkpoint) -> Result<Trace, SeriesError> {
+fn resume(checkpoint: Checkpoint) -> Result<Series, SeriesError> {
     let mut queue = Queue::with(KEPT.0, Some(checkpoint));
     LaneWidth::ONE.compress_stacks(&mut queue);
     assert_eq!(queue.series.len(), 1, "a run ends once");

@@ -1,7 +1,7 @@
 //! The register of claims.
 
 use super::{Seed, reference};
-use tristack::claims::{PaperTheory, Register};
+use tristack::paper::claims::{PaperTheory, Register};
 
 pub fn check(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {

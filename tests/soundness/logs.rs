@@ -3,9 +3,9 @@
 
 use super::scenes::{short_case, short_test};
 use super::{Seed, marked, series};
+use tristack::code::{motion_in_log, pyramid_in_log, series_in_log, version_in_answer};
 use tristack::dem::{compress_stack, run_contact_test};
-use tristack::engine::{motion_in_log, pyramid_in_log, series_in_log, version_in_answer};
-use tristack::stack::{Convention, Pyramid};
+use tristack::model::{ContactConvention, Pyramid};
 
 /// What separates log and dump in an input.
 const BETWEEN: u8 = 0;
@@ -18,8 +18,8 @@ pub fn check(data: &[u8]) {
     match kind % 4 {
         0 => {
             let case = short_case();
-            if let Ok(trace) = series_in_log(log, ["step", "time"], &case) {
-                series::is_sound(&trace, &case);
+            if let Ok(series) = series_in_log(log, ["step", "time"], &case) {
+                series::is_sound(&series, &case);
             }
         }
         1 => {
@@ -34,7 +34,7 @@ pub fn check(data: &[u8]) {
 }
 
 fn small_pyramid() -> Pyramid {
-    Pyramid::touching(2, 100.0, Convention::PAPER)
+    Pyramid::touching(2, 100.0, ContactConvention::PAPER)
 }
 
 fn check_pyramid(files: &[u8]) {
@@ -58,8 +58,8 @@ fn check_version(answer: &str) {
 }
 
 pub fn seeds() -> Vec<Seed> {
-    let trace = compress_stack(&short_case(), || true).expect("a finite series");
-    let csv = String::from_utf8(trace.to_csv()).expect("text");
+    let series = compress_stack(&short_case(), || true).expect("a finite series");
+    let csv = String::from_utf8(series.to_csv()).expect("text");
     let motion = run_contact_test(&short_test()).expect("a finite motion");
     let rows = serde_json::to_value(motion.rows()).expect("rows of numbers");
     let rows = rows.as_array().expect("rows").iter().map(|row| {

@@ -29,16 +29,16 @@ fn is_usable(value: f64) -> bool {
 pub fn seeds() -> Vec<Seed> {
     let lines = [
         "theory|--mu|0.3,critical|--stiffness|1e4,1e5|--pair-arm|-0.5|--format|json",
-        "simulate|--engine|native|--mu|0.2|--stiffness|1e2|--preparation|side-walls|--push|0.005|--dt|0.1",
-        "simulate|--engine|yade|--case|case.toml|--out|run|--time-limit|10",
-        "sweep|--engine|lammps|--mu|0.1:0.5:0.05|--stiffness|1e2,1e3|--kappa|2.5|--mu-d|0.7|--jobs|2",
-        "crosscheck|--profile|paper|--engines|native,yade-wall|--shortcuts|--store|store",
+        "simulate|--code|native|--mu|0.2|--stiffness|1e2|--preparation|side-walls|--push|0.005|--dt|0.1",
+        "simulate|--code|yade|--case|case.toml|--out|run|--time-limit|10",
+        "sweep|--code|lammps|--mu|0.1:0.5:0.05|--stiffness|1e2,1e3|--kappa|2.5|--mu-d|0.7|--jobs|2",
+        "crosscheck|--profile|paper|--codes|native,yade-wall|--shortcuts|--store|store",
         "crosscheck|--explain|yade/0.3/100",
         "predict|--youngs|1 MPa|--density|1000 kg/m3|--radius|1 cm|--length|40mm|--mu|0.3|--mu-uncertainty|0.05",
         "predict|--youngs|1 GPa|--mass|21.9 g|--radius|20 mm|--length|0.04m|--poisson|0.3|--mu|0.3|--contact|hertz",
         "regimes|--points|13|--kappa|2.5|--jobs|1",
-        "bench|--engines|native|--repeats|3|--pyramids",
-        "trajectories|--engines|lammps",
+        "bench|--codes|native|--repeats|3|--pyramids",
+        "trajectories|--codes|lammps",
         "report|--out|results",
     ];
     let seed = |(index, line): (usize, &str)| {

@@ -2,11 +2,11 @@
 
 use super::Seed;
 use std::sync::LazyLock;
+use tristack::code::Code;
 use tristack::dem::run_contact_test;
-use tristack::engine::EngineName;
-use tristack::probe::probe;
-use tristack::stack::ContactTest;
-use tristack::trace::{Motion, MotionRow};
+use tristack::model::ContactTest;
+use tristack::series::{Motion, MotionRow};
+use tristack::study::convention::probe;
 
 /// Bytes that say one change: micro-test (2), row (1), column (1), what becomes of the number (1).
 const CHANGE: usize = 5;
@@ -14,7 +14,7 @@ const CHANGE: usize = 5;
 /// The micro-tests of the first round and their motions.
 static FIRST_ROUND: LazyLock<Vec<Vec<MotionRow>>> = LazyLock::new(|| {
     let mut rows = Vec::new();
-    let stopped = probe(&EngineName::Native.declaration(), |tests| {
+    let stopped = probe(&Code::Native.declaration(), |tests| {
         rows = tests
             .iter()
             .map(|test| honest(test).rows().to_vec())
@@ -39,7 +39,7 @@ pub fn check(data: &[u8]) {
         *value = changed(*value, change[4]);
     }
     let mut round = 0;
-    let read = probe(&EngineName::Native.declaration(), |tests| {
+    let read = probe(&Code::Native.declaration(), |tests| {
         round += 1;
         if round == 1 {
             return Ok(FIRST_ROUND
@@ -55,7 +55,7 @@ pub fn check(data: &[u8]) {
             .collect()
     });
     for property in read.unwrap_or_default() {
-        let finding = property.judge(EngineName::Native, "0");
+        let finding = property.judge(Code::Native, "0");
         assert!(!finding.property.is_empty());
     }
 }

@@ -1,12 +1,13 @@
-//! What is kept of runs: provenance, answers to micro-tests, readings.
+//! What is kept of runs: provenance, answers to micro-tests, summaries.
 
 use super::scenes::short_test;
 use super::{Seed, marked, reference};
 use serde_json::json;
 use std::path::Path;
-use tristack::archive::{ProbeRecord, Provenance, Reading};
+use tristack::code::Code;
+use tristack::code::Provenance;
 use tristack::dem::run_contact_test;
-use tristack::engine::EngineName;
+use tristack::runs::{ProbeRecord, RunSummary};
 
 pub fn check(data: &[u8]) {
     let Some((&kind, text)) = data.split_first() else {
@@ -34,7 +35,7 @@ fn check_probe(text: &[u8]) {
         assert_eq!(answer.motion.rows().len() as u64, answer.test.steps + 1);
         assert!(record.answer(&[answer.test]).is_some());
     }
-    let _ = record.outdated(|test| EngineName::Native.probe_hash(test));
+    let _ = record.outdated(|test| Code::Native.probe_hash(test));
 }
 
 fn check_readings(text: &[u8]) {
@@ -42,13 +43,13 @@ fn check_readings(text: &[u8]) {
         return;
     };
     let path = Path::new("yade.jsonl");
-    for reading in Reading::parse_all(text, path).unwrap_or_default() {
-        reading.case.validate().expect("what is accepted is valid");
-        assert_eq!(reading.case.content_hash().len(), 64);
-        let line = serde_json::to_string(&reading).expect("plain data");
+    for summary in RunSummary::parse_all(text, path).unwrap_or_default() {
+        summary.case.validate().expect("what is accepted is valid");
+        assert_eq!(summary.case.content_hash().len(), 64);
+        let line = serde_json::to_string(&summary).expect("plain data");
         assert_eq!(
-            Reading::parse_all(&line, path).expect("its own JSON"),
-            [reading]
+            RunSummary::parse_all(&line, path).expect("its own JSON"),
+            [summary]
         );
     }
 }
@@ -60,9 +61,9 @@ pub fn seeds() -> Vec<Seed> {
     let recorded = entries.next().expect("a recorded run").path();
     let provenance =
         std::fs::read_to_string(recorded.join("provenance.json")).expect("a provenance");
-    let readings =
-        std::fs::read_to_string(reference().join("readings/liggghts.jsonl")).expect("readings");
-    let first: String = readings
+    let summaries =
+        std::fs::read_to_string(reference().join("summaries/liggghts.jsonl")).expect("summaries");
+    let first: String = summaries
         .lines()
         .take(2)
         .map(|line| line.to_owned() + "\n")
@@ -71,13 +72,13 @@ pub fn seeds() -> Vec<Seed> {
         "provenance": serde_json::from_str::<serde_json::Value>(&provenance).expect("JSON"),
         "answers": [{
             "test": short_test(),
-            "told_hash": "00",
+            "input_hash": "00",
             "motion": run_contact_test(&short_test()).expect("a finite motion"),
         }],
     });
     vec![
         ("provenance".to_owned(), marked(0, provenance)),
         ("probe".to_owned(), marked(1, probe.to_string())),
-        ("readings".to_owned(), marked(2, first)),
+        ("summaries".to_owned(), marked(2, first)),
     ]
 }

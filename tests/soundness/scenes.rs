@@ -1,14 +1,15 @@
 //! Small cases and micro-tests, so that one execution takes microseconds.
 
-use tristack::stack::{
-    Case, ContactTest, Convention, Launch, Preparation, Protocol, Sampling, Shortcuts, Stack,
+use tristack::model::{
+    Case, ContactConvention, ContactTest, InitialMotion, Preparation, Protocol, Sampling,
+    Shortcuts, Stack,
 };
 
 /// 21 rows.
 pub fn short_case() -> Case {
     Case {
         stack: Stack::paper(0.3, 100.0),
-        convention: Convention::PAPER,
+        convention: ContactConvention::PAPER,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 20.0,
@@ -42,7 +43,7 @@ pub fn case_with_shortcuts() -> Case {
 /// A cylinder that falls on the floor.
 pub fn short_test() -> ContactTest {
     ContactTest {
-        convention: Convention::PAPER,
+        convention: ContactConvention::PAPER,
         stiffness_ratio: 2.5,
         floor_friction: 0.3,
         cylinder_friction: 0.7,
@@ -50,13 +51,13 @@ pub fn short_test() -> ContactTest {
         steps: 3,
         wall_height: 4.5,
         wall_speed: 0.0,
-        launches: [
-            Launch {
+        initial_motions: [
+            InitialMotion {
                 vy: -0.01,
                 spin: 0.001,
-                ..Launch::at(0.0, 0.99)
+                ..InitialMotion::at(0.0, 0.99)
             },
-            Launch::at(6.0, 2.0),
+            InitialMotion::at(6.0, 2.0),
         ],
     }
 }

@@ -4,9 +4,9 @@
 use super::scenes::{case_with_shortcuts, short_case, short_test};
 use super::{Seed, marked};
 use tristack::dem::{compress_stack, run_contact_test};
-use tristack::report::{run_svg, vtk_series};
-use tristack::stack::Case;
-use tristack::trace::{Frames, Motion, Trace, YieldEstimates};
+use tristack::model::Case;
+use tristack::output::{run_svg, vtk_series};
+use tristack::series::{Frames, Motion, Series, YieldEstimates};
 
 /// A picture of a wide stack takes some 100 kB.
 const LARGEST_PICTURE: usize = 1_000_000;
@@ -24,14 +24,14 @@ pub fn check(data: &[u8]) {
 
 fn check_series(text: &[u8], case: &Case) {
     let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
-    match Trace::read(text, &schedule, time_step) {
-        Ok(trace) => {
-            let again = Trace::read(&trace.to_csv()[..], &schedule, time_step);
-            assert_eq!(again.expect("its own CSV is a series"), trace);
-            is_sound(&trace, case);
+    match Series::read(text, &schedule, time_step) {
+        Ok(series) => {
+            let again = Series::read(&series.to_csv()[..], &schedule, time_step);
+            assert_eq!(again.expect("its own CSV is a series"), series);
+            is_sound(&series, case);
             // Pictures take a hundred times longer.
             if text.len().is_multiple_of(16) {
-                can_be_drawn(&trace, case);
+                can_be_drawn(&series, case);
             }
         }
         Err(refusal) => assert!(!refusal.to_string().is_empty()),
@@ -39,9 +39,9 @@ fn check_series(text: &[u8], case: &Case) {
 }
 
 /// What is accepted is finite, lies at the planned steps, and can be read.
-pub fn is_sound(trace: &Trace, case: &Case) {
+pub fn is_sound(series: &Series, case: &Case) {
     let planned = case.protocol.schedule();
-    let rows = trace.samples();
+    let rows = series.samples();
     assert!(rows.len() as u64 <= planned.rows());
     assert!(
         rows.iter()
@@ -53,7 +53,7 @@ pub fn is_sound(trace: &Trace, case: &Case) {
         rows.iter()
             .all(|row| finite(row.wall_force) && finite(row.y1) && finite(row.floor_t3))
     );
-    let estimates = YieldEstimates::read(trace, &case.stack);
+    let estimates = YieldEstimates::read(series, &case.stack);
     assert!(
         estimates
             .sliding_friction
@@ -61,12 +61,12 @@ pub fn is_sound(trace: &Trace, case: &Case) {
     );
 }
 
-fn can_be_drawn(trace: &Trace, case: &Case) {
-    let frames = Frames::of_trace(trace, case.protocol.wall_speed);
+fn can_be_drawn(series: &Series, case: &Case) {
+    let frames = Frames::of_trace(series, case.protocol.wall_speed);
     assert!(run_svg("yade", case, &frames).len() < LARGEST_PICTURE);
     assert_eq!(
         vtk_series(&frames, case.stack.epsilon()).len(),
-        2 * trace.samples().len() + 1
+        2 * series.samples().len() + 1
     );
 }
 
@@ -84,8 +84,8 @@ fn check_motion(text: &[u8]) {
 
 pub fn seeds() -> Vec<Seed> {
     let series = |case: &Case| {
-        let trace = compress_stack(case, || true).expect("a finite series");
-        trace.to_csv()
+        let series = compress_stack(case, || true).expect("a finite series");
+        series.to_csv()
     };
     vec![
         ("series".to_owned(), marked(0, series(&short_case()))),

@@ -2,9 +2,9 @@
 //! copes with them.
 
 use super::Seed;
-use tristack::crosscheck::protocol_at_speed;
-use tristack::engine::{EngineName, Task};
-use tristack::stack::{Case, Convention, Stack};
+use tristack::code::{Code, Task};
+use tristack::model::{Case, ContactConvention, Stack};
+use tristack::study::yield_force::protocol_at_speed;
 use tristack::theory::{Predictions, quasistatic_limit};
 
 const NUMBERS: usize = 8;
@@ -34,10 +34,10 @@ pub fn check(data: &[u8]) {
         stiffness,
         stiffness_ratio,
     };
-    let convention = Convention {
+    let convention = ContactConvention {
         pair_arm,
         floor_arm,
-        ..Convention::PAPER
+        ..ContactConvention::PAPER
     };
     // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.
     if stiffness_ratio < SMALLEST_RATIO {
@@ -63,7 +63,7 @@ pub fn check(data: &[u8]) {
                 .as_object()
                 .is_some_and(|named| named.values().all(|one| one.is_number()))
         );
-        assert_eq!(EngineName::Native.deck_hash(&case).len(), 64);
+        assert_eq!(Code::Native.deck_hash(&case).len(), 64);
     }
 }
 

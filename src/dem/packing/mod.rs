@@ -13,7 +13,7 @@ mod skin;
 mod walls;
 
 use super::{ContactForce, Cylinder, Load, PlaneWall, SpringDashpot};
-use crate::stack::{Convention, Stack};
+use crate::model::{ContactConvention, Stack};
 use pairs::PairList;
 pub use pyramid::{PYRAMID_FLOOR, run_pyramid};
 use skin::Skin;
@@ -39,7 +39,7 @@ pub struct Material {
 
 impl Material {
     /// The material of `stack` under `convention`.
-    pub fn new(stack: &Stack, convention: &Convention) -> Self {
+    pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
             law: SpringDashpot::like(0.0, convention, stack.tangential_stiffness()),
             cylinder_friction: stack.cylinder_friction,

@@ -2,8 +2,8 @@
 
 use super::{Material, Packing};
 use crate::dem::{Cylinder, Facing, PlaneWall};
-use crate::stack::Pyramid;
-use crate::trace::{PyramidRun, SeriesError};
+use crate::model::Pyramid;
+use crate::series::{PyramidRun, SeriesError};
 use std::time::Instant;
 
 /// Index of the floor among the walls of a pyramid.

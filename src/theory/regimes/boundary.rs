@@ -2,8 +2,8 @@
 //! friction.
 
 use super::super::events::Event;
-use super::course::Course;
-use crate::stack::Stack;
+use super::equilibrium_path::EquilibriumPath;
+use crate::model::Stack;
 
 /// A floor friction at which something else begins to happen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,14 +17,14 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// Every boundary in μ of stacks like `stack` on their `course`, lowest first.
+    /// Every boundary in μ of stacks like `stack` on their `path`, lowest first.
     ///
     /// Up to the largest e/d along the gravity ramp the floor slips under own weight; from e/d at the next
     /// other event on, that event comes before floor slip. There is none where the cylinders slip under
     /// own weight: the stack falls whatever the floor is like.
-    pub fn in_friction(course: &Course, stack: &Stack) -> Vec<Self> {
-        let slip = course.locate(Event::CylinderSlip, stack);
-        let Some((above, end)) = earlier(slip, course.wall_contact()) else {
+    pub fn in_friction(path: &EquilibriumPath, stack: &Stack) -> Vec<Self> {
+        let slip = path.locate(Event::CylinderSlip, stack);
+        let Some((above, end)) = earlier(slip, path.wall_contact()) else {
             return Vec::new();
         };
         let slips = |floor_friction, above| Self {
@@ -32,11 +32,11 @@ impl Boundary {
             below: Event::FloorSlip,
             above,
         };
-        let settled = course.settled();
+        let settled = path.settled();
         if end <= settled {
             return Vec::new();
         }
-        let needed = |until: f64| course.largest_until(until, |point| point.floor_ratio);
+        let needed = |until: f64| path.largest_until(until, |point| point.floor_ratio);
         vec![
             slips(needed(settled), Event::FloorSlip),
             slips(needed(end), above),
@@ -82,6 +82,9 @@ mod tests {
             cylinder_friction: 0.26,
             ..Stack::paper(0.3, 1e2)
         };
-        assert_eq!(Boundary::in_friction(&Course::new(&stack), &stack), []);
+        assert_eq!(
+            Boundary::in_friction(&EquilibriumPath::new(&stack), &stack),
+            []
+        );
     }
 }

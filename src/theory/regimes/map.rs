@@ -2,8 +2,8 @@
 
 use super::super::root::bracketed_root;
 use super::release::released_wall_tangent;
-use super::{Boundary, CLOSING_STIFFNESS_RATIO, Course, Outcome};
-use crate::stack::Stack;
+use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Outcome};
+use crate::model::Stack;
 use serde::Serialize;
 
 /// What varies besides the floor friction.
@@ -125,7 +125,7 @@ impl RegimeMap {
     /// The boundaries in μ at a value on the axis that lie on the map.
     pub fn friction_boundaries(&self, value: f64) -> Vec<Boundary> {
         let stack = self.axis.set(&self.base, value);
-        let all = Boundary::in_friction(&Course::new(&stack), &stack).into_iter();
+        let all = Boundary::in_friction(&EquilibriumPath::new(&stack), &stack).into_iter();
         let (lowest, highest) = self.frictions;
         all.filter(|boundary| (lowest..=highest).contains(&boundary.floor_friction))
             .collect()
@@ -135,11 +135,11 @@ impl RegimeMap {
     /// just bear their own weight, where they slip just as the wall arrives, and where contact 2–3 closes.
     pub fn lines(&self) -> Vec<Line> {
         let mut lines = Vec::new();
-        let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
+        let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
         let cylinder_friction = |value: f64| self.axis.set(&self.base, value).cylinder_friction;
-        let own_weight = |value| course(value).settled_pair_ratio() - cylinder_friction(value);
+        let own_weight = |value| path(value).settled_pair_ratio() - cylinder_friction(value);
         let wall = |value| {
-            let needed = course(value).wall_contact_pair_ratio();
+            let needed = path(value).wall_contact_pair_ratio();
             needed.unwrap_or(f64::INFINITY) - cylinder_friction(value)
         };
         lines.extend(self.roots(own_weight).map(Line::CylindersBearTheirWeight));
@@ -156,12 +156,12 @@ impl RegimeMap {
     /// The floor friction from which on `line` separates anything: with less, the floor slips first on both
     /// sides of it.
     pub fn lowest_friction_of(&self, line: Line) -> f64 {
-        let course = Course::new(&self.axis.set(&self.base, line.value()));
+        let path = EquilibriumPath::new(&self.axis.set(&self.base, line.value()));
         let end = match line {
-            Line::WallArrivesAsCylindersSlip(_) => course.wall_contact(),
-            _ => Some(course.settled()),
+            Line::WallArrivesAsCylindersSlip(_) => path.wall_contact(),
+            _ => Some(path.settled()),
         };
-        let needed = end.map(|end| course.largest_until(end, |point| point.floor_ratio));
+        let needed = end.map(|end| path.largest_until(end, |point| point.floor_ratio));
         needed.map_or(self.frictions.0, |needed| needed.max(self.frictions.0))
     }
 
@@ -169,9 +169,9 @@ impl RegimeMap {
     /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
     /// and those at which what ends a stack beyond them changes.
     pub fn reopenings(&self) -> Vec<f64> {
-        let course = |value: f64| Course::new(&self.axis.set(&self.base, value));
-        let settled = self.roots(|value| course(value).settled_outward());
-        let wall = self.roots(|value| course(value).wall_contact_outward().unwrap_or(f64::NAN));
+        let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
+        let settled = self.roots(|value| path(value).settled_outward());
+        let wall = self.roots(|value| path(value).wall_contact_outward().unwrap_or(f64::NAN));
         let pair = self.roots(|value| {
             let stack = self.axis.set(&self.base, value);
             let needed = released_wall_tangent(&stack).unwrap_or(f64::NAN);

@@ -61,15 +61,15 @@
 //! and b/a = T, never less than μ_c, with c = 0.
 
 mod boundary;
-mod course;
+mod equilibrium_path;
 mod map;
 mod outcome;
 mod release;
 
 pub use boundary::Boundary;
-pub use course::Course;
+pub use equilibrium_path::EquilibriumPath;
 pub use map::{Across, Axis, BoundaryPoint, Line, RegimeMap};
-pub use outcome::{Consequence, Happening, Outcome, Regime, Stage};
+pub use outcome::{CriticalState, FailureMode, LoadingPhase, Outcome, Regime};
 pub use release::released_frictions;
 
 /// κ_c, below which contact 2–3 closes at once, Eq. (R5).

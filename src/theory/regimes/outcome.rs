@@ -1,23 +1,23 @@
 //! What becomes of one stack: the first event, what it does, and the force that the stack carries.
 
 use super::super::events::Event;
-use super::course::Course;
+use super::equilibrium_path::EquilibriumPath;
 use super::release::Release;
-use crate::stack::Stack;
+use crate::model::Stack;
 use serde::Serialize;
 use std::fmt;
 
 /// When something happens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Stage {
+pub enum LoadingPhase {
     /// While gravity grows, before there is a wall.
     OwnWeight,
     /// Under the wall.
     Wall,
 }
 
-impl fmt::Display for Stage {
+impl fmt::Display for LoadingPhase {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::OwnWeight => "own weight",
@@ -28,11 +28,11 @@ impl fmt::Display for Stage {
 
 /// An event on the path, and the state in which it happens.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Happening {
+pub struct CriticalState {
     /// What happens.
     pub event: Event,
     /// When.
-    pub stage: Stage,
+    pub stage: LoadingPhase,
     /// F = f/(m g); 0 under own weight.
     pub force: f64,
     /// T = tan(ψ/2).
@@ -49,7 +49,7 @@ pub struct Happening {
 /// What the first event does to the stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Consequence {
+pub enum FailureMode {
     /// It does not stand.
     Collapses,
     /// The floor gives way under the wall.
@@ -64,7 +64,7 @@ pub enum Consequence {
     Softens,
 }
 
-impl fmt::Display for Consequence {
+impl fmt::Display for FailureMode {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Collapses => "the stack does not carry its own weight",
@@ -90,18 +90,18 @@ pub struct Regime {
     /// The first event.
     pub first: Event,
     /// When it comes.
-    pub first_stage: Stage,
+    pub first_stage: LoadingPhase,
     /// The first slip or wall contact; another one than the first where contact 2–3 closes before it.
     pub last: Event,
     /// When that comes.
-    pub last_stage: Stage,
+    pub last_stage: LoadingPhase,
 }
 
 impl fmt::Display for Regime {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let when = |stage| match stage {
-            Stage::OwnWeight => " under own weight",
-            Stage::Wall => "",
+            LoadingPhase::OwnWeight => " under own weight",
+            LoadingPhase::Wall => "",
         };
         if self.first != self.last {
             write!(formatter, "{}, then ", self.first)?;
@@ -114,14 +114,14 @@ impl fmt::Display for Regime {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Outcome {
     /// The first event.
-    pub first: Happening,
+    pub first: CriticalState,
     /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
-    pub last: Happening,
+    pub last: CriticalState,
     /// What the first event does.
-    pub consequence: Consequence,
+    pub failure_mode: FailureMode,
     /// Where equilibrium ends; `None` where the stack does not stand, and where the wall comes to rest on the
     /// bottom cylinders. Later than `last` where that is a slip with c > 0.
-    pub end: Option<Happening>,
+    pub end: Option<CriticalState>,
     /// The largest force F that the stack carries, that at the end unless it softens before.
     pub largest_force: Option<f64>,
 }
@@ -130,41 +130,41 @@ impl Outcome {
     /// What becomes of `stack`, with torque arms 0. `None` if its path of equilibria ends before any event.
     ///
     /// ```
-    /// use tristack::stack::Stack;
-    /// use tristack::theory::{Consequence, Event, Outcome};
+    /// use tristack::model::Stack;
+    /// use tristack::theory::{FailureMode, Event, Outcome};
     ///
     /// let slippery = Stack { cylinder_friction: 0.4, ..Stack::paper(0.5, 1e2) };
     /// let outcome = Outcome::of(&slippery).unwrap();
     /// assert_eq!(outcome.first.event, Event::CylinderSlip);
-    /// assert_eq!(outcome.consequence, Consequence::Saturates);
+    /// assert_eq!(outcome.failure_mode, FailureMode::Saturates);
     /// assert!((outcome.first.tangent - 0.4).abs() < 1e-12);
     /// ```
     pub fn of(stack: &Stack) -> Option<Self> {
-        Self::on(&Course::new(stack), stack)
+        Self::on(&EquilibriumPath::new(stack), stack)
     }
 
     /// The same for a `stack` whose path is known.
-    pub fn on(course: &Course, stack: &Stack) -> Option<Self> {
-        let (event, parameter) = last_event(course, stack)?;
-        let last = course.happening(event, parameter);
+    pub fn on(path: &EquilibriumPath, stack: &Stack) -> Option<Self> {
+        let (event, parameter) = last_event(path, stack)?;
+        let last = path.critical_state(event, parameter);
         let release = (last.bottom_force > 0.0 && event != Event::WallContact)
-            .then(|| Release::of(stack, course.settled_height()));
+            .then(|| Release::of(stack, path.settled_height()));
         let end = match (release, last.stage, event) {
             (Some(Release::Ends(end)), ..) => Some(end),
-            (Some(_), ..) | (_, Stage::OwnWeight, _) | (_, _, Event::WallContact) => None,
+            (Some(_), ..) | (_, LoadingPhase::OwnWeight, _) | (_, _, Event::WallContact) => None,
             _ => Some(last),
         };
         // A stack that slips from the start and falls never gets to stand on a fifth contact.
         let falls_at_once = parameter == 0.0 && release.is_none_or(|end| end == Release::Falls);
-        let closing = course.locate(Event::ContactCloses, stack);
+        let closing = path.locate(Event::ContactCloses, stack);
         let closing = closing.filter(|&closing| closing <= parameter && !falls_at_once);
         let first = closing.map_or(last, |closing| {
-            course.happening(Event::ContactCloses, closing)
+            path.critical_state(Event::ContactCloses, closing)
         });
-        let passed = course.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
+        let passed = path.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
         let softens = end.is_some_and(|end| passed > end.force * (1.0 + MAXIMUM_MARGIN));
         Some(Self {
-            consequence: consequence(&first, softens),
+            failure_mode: failure_mode(&first, softens),
             largest_force: end.map(|end| end.force.max(passed)),
             first,
             last,
@@ -186,36 +186,36 @@ impl Outcome {
 /// Forces closer than this are the same: the quadrature behind them is exact to some units of round-off.
 const MAXIMUM_MARGIN: f64 = 1e-12;
 
-fn consequence(first: &Happening, softens: bool) -> Consequence {
+fn failure_mode(first: &CriticalState, softens: bool) -> FailureMode {
     match (first.event, first.stage) {
-        (Event::ContactCloses, _) => Consequence::Shares,
-        (_, Stage::OwnWeight) => Consequence::Collapses,
-        (Event::WallContact, _) => Consequence::SecondLoadPath,
-        _ if softens => Consequence::Softens,
-        (Event::CylinderSlip, _) => Consequence::Saturates,
-        _ => Consequence::Yields,
+        (Event::ContactCloses, _) => FailureMode::Shares,
+        (_, LoadingPhase::OwnWeight) => FailureMode::Collapses,
+        (Event::WallContact, _) => FailureMode::SecondLoadPath,
+        _ if softens => FailureMode::Softens,
+        (Event::CylinderSlip, _) => FailureMode::Saturates,
+        _ => FailureMode::Yields,
     }
 }
 
 /// The first slip or wall contact, and the parameter at which it comes.
-fn last_event(course: &Course, stack: &Stack) -> Option<(Event, f64)> {
+fn last_event(path: &EquilibriumPath, stack: &Stack) -> Option<(Event, f64)> {
     let slips = [Event::FloorSlip, Event::CylinderSlip];
-    let slips = slips.map(|event| course.locate(event, stack).map(|at| (event, at)));
+    let slips = slips.map(|event| path.locate(event, stack).map(|at| (event, at)));
     if let [Some((_, floor)), Some((_, pair))] = slips
         && floor == 0.0
         && pair == 0.0
     {
-        return Some((weaker_contact(course, stack), 0.0));
+        return Some((weaker_contact(path, stack), 0.0));
     }
-    let wall = course.wall_contact().map(|at| (Event::WallContact, at));
+    let wall = path.wall_contact().map(|at| (Event::WallContact, at));
     let candidates = slips.into_iter().chain([wall]).flatten();
     candidates.min_by(|left, right| left.1.total_cmp(&right.1))
 }
 
 /// Where neither friction suffices from the start, the contact that lacks more of what it needs slides: it
 /// limits b = e to less than the other one can bear.
-fn weaker_contact(course: &Course, stack: &Stack) -> Event {
-    let point = course.point(course.beginning());
+fn weaker_contact(path: &EquilibriumPath, stack: &Stack) -> Event {
+    let point = path.point(path.beginning());
     let floor = stack.floor_friction / point.floor_ratio;
     let pair = stack.cylinder_friction / point.pair_ratio;
     if floor <= pair {
@@ -231,40 +231,40 @@ mod tests {
 
     #[test]
     fn stages_regimes_and_consequences_have_words() {
-        assert_eq!(Stage::OwnWeight.to_string(), "own weight");
-        assert_eq!(Stage::Wall.to_string(), "wall");
+        assert_eq!(LoadingPhase::OwnWeight.to_string(), "own weight");
+        assert_eq!(LoadingPhase::Wall.to_string(), "wall");
         let regime = |first, last, last_stage| Regime {
             first,
-            first_stage: Stage::OwnWeight,
+            first_stage: LoadingPhase::OwnWeight,
             last,
             last_stage,
         };
         let closes = Event::ContactCloses;
         for (regime, words) in [
             (
-                regime(Event::FloorSlip, Event::FloorSlip, Stage::Wall),
+                regime(Event::FloorSlip, Event::FloorSlip, LoadingPhase::Wall),
                 "floor-slip",
             ),
             (
-                regime(Event::FloorSlip, Event::FloorSlip, Stage::OwnWeight),
+                regime(Event::FloorSlip, Event::FloorSlip, LoadingPhase::OwnWeight),
                 "floor-slip under own weight",
             ),
             (
-                regime(closes, Event::CylinderSlip, Stage::Wall),
+                regime(closes, Event::CylinderSlip, LoadingPhase::Wall),
                 "contact-closes, then cylinder-slip",
             ),
         ] {
             assert_eq!(regime.to_string(), words);
         }
-        for (consequence, part) in [
-            (Consequence::Collapses, "does not carry its own weight"),
-            (Consequence::Yields, "the yield force"),
-            (Consequence::Saturates, "whatever mu is"),
-            (Consequence::Shares, "c > 0"),
-            (Consequence::SecondLoadPath, "without a peak"),
-            (Consequence::Softens, "passed its maximum"),
+        for (failure_mode, part) in [
+            (FailureMode::Collapses, "does not carry its own weight"),
+            (FailureMode::Yields, "the yield force"),
+            (FailureMode::Saturates, "whatever mu is"),
+            (FailureMode::Shares, "c > 0"),
+            (FailureMode::SecondLoadPath, "without a peak"),
+            (FailureMode::Softens, "passed its maximum"),
         ] {
-            assert!(consequence.to_string().contains(part), "{consequence}");
+            assert!(failure_mode.to_string().contains(part), "{failure_mode}");
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::super::events::Event;
 use super::super::root::bracketed_root;
-use super::outcome::{Happening, Stage};
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use super::outcome::{CriticalState, LoadingPhase};
+use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// T − μ_c where the centre of cylinder 1 has sunk to the level of the other two, T = 1.
 const WIDEST: f64 = 1.0 - CRITICAL_FRICTION;
@@ -14,7 +14,7 @@ pub enum Release {
     /// Contact 2–3 opens before gravity is complete: the stack falls.
     Falls,
     /// It opens under the wall, with the largest force.
-    Ends(Happening),
+    Ends(CriticalState),
     /// The wall reaches the bottom cylinders before.
     WallFirst,
 }
@@ -33,9 +33,9 @@ impl Release {
             return Self::WallFirst;
         }
         let wall_height = 2.0 - (overlap + epsilon) + clearance;
-        Self::Ends(Happening {
+        Self::Ends(CriticalState {
             event,
-            stage: Stage::Wall,
+            stage: LoadingPhase::Wall,
             force: 2.0 * overlap / epsilon - 1.0,
             tangent: CRITICAL_FRICTION + beyond,
             floor_overlap: overlap + epsilon,

@@ -1,7 +1,7 @@
 //! The elastic equation z = r 𝒟(μ, α) ℰ(μ, α) (paper, Eqs. 8 to 10) and the state behind its root.
 
 use super::{SQRT_3, vanishing_alpha};
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 use crate::theory::root::bracketed_root;
 
 /// α of F = 0; a root beyond it would need the wall to pull.

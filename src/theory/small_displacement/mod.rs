@@ -15,7 +15,7 @@ pub use perturbation::perturbation_load;
 pub use quintic::quintic_displacement;
 pub use rigid::{RigidYield, rigid_yield};
 
-use crate::stack::CRITICAL_FRICTION;
+use crate::model::CRITICAL_FRICTION;
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 

@@ -1,7 +1,7 @@
 //! The naive expansion of the displacement itself in powers of ε (paper, Eq. 13).
 
 use super::displacement_of_stiff_cylinders;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// F + 3 = 2 z/(ε r) to leading order in ε: μ_c/(μ_c − μ) ε below μ_c, its square root at μ_c, z⋆ above
 /// (paper, Eq. 13). `None` where it contradicts F ≥ 0.

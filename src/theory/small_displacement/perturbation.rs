@@ -1,7 +1,7 @@
 //! The singular perturbation result of the paper: the equation expanded instead of its solution.
 
 use super::{SQRT_3, displacement_of_stiff_cylinders, vanishing_alpha};
-use crate::stack::Stack;
+use crate::model::Stack;
 
 /// F + 3 = (z⋆ + √(z⋆² + 4 ε Φ))/ε (paper, Eq. 17). `None` where it is not real or contradicts F ≥ 0.
 pub fn perturbation_load(stack: &Stack) -> Option<f64> {
@@ -45,7 +45,7 @@ fn first_order_coefficient(floor_friction: f64, stiffness_ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stack::CRITICAL_FRICTION;
+    use crate::model::CRITICAL_FRICTION;
 
     fn script_d(mu: f64, alpha: f64) -> f64 {
         let u = 1.0 - alpha;

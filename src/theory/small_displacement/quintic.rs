@@ -1,7 +1,7 @@
 //! The same root from the quintic (paper, Eq. 11), by the eigenvalues of its companion matrix.
 
 use super::SQRT_3;
-use crate::stack::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 use nalgebra::SMatrix;
 
 /// Imaginary part, relative to the modulus, below which a computed eigenvalue counts as real.

@@ -1,6 +1,6 @@
 //! Rigid cylinders (paper, Eq. 4).
 
-use crate::stack::CRITICAL_FRICTION;
+use crate::model::CRITICAL_FRICTION;
 use serde::Serialize;
 
 /// Yield force of rigid cylinders.

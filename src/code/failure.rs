@@ -1,0 +1,95 @@
+//! A run that did not deliver, with everything needed to look into it.
+
+use super::Code;
+use crate::files::FileError;
+use crate::model::{InvalidValue, shown};
+use crate::series::SeriesError;
+use std::path::PathBuf;
+use std::process::ExitStatus;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why an code delivered no series.
+#[derive(Debug, Error)]
+pub enum FailureKind {
+    /// The code cannot run this case.
+    #[error("the code cannot run the case: {0}")]
+    Unsupported(InvalidValue),
+    /// The run directory could not be prepared.
+    #[error(transparent)]
+    RunContext(#[from] FileError),
+    /// The program could not be started.
+    #[error("cannot start the program: {0}")]
+    Start(std::io::Error),
+    /// The program is not the one whose version and hash were taken at the start.
+    #[error("{} was replaced while it was in use; start again", shown(.0))]
+    Replaced(PathBuf),
+    /// The program ended before the case was done.
+    #[error("the program ended without a series: {0}")]
+    Ended(ExitStatus),
+    /// The program went on to other cases.
+    #[error("the program delivered no series for this case and went on")]
+    Skipped,
+    /// The case was not finished in time.
+    #[error("no series after {0:?}; it was stopped")]
+    TimedOut(Duration),
+    /// The user interrupted.
+    #[error("interrupted")]
+    Interrupted,
+    /// The series is not the one that was asked for.
+    #[error("the series is not usable: {0}")]
+    Series(#[from] SeriesError),
+}
+
+/// A failed run.
+#[derive(Debug, Error)]
+#[error(
+    "{code} failed on {subject}: {kind}{}",
+    context(run_directory, last_lines)
+)]
+pub struct Failure {
+    /// Who failed.
+    pub code: Code,
+    /// On what.
+    pub subject: String,
+    /// Why.
+    pub kind: FailureKind,
+    /// Where the deck and the captured output are.
+    pub run_directory: Option<PathBuf>,
+    /// The end of what the program wrote.
+    pub last_lines: Vec<String>,
+}
+
+impl Failure {
+    /// `code` cannot do what `subject` asks for.
+    pub(super) fn unsupported(code: Code, subject: &impl ToString, reason: InvalidValue) -> Self {
+        Self {
+            code,
+            subject: subject.to_string(),
+            kind: FailureKind::Unsupported(reason),
+            run_directory: None,
+            last_lines: Vec::new(),
+        }
+    }
+
+    /// Whether the run directory holds what the program wrote before it failed.
+    pub fn left_evidence(&self) -> bool {
+        self.run_directory.is_some() && !self.is_interrupted()
+    }
+
+    /// Whether nothing is wrong but that the user did not want to wait.
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self.kind, FailureKind::Interrupted)
+    }
+}
+
+fn context(run_directory: &Option<PathBuf>, last_lines: &[String]) -> String {
+    let mut text = String::new();
+    if let Some(directory) = run_directory {
+        text += &format!("\n  run directory: {}", shown(directory));
+    }
+    for line in last_lines {
+        text += &format!("\n  | {line}");
+    }
+    text
+}

@@ -1,0 +1,227 @@
+//! Which binary an code is, and which version.
+
+use super::batch::LONGEST_START;
+use super::process::{self, Ending, Interrupt, Job};
+use super::{Environment, FailureKind};
+use crate::model::sha256_hex;
+use std::ffi::OsString;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A question is put again if a signal ends who is asked: the answer becomes part of the address of every run.
+const TRIES: usize = 3;
+
+/// A version in characters: it stands in tables.
+const LONGEST_VERSION: usize = 100;
+
+/// An installed program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Installation {
+    /// The program.
+    pub program: PathBuf,
+    /// Its own version, or that of its package.
+    pub version: String,
+    /// Distribution package and its version, if the program belongs to one.
+    pub package: Option<String>,
+    /// SHA-256 of the program file.
+    pub hash: String,
+    /// What changes when somebody writes to the file or puts another in its place.
+    stamp: Stamp,
+}
+
+impl Installation {
+    /// Refuses a program that has been replaced since it was found.
+    ///
+    /// # Errors
+    /// It names the program.
+    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+        let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
+        let replaced = || FailureKind::Replaced(self.program.clone());
+        unchanged.then_some(()).ok_or_else(replaced)
+    }
+}
+
+/// Device and number of a file, and when it last changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Stamp([i64; 4]);
+
+impl Stamp {
+    fn of(path: &Path) -> Option<Self> {
+        let data = std::fs::metadata(path).ok()?;
+        let place = [data.dev() as i64, data.ino() as i64];
+        Some(Self([place[0], place[1], data.ctime(), data.ctime_nsec()]))
+    }
+}
+
+/// How a program says its version.
+pub struct VersionQuestion {
+    /// Arguments that make it print the version.
+    pub arguments: &'static [&'static str],
+    /// What stands before the version in the first line it prints.
+    pub before_version: &'static str,
+    /// Whether the version of its package, which is quicker to know, is as good.
+    pub package_says_it: bool,
+}
+
+/// Looks for `program` in the search path and asks the package manager, or the program itself in its
+/// `environment`, for its version. One that does not say within [`LONGEST_START`] which it is counts as not there:
+/// its runs would be kept under a wrong name.
+pub fn find(
+    program: &str,
+    question: &VersionQuestion,
+    environment: Environment,
+) -> Option<Installation> {
+    let program = in_search_path(program)?;
+    let stamp = Stamp::of(&program)?;
+    let package = owning_package(&program).ok()?;
+    let version = match &package {
+        Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
+        _ => own_version(&program, question, environment).ok()?,
+    };
+    let hash = sha256_hex(&std::fs::read(&program).ok()?);
+    Some(Installation {
+        program,
+        hash,
+        stamp,
+        version,
+        package: package.map(|(name, version)| format!("{name} {version}")),
+    })
+}
+
+fn in_search_path(program: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path)
+        .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
+        .find(|candidate| is_executable(candidate))
+}
+
+fn is_executable(path: &Path) -> bool {
+    use std::os::unix::fs::PermissionsExt;
+    let metadata = std::fs::metadata(path);
+    metadata.is_ok_and(|metadata| metadata.is_file() && metadata.permissions().mode() & 0o111 != 0)
+}
+
+/// Debian package and version that the program, links followed, belongs to.
+fn owning_package(program: &Path) -> Result<Option<(String, String)>, TooSlow> {
+    let ask = |arguments: Vec<OsString>| {
+        let mut command = vec![OsString::from("dpkg-query")];
+        command.extend(arguments);
+        answer(&command, &[], LONGEST_START)
+    };
+    let Ok(resolved) = program.canonicalize() else {
+        return Ok(None);
+    };
+    let owner = ask(vec!["--search".into(), resolved.into_os_string()])?;
+    let name = owner.and_then(|owner| Some(owner.lines().next()?.split(':').next()?.to_owned()));
+    let Some(name) = name else {
+        return Ok(None);
+    };
+    let format = "--showformat=${Version}";
+    let version = ask(vec!["--show".into(), format.into(), name.clone().into()])?;
+    Ok(version.map(|version| (name, version)))
+}
+
+/// The upstream part of a Debian version, without epoch, repackaging suffix and revision.
+fn upstream(version: &str) -> &str {
+    let version = version.split_once(':').map_or(version, |(_, rest)| rest);
+    let version = version
+        .rsplit_once('-')
+        .map_or(version, |(upstream, _)| upstream);
+    version
+        .split_once('+')
+        .map_or(version, |(upstream, _)| upstream)
+}
+
+fn own_version(
+    program: &Path,
+    question: &VersionQuestion,
+    environment: Environment,
+) -> Result<String, TooSlow> {
+    let mut command = vec![program.as_os_str().to_owned()];
+    command.extend(question.arguments.iter().map(OsString::from));
+    let text = answer(&command, environment, LONGEST_START)?.unwrap_or_default();
+    Ok(version_in_answer(&text, question.before_version))
+}
+
+/// The version in what a program answers when asked for it: the first line, as far as it goes from
+/// `before_version` to a comma; `unknown` if there is nothing readable.
+pub fn version_in_answer(answer: &str, before_version: &str) -> String {
+    let first = answer.lines().find(|line| !line.trim().is_empty());
+    let line = first.unwrap_or_default().trim();
+    let rest = line.strip_prefix(before_version).unwrap_or(line);
+    let version = rest.split(',').next().unwrap_or(rest);
+    let readable = version.chars().filter(|char| !char.is_control());
+    let version: String = readable.take(LONGEST_VERSION).collect();
+    match version.trim() {
+        "" => "unknown".to_owned(),
+        version => version.to_owned(),
+    }
+}
+
+/// Nothing was said in time.
+#[derive(Debug)]
+struct TooSlow;
+
+/// What a command that succeeds writes to its standard output.
+fn answer(
+    command: &[OsString],
+    environment: Environment,
+    time_limit: Duration,
+) -> Result<Option<String>, TooSlow> {
+    let job = Job {
+        command,
+        directory: Path::new("/"),
+        // Nothing is to be left behind.
+        home: Path::new("/nonexistent"),
+        environment,
+        time_limit,
+        interrupt: &Interrupt::new(),
+    };
+    for _ in 0..TRIES {
+        match process::answer(&job) {
+            Ok((Ending::Exited(status), text)) if status.code().is_some() => {
+                let text = String::from_utf8_lossy(&text).into_owned();
+                return Ok(status.success().then_some(text));
+            }
+            Ok((Ending::Exited(_), _)) => {}
+            Ok(_) => return Err(TooSlow),
+            Err(_) => return Ok(None),
+        }
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn upstream_version_is_what_the_authors_call_it() {
+        assert_eq!(upstream("3.8.0+repack1-9+b2"), "3.8.0");
+        assert_eq!(upstream("2023.02a-1"), "2023.02a");
+        assert_eq!(upstream("1:29Sep2021+ds-1"), "29Sep2021");
+    }
+
+    fn ask(command: &[&str]) -> Result<Option<String>, TooSlow> {
+        let command: Vec<OsString> = command.iter().map(OsString::from).collect();
+        answer(&command, &[], Duration::from_secs(1))
+    }
+
+    #[test]
+    fn only_a_program_that_ends_by_itself_has_answered() {
+        assert_eq!(ask(&["echo", "1.2"]).unwrap().as_deref(), Some("1.2\n"));
+        assert_eq!(ask(&["false"]).unwrap(), None);
+        assert!(ask(&["sleep", "60"]).is_err());
+    }
+
+    #[test]
+    fn a_program_that_does_not_exist_is_not_installed() {
+        let question = VersionQuestion {
+            arguments: &[],
+            before_version: "",
+            package_says_it: false,
+        };
+        assert_eq!(find("tristack-has-no-such-code", &question, &[]), None);
+    }
+}

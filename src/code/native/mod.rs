@@ -1,0 +1,180 @@
+//! The native DEM behind the same interface as the external codes.
+
+mod checkpoints;
+mod lanes;
+
+use super::{Batching, Code, Failure, FailureKind, Finished, InstalledCode, RunContext};
+use crate::code::{Identity, Provenance, Run};
+use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
+use crate::model::{Case, ContactTest, Pyramid};
+use crate::series::{Motion, PyramidRun, Series, SeriesError};
+use lanes::Lanes;
+use std::time::{Duration, Instant};
+
+/// The DEM of this program.
+pub struct Native {
+    identity: Identity,
+    arithmetic: Arithmetic,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Arithmetic {
+    Double,
+    DoubleDouble,
+}
+
+impl Native {
+    pub(super) fn new() -> Self {
+        Self::computing(env!("CARGO_PKG_VERSION"), Arithmetic::Double)
+    }
+
+    /// In double-double arithmetic.
+    pub(super) fn precise() -> Self {
+        let version = concat!(env!("CARGO_PKG_VERSION"), " double-double");
+        Self::computing(version, Arithmetic::DoubleDouble)
+    }
+
+    fn computing(version: &str, arithmetic: Arithmetic) -> Self {
+        Self {
+            identity: Identity {
+                code: Code::Native.as_str().to_owned(),
+                version: version.to_owned(),
+                package: None,
+                program_hash: None,
+            },
+            arithmetic,
+        }
+    }
+
+    /// Runs all of `cases` that may share a vector, in its lanes; a single one runs faster without vectors.
+    fn run_in_lanes(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        for kind in kinds(cases) {
+            let alike = |index: &usize| LaneKind::of(&cases[*index]) == kind;
+            let indices: Vec<usize> = (0..cases.len()).filter(alike).collect();
+            let width = match indices.len() {
+                1 => LaneWidth::ONE,
+                _ => LaneWidth::widest(),
+            };
+            let mut lanes = Lanes::new(self, cases, indices, context, &mut *finished);
+            width.compress_stacks(&mut lanes);
+            lanes.give_up_waiting();
+        }
+    }
+
+    fn run_precisely(&self, case: &Case, context: &RunContext) -> Result<Run, FailureKind> {
+        let start = Instant::now();
+        let series = while_wanted(context, |wanted| compress_stack_precisely(case, wanted))?;
+        Ok(self.run_of(case, series, start.elapsed()))
+    }
+
+    fn run_of(&self, case: &Case, series: Series, duration: Duration) -> Run {
+        let command = [
+            "tristack",
+            "simulate",
+            "--code",
+            "native",
+            "--case",
+            "case.json",
+        ];
+        let command = command.map(str::to_owned).to_vec();
+        let (identity, deck_hash) = (self.identity.clone(), Code::Native.deck_hash(case));
+        let (steps, seconds) = (case.total_steps(), duration.as_secs_f64());
+        Run {
+            case: *case,
+            series,
+            provenance: Provenance::now(identity, deck_hash, command, steps, seconds),
+        }
+    }
+}
+
+/// The kinds of `cases`, each once.
+fn kinds(cases: &[Case]) -> Vec<LaneKind> {
+    let mut kinds = Vec::new();
+    for kind in cases.iter().map(LaneKind::of) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    kinds
+}
+
+/// Hands `run` the question whether it is still wanted, and says why if it was not.
+fn while_wanted<T>(
+    context: &RunContext,
+    run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
+) -> Result<T, FailureKind> {
+    let start = Instant::now();
+    let late = || {
+        let limit = context.time_limit;
+        limit.filter(|&limit| start.elapsed() > limit)
+    };
+    let wanted = || !context.interrupt.requested() && late().is_none();
+    run(&wanted).map_err(|error| why(error, context, late()))
+}
+
+/// Why a series is not what it should be: `late` if a run took longer than that.
+fn why(error: SeriesError, context: &RunContext, late: Option<Duration>) -> FailureKind {
+    match late {
+        _ if context.interrupt.requested() => FailureKind::Interrupted,
+        Some(limit) => FailureKind::TimedOut(limit),
+        None => error.into(),
+    }
+}
+
+fn failure(subject: impl ToString, kind: FailureKind) -> Failure {
+    Failure {
+        code: Code::Native,
+        subject: subject.to_string(),
+        kind,
+        run_directory: None,
+        last_lines: Vec::new(),
+    }
+}
+
+impl InstalledCode for Native {
+    fn name(&self) -> Code {
+        Code::Native
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    fn batching(&self) -> Batching {
+        match self.arithmetic {
+            Arithmetic::Double => Batching::OneCallACore,
+            Arithmetic::DoubleDouble => Batching::OneCallACase,
+        }
+    }
+
+    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        match self.arithmetic {
+            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
+            Arithmetic::DoubleDouble => {
+                for (index, case) in cases.iter().enumerate() {
+                    let result = self.run_precisely(case, context);
+                    finished(index, result.map_err(|kind| failure(case, kind)));
+                }
+            }
+        }
+    }
+
+    fn probe(
+        &self,
+        tests: &[ContactTest],
+        _workplace: &RunContext,
+    ) -> Result<Vec<Motion>, Box<Failure>> {
+        let motions = tests.iter().map(|test| {
+            run_contact_test(test).map_err(|error| Box::new(failure(test, error.into())))
+        });
+        motions.collect()
+    }
+
+    fn pyramid(&self, pyramid: &Pyramid, context: &RunContext) -> Result<PyramidRun, Box<Failure>> {
+        let valid = pyramid.validate().map_err(FailureKind::Unsupported);
+        let run = || while_wanted(context, |wanted| run_pyramid(pyramid, wanted));
+        valid
+            .and_then(|()| run())
+            .map_err(|kind| Box::new(failure(pyramid, kind)))
+    }
+}

@@ -1,0 +1,117 @@
+//! Where a run comes from.
+
+use crate::model::{Case, sha256_hex};
+use crate::series::Series;
+use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
+
+/// The program that computes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identity {
+    /// Name of the code.
+    pub code: String,
+    /// Version that the code gives itself.
+    pub version: String,
+    /// Distribution package and its version, if the binary belongs to one.
+    pub package: Option<String>,
+    /// SHA-256 of the program file, its libraries not included; absent for the native code, whose sources
+    /// are hashed like a deck.
+    pub program_hash: Option<String>,
+}
+
+impl Identity {
+    /// Content address of the run of `case` by this program with the deck that has `deck_hash`.
+    pub fn address(&self, case: &Case, deck_hash: &str) -> String {
+        let parts = serde_json::json!([case.content_hash(), self, deck_hash]);
+        sha256_hex(parts.to_string().as_bytes())
+    }
+}
+
+/// How a run was made, so that it can be made again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Who computed it.
+    pub identity: Identity,
+    /// SHA-256 of all that the program was given: deck, parameters, arguments, environment; of sources and
+    /// parameters for the native code.
+    pub deck_hash: String,
+    /// Version of tristack that drove it.
+    pub tristack: String,
+    /// The command that repeats the run in a directory with the deck and the parameters of the case, as
+    /// `tristack simulate --case case.json --out DIRECTORY` makes it.
+    pub command: Vec<String>,
+    /// When it finished, UTC.
+    pub date: String,
+    /// Processor, number of cores and operating system.
+    pub machine: String,
+    /// Steps in all, preparation included.
+    pub steps: u64,
+    /// Wall time since the process was started, or since its last finished run where many share one.
+    pub seconds: f64,
+}
+
+impl Provenance {
+    /// Provenance of a run that has just finished here.
+    pub fn now(
+        identity: Identity,
+        deck_hash: String,
+        command: Vec<String>,
+        steps: u64,
+        seconds: f64,
+    ) -> Self {
+        Self {
+            identity,
+            deck_hash,
+            tristack: env!("CARGO_PKG_VERSION").to_owned(),
+            command,
+            date: jiff::Timestamp::now()
+                .round(jiff::Unit::Second)
+                .map_or_else(
+                    |_| jiff::Timestamp::now().to_string(),
+                    |rounded| rounded.to_string(),
+                ),
+            machine: machine().to_owned(),
+            steps,
+            seconds,
+        }
+    }
+}
+
+impl Provenance {
+    /// Indented JSON with a final newline.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"
+    }
+}
+
+/// This machine: processor, number of cores and operating system.
+pub fn machine() -> &'static str {
+    static MACHINE: LazyLock<String> = LazyLock::new(read_machine);
+    &MACHINE
+}
+
+fn read_machine() -> String {
+    let cpu_info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpu_info
+        .lines()
+        .find_map(|line| line.strip_prefix("model name"))
+        .map_or("unknown processor", |rest| {
+            rest.trim_start_matches([' ', '\t', ':'])
+        });
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let (system, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
+    format!("{model}, {cores} cores, {system} {architecture}")
+}
+
+/// A finished run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// What was run.
+    pub case: Case,
+    /// What came out.
+    pub series: Series,
+    /// Who ran it, how, and when.
+    pub provenance: Provenance,
+}

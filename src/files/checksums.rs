@@ -1,0 +1,100 @@
+//! Digests beside the files of an entry, in the form that `sha256sum --check` reads.
+
+use super::FileError;
+use crate::model::sha256_hex;
+use std::path::Path;
+
+/// The file with the digests of all others of an entry.
+pub const CHECKSUMS: &str = "SHA256SUMS";
+
+/// Content of the file with the digests of `files`.
+pub fn checksums(files: &[(&str, Vec<u8>)]) -> String {
+    let lines = files
+        .iter()
+        .map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
+    lines.collect()
+}
+
+/// Refuses `content` of the file `name` in `directory`, if it is not the one whose digest `checksums` holds.
+///
+/// # Errors
+/// It names the file and both digests.
+pub fn check(
+    checksums: &str,
+    directory: &Path,
+    name: &str,
+    content: &[u8],
+) -> Result<(), FileError> {
+    let mut lines = checksums.lines().filter_map(|line| line.split_once("  "));
+    let expected = lines.find(|(_, file)| *file == name);
+    let found = sha256_hex(content);
+    match expected {
+        Some((expected, _)) if expected == found => Ok(()),
+        _ => Err(FileError::Damaged {
+            path: directory.join(name),
+            found,
+            expected: expected
+                .map_or("no digest at all", |(digest, _)| digest)
+                .to_owned(),
+        }),
+    }
+}
+
+/// `content` behind a line with its digest.
+pub fn seal(content: &[u8]) -> Vec<u8> {
+    let mut sealed = sha256_hex(content).into_bytes();
+    sealed.push(b'\n');
+    sealed.extend(content);
+    sealed
+}
+
+/// The content of what [`seal`] made, read from the file at `path`.
+///
+/// # Errors
+/// If a single bit has changed; the error names the file and both digests.
+pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> {
+    let end = sealed.iter().position(|&byte| byte == b'\n');
+    let (digest, content) = match end {
+        Some(end) => (&sealed[..end], &sealed[end + 1..]),
+        None => (&b"no digest at all"[..], sealed),
+    };
+    let found = sha256_hex(content);
+    if found.as_bytes() == digest {
+        return Ok(content);
+    }
+    Err(FileError::Damaged {
+        path: path.to_owned(),
+        found,
+        expected: String::from_utf8_lossy(&digest[..digest.len().min(64)]).into_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_sealed_comes_back() {
+        let path = Path::new("probe.json");
+        assert_eq!(unseal(path, &seal(b"{}\n")).unwrap(), b"{}\n");
+        assert_eq!(unseal(path, &seal(b"")).unwrap(), b"");
+    }
+
+    #[test]
+    fn a_single_flipped_bit_is_noticed_wherever_it_is() {
+        let sealed = seal(b"0.25");
+        for bit in 0..8 * sealed.len() {
+            let mut damaged = sealed.clone();
+            damaged[bit / 8] ^= 1 << (bit % 8);
+            assert!(unseal(Path::new("x"), &damaged).is_err(), "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_cut_anywhere_is_noticed() {
+        let sealed = seal(b"0.25\n");
+        for length in 0..sealed.len() {
+            assert!(unseal(Path::new("x"), &sealed[..length]).is_err());
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What is studied: three cylinders, the convention of their contacts and the protocol that loads them.
+//!
+//! Units throughout: cylinder radius r = 1, cylinder mass m = 1, normal stiffness k_n = 1. Lengths are
+//! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). The yield force alone is
+//! given in m g, as in the paper (arXiv:2511.06807).
+
+mod case;
+mod contact_test;
+mod convention;
+mod digest;
+mod protocol;
+mod pyramid;
+mod shortcuts;
+mod shown;
+mod side_walls;
+mod stack;
+mod validity;
+
+pub use case::{Case, CaseError};
+pub use contact_test::{ContactTest, InitialMotion};
+pub use convention::{
+    CYLINDER_INERTIA, ContactConvention, CoulombOperand, HistoryUpdate, PAPER_RESTITUTION,
+    SlidingSpring, TensileForce,
+};
+pub use digest::sha256_hex;
+pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
+pub use pyramid::Pyramid;
+pub use shortcuts::Shortcuts;
+pub use shown::shown;
+pub use side_walls::{SideWallSteps, SideWalls};
+pub use stack::{
+    CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,
+};
+pub use validity::InvalidValue;

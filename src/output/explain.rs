@@ -1,0 +1,178 @@
+//! The whole chain from runs to verdict for one row.
+
+use super::number::{friction, optional, relative, significant};
+use super::table::Table;
+use crate::model::Preparation;
+use crate::study::yield_force::{
+    ConvergenceOrder, Evidence, Extrapolation, Judgement, Measurement, TwinForce,
+};
+use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
+
+/// What stands behind `judgement`, for a terminal. `twin` is the same number computed with more digits.
+pub fn explanation(
+    judgement: &Judgement,
+    measurement: &Measurement,
+    twin: Option<&Result<TwinForce, String>>,
+) -> String {
+    let mut text = question(judgement, measurement);
+    text += &runs(judgement, measurement);
+    if let Some(slip) = &judgement.slip {
+        text += &extrapolation(slip);
+        text += &budget(judgement, slip);
+        text += &round_off(slip, twin);
+    }
+    text += &conclusion(judgement);
+    text
+}
+
+fn question(judgement: &Judgement, measurement: &Measurement) -> String {
+    let row = &judgement.row;
+    let convention = &measurement.convention;
+    format!(
+        "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
+         1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
+         (guaranteed to {MIN_TOLERANCE:e} of F + 3; docs/theory.md). Model form, its distance from the paper's \
+         convention: {}\n   of F + 3; a property of the model, no error of the code.\n\n",
+        row.code,
+        row.version,
+        row.source.as_str(),
+        friction(row.mu),
+        row.stiffness,
+        row.kappa,
+        measurement.stack.cylinder_friction,
+        convention.pair_arm,
+        convention.floor_arm,
+        if judgement.arms_are_measured {
+            "measured: tristack probe"
+        } else {
+            "declared"
+        },
+        optional(row.reference_force, |force| significant(force, 12)),
+        optional(row.model_form, relative),
+    )
+}
+
+fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
+    let mut table = Table::new(&[
+        "run>",
+        "wall speed>",
+        "time step>",
+        "ramp>",
+        "steps>",
+        "slip onset>",
+        "peak>",
+        "sampling>",
+        "amplified>",
+    ]);
+    for (index, (case, run)) in measurement.cases.iter().zip(&judgement.runs).enumerate() {
+        let ramp = match case.protocol.preparation {
+            Preparation::GravityRamp { ramp_time, .. } => ramp_time.to_string(),
+            Preparation::SideWalls(_) => "-".to_owned(),
+        };
+        let force = |estimate: Option<crate::series::Estimate>| {
+            optional(estimate, |estimate| significant(estimate.force, 11))
+        };
+        table.push(vec![
+            (index + 1).to_string(),
+            format!("{:.3e}", case.protocol.wall_speed),
+            case.protocol.time_step.to_string(),
+            ramp,
+            case.total_steps().to_string(),
+            force(run.estimates.slip),
+            force(run.estimates.peak),
+            optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling)),
+            optional(run.estimates.slip, |slip| {
+                format!("{:.0} x", slip.sensitivity)
+            }),
+        ]);
+    }
+    format!(
+        "2. Runs: slip onset (judged) and peak of F = f/(m g), with the distance between interpolations of \
+         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}\n",
+        table.terminal()
+    )
+}
+
+fn extrapolation(slip: &Extrapolation) -> String {
+    let order = match slip.order.observed {
+        Some(observed) => format!(
+            "{observed:.4}, expected {} within {:.2}",
+            ConvergenceOrder::EXPECTED,
+            slip.order.allowance
+        ),
+        None => "below the noise, not observable".to_owned(),
+    };
+    format!(
+        "3. Vanishing wall speed: parabola through runs 1 to 3 (weights 1/3, -2, 8/3): S = {}\n   \
+         straight line through runs 2 and 3: {}\n   observed order of convergence: {order}\n\n",
+        significant(slip.force, 12),
+        significant(slip.first_order, 12)
+    )
+}
+
+fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
+    let load = judgement
+        .row
+        .reference_force
+        .map_or(f64::NAN, |force| force + 3.0);
+    let how = [
+        "parabola minus straight line",
+        "run 4 minus run 2 (time step doubled)",
+        "run 5 minus run 2 (gravity ramp halved)",
+        "distance between interpolations, weighted",
+        "random walk of rounding, amplified, weighted",
+        "half a unit of the 17th digit, amplified, weighted",
+        "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
+    ];
+    let mut table = Table::new(&["part of u_num", "how", "m g>", "of F + 3>"]);
+    let mut line = |name: &str, how: &str, value: f64| {
+        table.push(vec![
+            name.to_owned(),
+            how.to_owned(),
+            format!("{value:.1e}"),
+            format!("{:.1e}", value / load),
+        ]);
+    };
+    for ((name, value), how) in slip.budget.parts().into_iter().zip(how) {
+        line(name, how, value);
+    }
+    line("total", "sum, as if all conspired", slip.budget.total());
+    format!(
+        "4. Numerical uncertainty of S (ASME V&V 20):\n{}\n",
+        table.terminal()
+    )
+}
+
+fn round_off(slip: &Extrapolation, twin: Option<&Result<TwinForce, String>>) -> String {
+    let text = match twin {
+        None => "there is no build of this code with more digits here".to_owned(),
+        Some(Err(error)) => format!("the twin failed: {error}"),
+        Some(Ok(twin)) => format!(
+            "the same runs in {} give S = {}, {:+.1e} away",
+            twin.version,
+            significant(twin.force, 12),
+            slip.force - twin.force
+        ),
+    };
+    format!("5. Round-off, measured: {text}\n\n")
+}
+
+fn conclusion(judgement: &Judgement) -> String {
+    let row = &judgement.row;
+    let evidence = Evidence::of(row);
+    let mut text = format!(
+        "6. Comparison error E = S - D: {} of F + 3; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
+         and at most {MAX_TOLERANCE:e}): {}\n",
+        optional(row.error, relative),
+        optional(row.tolerance, |tolerance| format!("{tolerance:.1e}")),
+        row.verdict
+    );
+    for note in &judgement.notes {
+        text += &format!("   {note}\n");
+    }
+    text + &format!(
+        "\n7. Evidence: {}. It does not prove {}.\n",
+        evidence.as_str(),
+        evidence.does_not_prove()
+    )
+}

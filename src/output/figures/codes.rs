@@ -1,0 +1,66 @@
+//! What the codes measured, as marks.
+
+use super::axis::Axis;
+use super::panel::{Panel, Point, Sample};
+use super::style::{GUIDE, Mark, code_label};
+use crate::code::Code;
+use crate::study::MAX_TOLERANCE;
+use crate::study::yield_force::{Judgement, Row};
+
+/// Errors below the lower end stand at it.
+const ERRORS: (f64, f64) = (1e-10, 3e-2);
+
+/// The axis of F + 3.
+pub(super) fn load_axis(range: (f64, f64)) -> Axis {
+    Axis::log("load at yield F + 3 = (f + 3 m g)/(m g)", range)
+}
+
+/// The codes that have at least one row, in the order of [`Code::ALL`].
+pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
+    let has_row = |code: &Code| judgements.iter().any(|own| own.row.code == *code);
+    Code::ALL.into_iter().filter(has_row).collect()
+}
+
+/// F + 3 of every row that has a yield force. YADE's facets are left out: they do what its box does.
+pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Row) -> f64) {
+    mark(panel, judgements, Mark::small, |row| {
+        let shown = row.code != Code::YadeFacet;
+        Some((x(row), row.yield_force.filter(|_| shown)? + 3.0))
+    });
+}
+
+/// |error| of every row that has one, and the bar.
+pub(super) fn error_panel(axis: Axis, judgements: &[Judgement], x: impl Fn(&Row) -> f64) -> Panel {
+    let label = "|F − F_{limit}|/(F_{limit} + 3)";
+    let mut panel = Panel::new(axis, Axis::log(label, ERRORS));
+    panel.level(GUIDE, MAX_TOLERANCE);
+    panel.words_on("largest that agrees", MAX_TOLERANCE);
+    mark(
+        &mut panel,
+        judgements,
+        |mark| mark,
+        |row| Some((x(row), row.error?.abs())),
+    );
+    panel
+}
+
+/// The marks of the codes, in the key of `panel`.
+pub(super) fn key(panel: &mut Panel, judgements: &[Judgement], (right, down): Point) {
+    panel.key_at(right, down);
+    for code in present(judgements) {
+        panel.key(Sample::Mark(Mark::of(code)), code_label(code));
+    }
+}
+
+fn mark(
+    panel: &mut Panel,
+    judgements: &[Judgement],
+    size: impl Fn(Mark) -> Mark,
+    point: impl Fn(&Row) -> Option<Point>,
+) {
+    for code in present(judgements) {
+        let own = judgements.iter().map(|judgement| &judgement.row);
+        let own = own.filter(|row| row.code == code);
+        panel.marks(size(Mark::of(code)), own.filter_map(&point));
+    }
+}

@@ -1,0 +1,119 @@
+//! The supplement's figure on wall speed and time step.
+
+use super::Figure;
+use super::axis::Axis;
+use super::panel::{Anchor, Panel, Point, Sample, draw};
+use super::style::{GUIDE, Mark, Stroke, THIN, THIN_DASHED, code_label};
+use crate::code::Code;
+use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
+use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
+
+const EXCESS: (f64, f64) = (1e-8, 1e2);
+const CHANGE: (f64, f64) = (1e-6, 1e1);
+
+/// Down to here the key reaches.
+const BELOW_KEY: f64 = 2e-3;
+
+/// A setting, and what is shown of the run with it.
+type Run = (f64, Option<f64>);
+type Force = fn(&ConvergencePoint) -> Option<f64>;
+
+/// How far peak and slip onset are from the limit, and what the time step changes of them.
+pub(super) fn convergence(study: &Convergence) -> Figure {
+    let mut peaks = steps(study, "F_{peak}", |point| point.peak_force);
+    let slips = steps(study, "F_{slip}", |point| point.slip_force);
+    let caption = format!(
+        "Supplement, figure on convergence: μ = 0.2, kₙ r/(m g) = 10⁴, κ = 2.5. (a) Distance of the largest wall \
+         force (F_peak, the paper's yield force; solid) and of the force at the onset of slip (F_slip; dashed) \
+         from the exact limit under each code's own convention, over the wall speed v at Δt = {:e} √(m/kₙ). \
+         (b) What the time step Δt changes of the peak and (c) of the slip onset at v = {FAST_WALL:e} r √(kₙ/m), \
+         relative to the same code at Δt = {:e} √(m/kₙ). Lines join the native runs; vertical: the paper's \
+         settings.",
+        PAPER_TIME_STEP, PAPER_TIME_STEP
+    );
+    peaks.key_at(0.03, 0.02);
+    for code in Code::ALL {
+        if study.time_steps.iter().any(|point| point.code == code) {
+            peaks.key(Sample::Mark(Mark::of(code)), code_label(code));
+        }
+    }
+    let panels = [speeds(study), peaks, slips];
+    Figure::new(
+        "convergence",
+        caption,
+        draw(&panels, 3, super::THIRD_OF_PAGE),
+    )
+}
+
+fn speeds(study: &Convergence) -> Panel {
+    let mut panel = Panel::new(
+        Axis::log("wall speed v/(r √(kₙ/m))", (3e-8, 3e-3)),
+        Axis::log("|F − F_{limit}|/F_{limit}", EXCESS),
+    );
+    setting(&mut panel, PAPER_WALL_SPEED, EXCESS);
+    let runs = |code: Code, force: Force| -> Vec<Run> {
+        let own = study.wall_speeds.iter();
+        let own = own.filter(|point| point.code == code);
+        own.map(|point| (point.wall_speed, force(point).map(f64::abs)))
+            .collect()
+    };
+    curve(&mut panel, THIN, |code| {
+        runs(code, ConvergencePoint::excess_of_peak)
+    });
+    curve(&mut panel, THIN_DASHED, |code| {
+        runs(code, ConvergencePoint::excess_of_slip)
+    });
+    panel.words("peak", (1.5e-5, 6e-1), Anchor::End);
+    panel.words("slip onset", (1.5e-5, 1e-6), Anchor::Start);
+    panel
+}
+
+fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
+    let label = format!("|{symbol}(Δt)/{symbol}(10⁻³) − 1|");
+    let mut panel = Panel::new(
+        Axis::log("time step Δt/√(m/kₙ)", (3e-5, 3e-1)),
+        Axis::log(&label, CHANGE),
+    );
+    setting(&mut panel, PAPER_TIME_STEP, (CHANGE.0, BELOW_KEY));
+    curve(&mut panel, THIN, |code| {
+        changes(&study.time_steps, code, force)
+    });
+    panel
+}
+
+/// What the time step changes of a force of `code`, relative to its force at the paper's time step; nothing
+/// there itself.
+fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
+    let own = || points.iter().filter(|point| point.code == code);
+    let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
+    let Some(paper) = paper.next().and_then(force) else {
+        return Vec::new();
+    };
+    let change = |point: &ConvergencePoint| {
+        let other = point.time_step != PAPER_TIME_STEP;
+        let force = force(point).filter(|_| other)?;
+        Some((force / paper - 1.0).abs())
+    };
+    own()
+        .map(|point| (point.time_step, change(point)))
+        .collect()
+}
+
+/// Marks for every code, and a line for the native one.
+fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
+    for code in Code::ALL {
+        let mut points = runs(code);
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if code == Code::Native {
+            panel.line(stroke, points.iter().copied());
+        }
+        let points = points.into_iter();
+        panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
+    }
+}
+
+/// A setting of the paper, as a vertical line.
+fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
+    panel.line(GUIDE, [(value, Some(low)), (value, Some(high))]);
+    panel.words("paper", (1.15 * value, 2.0 * low), Anchor::Start);
+}

@@ -1,0 +1,103 @@
+//! The supplement's figure of f(t).
+
+use super::Figure;
+use super::axis::Axis;
+use super::panel::{Anchor, Panel, Point, Sample, draw};
+use super::style::{EXACT, GUIDE, ONSET, PEAK};
+use crate::paper::reproduction::ForceSeries;
+
+/// Time is printed in these units.
+const LONG: f64 = 1e4;
+/// The second panel shows this many times what the peak exceeds the limit by, below the limit …
+const BELOW: f64 = 12.0;
+/// … and above it.
+const ABOVE: f64 = 3.0;
+
+/// The wall force over the time, whole and around its peak.
+pub(super) fn force_series(series: &ForceSeries) -> Figure {
+    let panels = [whole(series), around_the_peak(series)];
+    let caption = format!(
+        "Supplement, figure of f(t). (a) Force F = f/(m g) of the wall over the time t at μ = 0.2, \
+             kₙ r/(m g) = 10², κ = 2.5 and the paper's wall speed v = {:e} r √(kₙ/m) and time step {:e} \
+             √(m/kₙ): one native run. (b) The same around the peak, which the paper takes for the yield force; \
+             circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
+        series.wall_speed, series.time_step
+    );
+    Figure::new("force-series", caption, draw(&panels, 2, super::HALF_PAGE))
+}
+
+fn whole(series: &ForceSeries) -> Panel {
+    let end = series.rows.last().map_or(LONG, |row| row.0) / LONG;
+    let highest = series.peak_force.unwrap_or(1.0);
+    let time = Axis::around("time t/(10⁴ √(m/kₙ))", (0.0, 1.04 * end));
+    let force = Axis::around("wall force F = f/(m g)", (0.0, 1.15 * highest));
+    let mut panel = Panel::new(time, force);
+    if let Some(limit) = series.limit {
+        panel.level(GUIDE, limit);
+        panel.words("exact limit", (0.02 * end, 1.02 * limit), Anchor::Start);
+    }
+    let rows = series.rows.iter();
+    panel.line(EXACT, rows.map(|&(time, force)| (time / LONG, Some(force))));
+    panel
+}
+
+fn around_the_peak(series: &ForceSeries) -> Panel {
+    let peak = highest(&series.rows);
+    let limit = series.limit.unwrap_or(peak.1);
+    let excess = (peak.1 - limit)
+        .abs()
+        .max(1e-9 * peak.1.abs())
+        .max(f64::MIN_POSITIVE);
+    let (low, high) = (limit - BELOW * excess, limit + ABOVE * excess);
+    let near: Vec<f64> = visible(&series.rows, peak, low);
+    let reach = near
+        .iter()
+        .fold(1.0, |reach: f64, time| reach.max(time.abs()));
+    let mut panel = Panel::new(
+        Axis::around(
+            "time after the peak (t − t_{peak})/√(m/kₙ)",
+            (-reach, reach),
+        ),
+        Axis::around("wall force F = f/(m g)", (low, high)),
+    );
+    panel.level(GUIDE, limit);
+    let rows = series.rows.iter();
+    panel.line(
+        EXACT,
+        rows.map(|&(time, force)| (time - peak.0, Some(force))),
+    );
+    if let Some(slip) = series
+        .slip_force
+        .and_then(|force| first_reaching(&series.rows, force))
+    {
+        panel.marks(ONSET, [(slip.0 - peak.0, slip.1)]);
+    }
+    panel.marks(PEAK, [(0.0, peak.1)]);
+    panel.key(Sample::Mark(PEAK), "peak");
+    panel.key(Sample::Mark(ONSET), "slip onset");
+    panel.key(Sample::Line(GUIDE), "exact limit");
+    panel.key_at(0.63, 0.4);
+    panel
+}
+
+fn highest(rows: &[Point]) -> Point {
+    let highest = rows.iter().max_by(|one, other| one.1.total_cmp(&other.1));
+    highest.copied().unwrap_or((0.0, 0.0))
+}
+
+/// Times after the peak, of the rows around it that are above `low`.
+fn visible(rows: &[Point], peak: Point, low: f64) -> Vec<f64> {
+    let (before, after) = rows.split_at(rows.partition_point(|row| row.0 < peak.0));
+    let above = |row: &&Point| row.1 > low;
+    let before = before.iter().rev().take_while(above);
+    let rows = before.chain(after.iter().take_while(above));
+    rows.map(|row| row.0 - peak.0).collect()
+}
+
+/// Where the force first reaches `force`, between two rows.
+fn first_reaching(rows: &[Point], force: f64) -> Option<Point> {
+    let mut pairs = rows.windows(2);
+    let pair = pairs.find(|pair| (pair[0].1..pair[1].1).contains(&force))?;
+    let part = (force - pair[0].1) / (pair[1].1 - pair[0].1);
+    Some((pair[0].0 + part * (pair[1].0 - pair[0].0), force))
+}

@@ -1,0 +1,107 @@
+//! The figures: every one computed from what was run, none from a stored picture.
+
+mod axis;
+mod codes;
+mod convergence;
+mod force_series;
+mod model_form;
+mod panel;
+mod pdf;
+mod performance;
+mod preparation;
+mod regimes;
+mod scaling;
+mod stack;
+mod style;
+#[cfg(test)]
+mod tests;
+mod theory_error;
+mod yield_curves;
+
+pub use pdf::PdfError;
+pub use performance::performance_svg;
+pub use regimes::regimes_svg;
+
+use crate::model::CRITICAL_FRICTION;
+use crate::paper::reproduction::Reproduction;
+use axis::Axis;
+use serde::Serialize;
+
+/// A panel that shares the width of a page with another one, in pixels.
+const HALF_PAGE: (f64, f64) = (350.0, 320.0);
+/// A panel that shares the width of a page with two others.
+const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Figure {
+    /// The name of its files, without extension.
+    pub name: &'static str,
+    /// What it shows, from which runs, and how to make it again.
+    pub caption: String,
+    /// The figure itself.
+    pub svg: String,
+}
+
+impl Figure {
+    fn new(name: &'static str, caption: impl Into<String>, svg: String) -> Self {
+        let caption: String = caption.into();
+        let files = format!(
+            "Made by `tristack report --out DIR`: figures/{name}.svg and figures/{name}.pdf."
+        );
+        Self {
+            name,
+            caption: format!("{caption} {files}"),
+            svg,
+        }
+    }
+
+    /// The figure as a page of its own size, with its font embedded: the same bytes on every machine.
+    ///
+    /// # Errors
+    /// If its SVG is none, which only `svg` put in from elsewhere can be.
+    pub fn pdf(&self) -> Result<Vec<u8>, PdfError> {
+        pdf::pdf(&self.svg)
+    }
+}
+
+/// Every figure: those of the paper first, then what the paper lacks.
+pub fn figures(reproduction: &Reproduction) -> Vec<Figure> {
+    let Reproduction {
+        yield_curves: curves_measured,
+        scaling: scaling_measured,
+        exponents,
+        curves,
+        ..
+    } = reproduction;
+    let mut figures = vec![
+        yield_curves::yield_curves(curves_measured, curves),
+        scaling::scaling(scaling_measured, exponents, curves),
+        force_series::force_series(&reproduction.force_series),
+        convergence::convergence(&reproduction.convergence),
+        theory_error::theory_error(curves),
+        model_form::model_form(curves_measured, curves),
+        regimes::regimes(&reproduction.maps, &reproduction.survey),
+        stack::stack(&reproduction.snapshots),
+    ];
+    figures.extend(
+        reproduction
+            .preparation
+            .first()
+            .map(preparation::preparation),
+    );
+    figures
+}
+
+fn stiffness_axis() -> Axis {
+    Axis::log("stiffness kₙ r/(m g)", (6e0, 2e6))
+}
+
+/// A friction in a figure, the critical one by its name.
+fn friction_words(mu: f64) -> String {
+    if mu == CRITICAL_FRICTION {
+        "μ = μ_{c}".to_owned()
+    } else {
+        format!("μ = {mu}")
+    }
+}

@@ -1,0 +1,101 @@
+//! Fig. 2(b): the yield force over the stiffness, below, at and above the critical friction.
+
+use super::codes::{self, error_panel};
+use super::panel::{Anchor, Panel, Sample, draw};
+use super::style::{EXACT, PERTURBATION};
+use super::{Figure, friction_words, stiffness_axis};
+use crate::code::Code;
+use crate::paper::reproduction::{Curves, Exponent, SCALING_FRICTIONS, TheoryPoint};
+use crate::study::yield_force::Judgement;
+
+/// Yield force over the stiffness with the fitted exponents, and how far the codes are from their own limits.
+pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Figure {
+    let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness);
+    codes::key(&mut errors, judgements, (0.05, 0.01));
+    let panels = [forces(judgements, exponents, curves), errors];
+    let caption = "Fig. 2(b) of the paper. (a) Yield force F = f/(m g) over the stiffness kₙ r/(m g) for floor \
+                  frictions μ = 0.25, μ_c = 2 − √3 and 0.3 at κ = 2.5, with the exponent β of F + 3 ∝ \
+                  (kₙ r/(m g))^β, fitted from 10³ on to the native runs (in parentheses what the uncertainties \
+                  of the forces can do to the last digit) and to the exact limits at the same stiffnesses, and \
+                  its value for infinite stiffness. (b) Distance \
+                  of each code from the exact limit under its own convention, relative to F + 3; errors below \
+                  10⁻¹⁰ stand at the lower edge. YADE on facets is left out of (a).";
+    Figure::new("scaling", caption, draw(&panels, 2, super::HALF_PAGE))
+}
+
+fn forces(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Panel {
+    let mut panel = Panel::new(stiffness_axis(), codes::load_axis((0.1, 3e6)));
+    for (mu, place) in SCALING_FRICTIONS.into_iter().zip(CURVE_ENDS) {
+        let points = || {
+            curves
+                .over_stiffness
+                .iter()
+                .filter(move |point| point.mu == mu)
+        };
+        let load = |force: Option<f64>| force.map(|force| force + 3.0);
+        let exact = |point: &TheoryPoint| (point.stiffness, load(point.exact));
+        let perturbation = |point: &TheoryPoint| (point.stiffness, load(point.perturbation));
+        panel.line(EXACT, points().map(exact));
+        panel.line(PERTURBATION, points().map(perturbation));
+        panel.words(friction_words(mu), place, Anchor::End);
+    }
+    codes::loads(&mut panel, judgements, |row| row.stiffness);
+    panel.key(Sample::Line(EXACT), "exact limit");
+    panel.key(Sample::Line(PERTURBATION), "perturbation");
+    fits(&mut panel, exponents);
+    panel
+}
+
+/// Above the right end of each curve, where its name stands.
+const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 50.0), (3e5, 2.2e3), (8e4, 5e4)];
+
+/// A table of the fitted exponents, below the curves.
+fn fits(panel: &mut Panel, exponents: &[Exponent]) {
+    const COLUMNS: [f64; 4] = [2.6e1, 6e2, 2.5e4, 6e5];
+    const LINES: [f64; 4] = [3.2, 1.15, 0.41, 0.147];
+    let heads = ["", "β, native", "β, exact limit", "kₙ → ∞"];
+    for (x, head) in COLUMNS.into_iter().zip(heads) {
+        panel.words(head, (x, LINES[0]), Anchor::Middle);
+    }
+    let own = exponents.iter().filter(|own| own.code == Code::Native);
+    for (fitted, y) in own.zip(&LINES[1..]) {
+        let decimals = decimals(fitted.uncertainty);
+        let cells = [
+            friction_words(fitted.mu),
+            with_uncertainty(fitted.exponent, fitted.uncertainty),
+            format!("{:.decimals$}", fitted.exact),
+            fitted.asymptotic.to_string(),
+        ];
+        for (x, cell) in COLUMNS.into_iter().zip(cells) {
+            panel.words(cell, (x, *y), Anchor::Middle);
+        }
+    }
+}
+
+/// The decimal place of the first digit of `uncertainty`.
+fn decimals(uncertainty: f64) -> usize {
+    let place = -libm::floor(libm::log10(uncertainty));
+    if place.is_finite() {
+        place.clamp(0.0, 12.0) as usize
+    } else {
+        6
+    }
+}
+
+/// `value` with the uncertainty of its last digit in parentheses, rounded up.
+fn with_uncertainty(value: f64, uncertainty: f64) -> String {
+    let decimals = decimals(uncertainty);
+    let digit = libm::ceil(uncertainty * libm::exp10(decimals as f64));
+    format!("{value:.decimals$}({digit})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_digit_carries_the_uncertainty() {
+        assert_eq!(with_uncertainty(0.989_588_09, 2.5e-6), "0.989588(3)");
+        assert_eq!(with_uncertainty(0.5, 0.0), "0.500000(0)");
+    }
+}

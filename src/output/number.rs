@@ -1,0 +1,74 @@
+//! Numbers for people.
+
+use crate::model::CRITICAL_FRICTION;
+
+/// `value` with `digits` significant digits, in plain notation where that is short.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = libm::floor(libm::log10(value.abs())) as i32;
+    let decimals = digits as i32 - 1 - exponent;
+    if (-5..7).contains(&exponent) && decimals >= 0 {
+        format!("{value:.*}", decimals as usize)
+    } else {
+        format!("{value:.*e}", digits - 1)
+    }
+}
+
+/// `value` rounded to four significant digits, in the shorter notation.
+pub fn rounded(value: f64) -> String {
+    let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() {
+        scientific
+    } else {
+        plain
+    }
+}
+
+/// `value` rounded to three significant digits, in plain notation without trailing zeros.
+pub fn plain(value: f64) -> String {
+    let value: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    value.to_string()
+}
+
+/// A relative deviation: sign, two digits, exponent.
+pub fn relative(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:+.1e}")
+}
+
+/// A friction coefficient, with the critical one by its name.
+pub fn friction(value: f64) -> String {
+    if value == CRITICAL_FRICTION {
+        "mu_c".to_owned()
+    } else {
+        value.to_string()
+    }
+}
+
+/// A cell for a value that may be absent.
+pub fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), format)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_significant_ones() {
+        assert_eq!(significant(2124.669922154, 8), "2124.6699");
+        assert_eq!(significant(0.59912362, 6), "0.599124");
+        assert_eq!(significant(3.2e-9, 2), "3.2e-9");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(rounded(1e6), "1e6");
+        assert_eq!(rounded(0.020_000_1), "0.02");
+        assert_eq!(rounded(435.6891), "435.7");
+        assert_eq!(plain(2283.4), "2280");
+        assert_eq!(plain(8.6399), "8.64");
+    }
+}

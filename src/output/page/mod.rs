@@ -1,0 +1,88 @@
+//! The reproducibility report: a document, and the files made of it.
+
+mod document;
+mod html;
+mod junit;
+mod latex;
+mod markdown;
+mod ro_crate;
+mod sections;
+
+pub use sections::Origin;
+
+use crate::output::PdfError;
+use crate::paper::claims::ClaimJudgement;
+use crate::paper::reproduction::Reproduction;
+use document::Document;
+
+/// A file of the report.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReportFile {
+    /// Its path below the directory of the report, with `/`.
+    pub name: String,
+    /// Its content.
+    pub content: Vec<u8>,
+}
+
+impl ReportFile {
+    fn new(name: impl Into<String>, content: impl Into<Vec<u8>>) -> Self {
+        Self {
+            name: name.into(),
+            content: content.into(),
+        }
+    }
+}
+
+/// All files of the report. The same runs give the same bytes.
+///
+/// # Errors
+/// If a figure has no PDF form.
+pub fn report_files(
+    reproduction: &Reproduction,
+    claims: &[ClaimJudgement],
+    origin: &Origin,
+) -> Result<Vec<ReportFile>, PdfError> {
+    let document = sections::document(reproduction, claims, origin);
+    let mut files = vec![
+        ReportFile::new("report.html", html::html(&document)),
+        ReportFile::new("report.md", markdown::markdown(&document)),
+        ReportFile::new("claims.json", claims_json(claims)),
+        ReportFile::new("junit.xml", junit::junit(reproduction, claims)),
+    ];
+    files.extend(tables(&document));
+    files.extend(figures(&document)?);
+    let crate_ = ro_crate::ro_crate(&document, &files, &reproduction.provenances, origin);
+    files.push(ReportFile::new("ro-crate-metadata.json", crate_));
+    Ok(files)
+}
+
+fn claims_json(claims: &[ClaimJudgement]) -> String {
+    serde_json::to_string_pretty(claims).expect("plain rows have a JSON form") + "\n"
+}
+
+fn tables(document: &Document) -> Vec<ReportFile> {
+    let tables = document.tables().flat_map(|data| {
+        let name = data.name;
+        [
+            ReportFile::new(format!("tables/{name}.csv"), data.csv.clone()),
+            ReportFile::new(format!("tables/{name}.tex"), latex::latex(data)),
+        ]
+    });
+    tables.collect()
+}
+
+fn figures(document: &Document) -> Result<Vec<ReportFile>, PdfError> {
+    let mut files = Vec::new();
+    for figure in document.figures() {
+        let name = &figure.name;
+        files.push(ReportFile::new(
+            format!("figures/{name}.svg"),
+            figure.svg.clone(),
+        ));
+        files.push(ReportFile::new(
+            format!("figures/{name}.pdf"),
+            figure.pdf()?,
+        ));
+    }
+    Ok(files)
+}

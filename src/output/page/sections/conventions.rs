@@ -1,0 +1,53 @@
+//! What each code means by a contact.
+
+use super::super::document::{Block, DataTable, Section};
+use crate::output::probe::{probe_csv, probe_rows};
+use crate::paper::reproduction::Reproduction;
+use crate::study::Verdict;
+use crate::study::convention::Finding;
+use crate::study::convention::contradictions;
+
+/// The section.
+pub fn section(reproduction: &Reproduction) -> Section {
+    let found = findings(reproduction);
+    let agreeing = found
+        .iter()
+        .filter(|finding| finding.verdict == Verdict::Agrees)
+        .count();
+    let mut blocks = vec![
+        Block::paragraph(format!(
+            "Codes mean different things by the same words. What each of them means was measured with \
+             micro-tests of one contact (`tristack probe`); {agreeing} of {} properties are as its adapter \
+             declares. r₁ in R = r + r₁ × overlap is the arm; the paper’s is 0.",
+            found.len()
+        )),
+        Block::Table(DataTable {
+            name: "conventions",
+            caption: "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, \
+                      share and pull are 1 for yes, 0 for no."
+                .to_owned(),
+            table: probe_rows(&found),
+            csv: probe_csv(&found),
+            long: false,
+        }),
+    ];
+    let doubts = reproduction.probes.iter().flat_map(|(code, probed)| {
+        let lines = contradictions(probed).into_iter();
+        lines.map(move |line| format!("{code}: {line}"))
+    });
+    let doubts: Vec<String> = doubts.collect();
+    if !doubts.is_empty() {
+        blocks.push(Block::List { items: doubts });
+    }
+    Section {
+        id: "conventions",
+        title: "What each code means by a contact",
+        blocks,
+    }
+}
+
+fn findings(reproduction: &Reproduction) -> Vec<Finding> {
+    let probes = reproduction.probes.iter();
+    let known = probes.filter_map(|(_, probed)| probed.as_ref().ok());
+    known.flat_map(|probed| probed.findings.clone()).collect()
+}

@@ -1,0 +1,84 @@
+//! What was not tested.
+
+use super::super::document::{Block, Section};
+use super::Origin;
+use crate::output::number::friction;
+use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
+use crate::paper::reproduction::Reproduction;
+use crate::study::Source;
+use crate::study::Verdict;
+use crate::study::yield_force::Judgement;
+
+/// What lies outside, whatever was run.
+const OUTSIDE: [&str; 4] = [
+    "Real cylinders: nothing here was compared with an experiment.",
+    "Contact laws other than the linear spring and dashpot, three dimensions, more than three cylinders.",
+    "Stiffness ratios other than 2.5 in the runs; theory and regime maps go further.",
+    "The shared libraries of the external programs, which are not hashed.",
+];
+
+/// The section.
+pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &Origin) -> Section {
+    let mut items: Vec<String> = OUTSIDE.map(str::to_owned).to_vec();
+    items.extend(recorded(&reproduction.yield_curves));
+    if !origin.literal {
+        items.push(
+            "Fig. 2(a) at the paper’s literal wall speed and time step, except at μ = 0.2, stiffness 10⁴: \
+             `tristack report --literal` runs all of it, some ten minutes."
+                .to_owned(),
+        );
+    }
+    items.extend(unjudged(reproduction));
+    let untestable = claims
+        .iter()
+        .filter(|claim| claim.verdict == ClaimVerdict::Untestable);
+    items.extend(untestable.map(|claim| {
+        format!(
+            "{}, “{}”: {}.",
+            claim.place, claim.statement, claim.evidence
+        )
+    }));
+    Section {
+        id: "untested",
+        title: "What was not tested",
+        blocks: vec![Block::List { items }],
+    }
+}
+
+fn recorded(judgements: &[Judgement]) -> Option<String> {
+    let mut codes: Vec<&str> = judgements
+        .iter()
+        .filter(|judgement| judgement.row.source == Source::Recorded)
+        .map(|judgement| judgement.row.code.as_str())
+        .collect();
+    codes.sort_unstable();
+    codes.dedup();
+    (!codes.is_empty()).then(|| {
+        format!(
+            "{}: not run here; recorded runs stand in, which prove nothing about a program on this machine.",
+            codes.join(", ")
+        )
+    })
+}
+
+/// Rows without a judgement, each with its reason.
+fn unjudged(reproduction: &Reproduction) -> Vec<String> {
+    let rows = reproduction
+        .yield_curves
+        .iter()
+        .chain(&reproduction.scaling);
+    let open = rows
+        .filter(|judgement| !matches!(judgement.row.verdict, Verdict::Agrees | Verdict::Differs));
+    open.map(|judgement| {
+        let row = &judgement.row;
+        format!(
+            "{} at μ = {}, stiffness {} was not judged, {}: {}.",
+            row.code,
+            friction(row.mu),
+            row.stiffness,
+            row.verdict,
+            judgement.notes.join("; ")
+        )
+    })
+    .collect()
+}

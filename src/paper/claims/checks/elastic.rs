@@ -1,0 +1,282 @@
+//! Eqs. (6) to (10) and (12), and what is said around them.
+
+use super::Check;
+use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::paper::claims::printed::PaperTheory;
+use crate::paper::claims::truth::{
+    NORMAL_STIFFNESS, RADIUS, YieldState, figure_loads, yield_states,
+};
+use crate::theory::{elastic_root, pair_overlap, quasistatic_limit};
+
+pub const CHECKS: &[Check] = &[
+    Check::theory("epsilon", epsilon),
+    Check::theory("floor-load", floor_load),
+    Check::theory("lowest-displacement", lowest_displacement),
+    Check::theory("elastic-equation", elastic_equation),
+    Check::theory("script-d", script_d),
+    Check::theory("script-e", script_e),
+    Check::theory("stiff-displacement", stiff_displacement),
+    Check::theory("stiff-displacement-changes-sign", changes_sign),
+    Check::theory("stiff-displacement-is-the-limit", stiff_limit),
+    Check::theory("stiff-displacement-of-dem", stiff_limit_of_dem),
+    Check::theory("small-displacements", small_displacements),
+    Check::theory("slip-above-critical", slip_above_critical),
+    Check::theory("quantitative-prediction", quantitative_prediction),
+    Check::theory("elastic-equation-of-dem", elastic_equation_of_dem),
+    Check::theory("arm-of-dem", arm_of_dem),
+];
+
+const STATES: &str = "solutions of the five unreduced equations (mu = 0.1 to 0.7, 1/epsilon = 1e2 to 1e4, \
+                      kappa = 1, 2.5, 10; r and k_n not 1)";
+
+fn at_states(compared: &str, deviation: impl Fn(&YieldState) -> f64) -> Finding {
+    Finding::identity(
+        yield_states().iter().map(deviation),
+        &format!("{compared}; {STATES}"),
+    )
+}
+
+/// A cylinder alone on the floor sinks by ε r.
+fn epsilon(paper: &PaperTheory) -> Finding {
+    let deviations = [1e-4, 1e-2, 0.3].map(|weight| {
+        let sinking = weight / NORMAL_STIFFNESS;
+        relative(
+            paper.epsilon(weight, NORMAL_STIFFNESS, RADIUS) * RADIUS,
+            sinking,
+        )
+    });
+    Finding::identity(
+        deviations,
+        "epsilon r against how far one cylinder sinks into the floor under its weight",
+    )
+}
+
+fn floor_load(paper: &PaperTheory) -> Finding {
+    at_states(
+        "(f + 3mg)/mg of the solution against 2z/(epsilon r)",
+        |state| {
+            let load = state.force / state.weight() + 3.0;
+            relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
+        },
+    )
+}
+
+fn lowest_displacement(paper: &PaperTheory) -> Finding {
+    // Three cylinders at rest on two floor contacts.
+    let truth = 3.0 / 2.0;
+    Finding::identity(
+        [
+            relative(paper.lowest_displacement, truth),
+            relative(paper.floor_load(truth, 1.0, 1.0), 3.0),
+        ],
+        "z/(epsilon r) of three weights on two floor contacts, f = 0",
+    )
+}
+
+fn elastic_equation(paper: &PaperTheory) -> Finding {
+    at_states("z against r D E at the solution's own alpha", |state| {
+        imbalance(&paper.closed_terms(state))
+    })
+}
+
+/// 𝒟 = (T² + 2√3 T − 1)/(T (1 + T²))/(1 − α) with T read off the solution's geometry.
+fn script_d(paper: &PaperTheory) -> Finding {
+    at_states(
+        "D against its value in terms of the angle of the line of centres",
+        |state| {
+            let tangent = state.half_angle_tangent();
+            let square = tangent * tangent;
+            let truth = (square + 2.0 * 3f64.sqrt() * tangent - 1.0) / (tangent * (1.0 + square));
+            let printed = paper.geometry(state.friction, state.alpha()) * (1.0 - state.alpha());
+            // 𝒟 vanishes with the displacements: it is compared with its terms, which are of order 1.
+            (printed - truth).abs()
+        },
+    )
+}
+
+/// ℰ = 1/(1 + κ(1 + T²)).
+fn script_e(paper: &PaperTheory) -> Finding {
+    at_states(
+        "E against its value in terms of the angle of the line of centres",
+        |state| {
+            let tangent = state.half_angle_tangent();
+            let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
+            relative(
+                paper.compliance(state.friction, state.ratio, state.alpha()),
+                truth,
+            )
+        },
+    )
+}
+
+const WIDE: [f64; 8] = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5, 0.7];
+
+fn stiff_displacement(paper: &PaperTheory) -> Finding {
+    let mut deviations = Vec::new();
+    for mu in WIDE {
+        for kappa in [1.0, 2.5, 10.0] {
+            let square = mu * mu;
+            let numerator = square + 2.0 * 3f64.sqrt() * mu - 1.0;
+            let truth = RADIUS * numerator / (mu * (1.0 + square)) / (1.0 + kappa * (1.0 + square));
+            deviations.push(relative(paper.stiff_displacement(mu, kappa, RADIUS), truth));
+        }
+    }
+    Finding::identity(
+        deviations,
+        "the right side of the elastic equation at alpha = 0, in terms of T = mu",
+    )
+}
+
+fn changes_sign(paper: &PaperTheory) -> Finding {
+    let kappa = paper.stiffness_ratio;
+    let at = |mu: f64| paper.stiff_displacement(mu, kappa, 1.0);
+    let (below, above) = (at(CRITICAL_FRICTION - 1e-9), at(CRITICAL_FRICTION + 1e-9));
+    let evidence =
+        format!("z_star is {below:.2e} r at mu_c - 1e-9 and {above:.2e} r at mu_c + 1e-9");
+    Finding::new(
+        if below < 0.0 && above > 0.0 { 0.0 } else { 1.0 },
+        0.0,
+        evidence,
+    )
+}
+
+fn stiff_limit(paper: &PaperTheory) -> Finding {
+    let mut largest = 0.0f64;
+    for mu in [0.28, 0.3, 0.4, 0.5, 0.7] {
+        let stack = Stack {
+            stiffness_ratio: paper.stiffness_ratio,
+            ..Stack::paper(mu, 1e8)
+        };
+        let root = elastic_root(&stack).map_or(f64::NAN, |root| root.z);
+        let printed = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0);
+        largest = crate::paper::claims::finding::worse(largest, relative(root, printed));
+    }
+    let evidence = format!(
+        "root of the elastic equation at 1/epsilon = 1e8 against z_star, mu = 0.28 to 0.7: largest relative \
+         difference {largest:.1e} (it falls as epsilon)"
+    );
+    Finding::new(largest, 1e-4, evidence)
+}
+
+fn stiff_limit_of_dem(paper: &PaperTheory) -> Finding {
+    let differences = [0.28, 0.3, 0.4, 0.5].map(|mu| {
+        let exact = pair_overlap(mu - CRITICAL_FRICTION, paper.stiffness_ratio);
+        (
+            mu,
+            paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / exact - 1.0,
+        )
+    });
+    let listed: Vec<String> = differences
+        .iter()
+        .map(|(mu, difference)| format!("{:+.2} % at mu = {mu}", 100.0 * difference))
+        .collect();
+    let evidence = format!(
+        "z_star against the displacement G(mu) at which the DEM's exact quasi-static limit slips for epsilon -> 0: {}",
+        listed.join(", ")
+    );
+    Finding::new(
+        worst(differences.map(|(_, difference)| difference.abs())),
+        1e-3,
+        evidence,
+    )
+}
+
+fn small_displacements(_: &PaperTheory) -> Finding {
+    let displacements = [0.2, 0.3, 0.5].map(|mu| {
+        let limit = quasistatic_limit(&Stack::paper(mu, 1e8), 0.0, 0.0);
+        (mu, limit.z.unwrap_or(f64::NAN))
+    });
+    let listed: Vec<String> = displacements
+        .iter()
+        .map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"))
+        .collect();
+    let evidence = format!(
+        "z at yield in the exact quasi-static limit at 1/epsilon = 1e8: {}. Above mu_c displacements do not become small \
+         as epsilon -> 0, and the springs' linearisation is off there at any stiffness",
+        listed.join(", ")
+    );
+    Finding::new(worst(displacements.map(|(_, z)| z)), 1e-3, evidence)
+}
+
+fn slip_above_critical(_: &PaperTheory) -> Finding {
+    let frictions = [0.27, 0.3, 0.4, 0.5];
+    let forces =
+        frictions.map(|mu| quasistatic_limit(&Stack::paper(mu, 1e2), 0.0, 0.0).yield_force);
+    let yields = forces.iter().flatten().count();
+    let evidence = format!(
+        "the exact quasi-static limit at 1/epsilon = 1e2 yields at the floor for {yields} of {} frictions above mu_c \
+         (0.27 to 0.5), at a finite force",
+        frictions.len()
+    );
+    Finding::new((frictions.len() - yields) as f64, 0.0, evidence)
+}
+
+/// Largest deviation of F + 3 from the exact quasi-static limit over Fig. 2(a), and where.
+fn over_figure(load: impl Fn(&Stack) -> f64) -> (f64, f64, f64) {
+    let compared = figure_loads().iter().map(|(stack, exact)| {
+        let deviation = relative(load(stack), *exact);
+        (deviation, stack.floor_friction, stack.stiffness)
+    });
+    // A deviation that is not a number counts as the largest.
+    let largest = compared.max_by(|left, right| left.0.total_cmp(&right.0));
+    largest.unwrap_or((f64::NAN, f64::NAN, f64::NAN))
+}
+
+fn quantitative_prediction(paper: &PaperTheory) -> Finding {
+    let load = |stack: &Stack| {
+        paper.perturbative_load(stack.floor_friction, paper.stiffness_ratio, stack.epsilon())
+    };
+    let (deviation, mu, stiffness) = over_figure(load);
+    let evidence = format!(
+        "f_epsilon + 3mg against the DEM's exact quasi-static limit, mu = 0.1 to 0.5, 1/epsilon = 1e2 to 1e4: at most \
+         {:.1} % off (mu = {mu:.2}, 1/epsilon = {stiffness:.0})",
+        100.0 * deviation
+    );
+    Finding::new(deviation, 1e-3, evidence)
+}
+
+fn elastic_equation_of_dem(_: &PaperTheory) -> Finding {
+    let load = |stack: &Stack| elastic_root(stack).map_or(f64::NAN, |root| root.load);
+    let (deviation, mu, stiffness) = over_figure(load);
+    let at = |mu: f64| {
+        let stack = Stack::paper(mu, 1e4);
+        let exact = quasistatic_limit(&stack, 0.0, 0.0)
+            .yield_force
+            .unwrap_or(f64::NAN);
+        100.0 * (load(&stack) / (exact + 3.0) - 1.0)
+    };
+    let evidence = format!(
+        "solution of the elastic equation against the DEM's exact quasi-static limit, mu = 0.1 to 0.5, 1/epsilon = 1e2 to \
+         1e4: F + 3 at most {:.1} % off (mu = {mu:.2}, 1/epsilon = {stiffness:.0}); at 1e4, {:+.2} % at mu = 0.2, \
+         {:+.2} % at 0.3",
+        100.0 * deviation,
+        at(0.2),
+        at(0.3)
+    );
+    Finding::new(deviation, 1e-3, evidence)
+}
+
+fn arm_of_dem(_: &PaperTheory) -> Finding {
+    let change = |mu: f64, stiffness: f64, pair: f64, floor: f64| {
+        let stack = Stack::paper(mu, stiffness);
+        let force = |pair, floor| {
+            quasistatic_limit(&stack, pair, floor)
+                .floor_slip_force
+                .unwrap_or(f64::NAN)
+        };
+        force(pair, floor) / force(0.0, 0.0) - 1.0
+    };
+    let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness, -0.5, -1.0));
+    let below = change(0.2, 1e4, -0.5, -1.0);
+    let evidence = format!(
+        "exact quasi-static limit with the contact point on the undeformed floor and half-way between cylinders \
+         (r1 = -1 and -1/2) against r1 = 0: F changes by {:+.1} %, {:+.1} %, {:+.1} % at mu = 0.3, 1/epsilon = 1e2, 1e3, 1e4, and \
+         by {:+.2} % at mu = 0.2, 1e4. Above mu_c it does not vanish for stiff cylinders",
+        100.0 * changes[0],
+        100.0 * changes[1],
+        100.0 * changes[2],
+        100.0 * below
+    );
+    Finding::new(worst(changes.map(f64::abs)), 1e-2, evidence)
+}

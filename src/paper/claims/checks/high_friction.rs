@@ -1,0 +1,155 @@
+//! Appendix C: where the analysis ends, by the elastic equation, the exact limit and its events.
+
+use super::Check;
+use crate::model::Stack;
+use crate::paper::claims::finding::{Finding, worst};
+use crate::paper::claims::printed::PaperTheory;
+use crate::theory::{
+    Boundary, EquilibriumPath, Event, Outcome, bracketed_root, elastic_root, followed_limit,
+};
+
+pub const CHECKS: &[Check] = &[
+    Check::theory("inward-friction", inward_friction),
+    Check::theory("inward-solutions", inward_solutions),
+    Check::theory("non-destructive", non_destructive),
+    Check::theory("wall-contact", wall_contact),
+    Check::theory("breakdown", breakdown),
+    Check::theory("cylinder-friction", cylinder_friction),
+];
+
+fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
+    Stack {
+        stiffness_ratio: paper.stiffness_ratio,
+        cylinder_friction: paper.cylinder_friction,
+        ..Stack::paper(mu, stiffness)
+    }
+}
+
+/// The friction from which on the root of the elastic equation has y < 0.
+fn last_outward(paper: &PaperTheory, stiffness: f64) -> f64 {
+    let outward =
+        |mu: f64| elastic_root(&stack(paper, mu, stiffness)).map_or(f64::NAN, |root| root.y);
+    bracketed_root(outward, 0.5, 1.0).unwrap_or(f64::NAN)
+}
+
+fn inward_friction(paper: &PaperTheory) -> Finding {
+    let found = [1e2, 1e3, 1e4, 1e8].map(|stiffness| last_outward(paper, stiffness));
+    let exact = (1.0 - 1.0 / paper.stiffness_ratio).sqrt();
+    let evidence = format!(
+        "y of the elastic equation changes sign at mu = {:.4}, {:.4}, {:.4} for 1/epsilon = 1e2, 1e3, 1e4, and at (1 - 1/kappa)^(1/2) = {exact:.4} for \
+         epsilon -> 0 ({:.4} at 1e8)",
+        found[0], found[1], found[2], found[3]
+    );
+    let deviation = worst(found.map(|mu| (mu - paper.inward_friction).abs()));
+    // Two printed digits would mean half a unit of the second.
+    Finding::new(deviation, 0.005, evidence)
+}
+
+fn inward_solutions(paper: &PaperTheory) -> Finding {
+    let frictions = [0.8, 0.85, 0.9, 0.95];
+    let mut right = 0;
+    for mu in frictions {
+        for stiffness in [1e2, 1e3, 1e4] {
+            right += usize::from(
+                elastic_root(&stack(paper, mu, stiffness)).is_some_and(|root| root.y < 0.0),
+            );
+        }
+    }
+    let evidence = format!(
+        "the elastic equation has one root z >= 3 epsilon r/2 with y > -r; at {right} of 12 stacks (mu = 0.8 to 0.95, 1/epsilon = 1e2 \
+         to 1e4) it has y < 0"
+    );
+    Finding::new(12.0 - right as f64, 0.0, evidence)
+}
+
+/// Does the stack at μ ≥ 0.8 stand whatever the force?
+fn non_destructive(paper: &PaperTheory) -> Finding {
+    let mut ends = Vec::new();
+    for mu in [0.8, 0.9] {
+        for stiffness in [1e2, 1e3, 1e4] {
+            ends.push(Outcome::of(&stack(paper, mu, stiffness)).map(|outcome| outcome.first.event));
+        }
+    }
+    let wall = ends
+        .iter()
+        .filter(|end| **end == Some(Event::WallContact))
+        .count();
+    let slips = ends
+        .iter()
+        .filter(|end| matches!(end, Some(Event::FloorSlip | Event::CylinderSlip)))
+        .count();
+    let evidence = format!(
+        "exact path of equilibria with mu = 0.8 and 0.9, mu_d = 0.7, 1/epsilon = 1e2 to 1e4: in {wall} of {} stacks the top wall reaches the \
+         bottom cylinders first, in {slips} a contact slips first; none is left standing by y < 0, which is not reached",
+        ends.len()
+    );
+    Finding::new((ends.len() - wall) as f64, 0.0, evidence)
+}
+
+/// The floor friction from which on the wall reaches cylinder 2 before the floor slips.
+fn wall_contact_friction(paper: &PaperTheory, stiffness: f64) -> f64 {
+    let base = stack(paper, 0.3, stiffness);
+    let boundaries = Boundary::in_friction(&EquilibriumPath::new(&base), &base);
+    let wall = boundaries
+        .iter()
+        .find(|boundary| boundary.above == Event::WallContact);
+    wall.map_or(f64::NAN, |boundary| boundary.floor_friction)
+}
+
+fn wall_contact(paper: &PaperTheory) -> Finding {
+    let closed = wall_contact_friction(paper, paper.lowest_stiffness);
+    let side = |mu: f64| followed_limit(&stack(paper, mu, paper.lowest_stiffness), 0.0, 0.0).event;
+    let confirmed =
+        side(closed - 1e-4) == Event::FloorSlip && side(closed + 1e-4) == Event::WallContact;
+    let evidence = format!(
+        "exact quasi-static limit at 1/epsilon = 1e2: from mu = {closed:.5} on the top wall reaches cylinder 2 before the floor slips ({} by \
+         the path follower at mu +- 1e-4); {:.5} at 1e3 and {:.5} at 1e4",
+        if confirmed {
+            "confirmed"
+        } else {
+            "not confirmed"
+        },
+        wall_contact_friction(paper, 1e3),
+        wall_contact_friction(paper, 1e4)
+    );
+    let deviation = (closed - paper.wall_contact_friction).abs();
+    Finding::new(
+        if confirmed { deviation } else { f64::NAN },
+        0.005,
+        evidence,
+    )
+}
+
+/// The concluding remarks give one number for two things.
+fn breakdown(paper: &PaperTheory) -> Finding {
+    let last = last_outward(paper, 1e8);
+    let roots = [0.6, 0.65, 0.7]
+        .map(|mu| elastic_root(&stack(paper, mu, 1e4)).map_or(f64::NAN, |root| root.y));
+    let evidence = format!(
+        "the analysis rests on y > 0, which the elastic equation gives up to mu = {last:.3} (y = {:.3}, {:.3}, {:.3} r at mu = 0.6, 0.65, 0.7, \
+         1/epsilon = 1e4); 0.58 is what End Matter C says of wall contact in the DEM at k_n r/mg = 1e2",
+        roots[0], roots[1], roots[2]
+    );
+    Finding::new((paper.breakdown_friction - last).abs(), 0.005, evidence)
+}
+
+/// Does μ_d keep the cylinders from slipping on each other wherever the floor is said to yield?
+fn cylinder_friction(paper: &PaperTheory) -> Finding {
+    let mut highest = 0.0f64;
+    let mut slips = 0;
+    for stiffness in [paper.lowest_stiffness, 1e3, paper.highest_stiffness] {
+        for step in 0..=10 {
+            let base = stack(paper, 0.1 + 0.04 * f64::from(step), stiffness);
+            let Some(outcome) = Outcome::of(&base) else {
+                continue;
+            };
+            slips += usize::from(outcome.first.event == Event::CylinderSlip);
+            highest = highest.max(outcome.first.tangent);
+        }
+    }
+    let evidence = format!(
+        "exact path, mu = 0.1 to 0.5, 1/epsilon = 1e2 to 1e4: the contact between cylinders needs at most b/a = {highest:.3} by the time of yield, \
+         and slips first in {slips} of 33 stacks"
+    );
+    Finding::new(slips as f64, 0.0, evidence)
+}

@@ -1,0 +1,245 @@
+//! The register of claims, `reference/claims.toml`: what the paper says, where, and which check tests it.
+//! It holds no verdicts.
+
+use super::checks;
+use super::printed::PaperTheory;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// The register of this program.
+const TEXT: &str = include_str!("../../../reference/claims.toml");
+const FILE: &str = "reference/claims.toml";
+
+/// What kind of thing is claimed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClaimKind {
+    /// A formula.
+    Equation,
+    /// A number in the text.
+    Number,
+    /// A statement in words.
+    Statement,
+}
+
+impl ClaimKind {
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Equation => "equation",
+            Self::Number => "number",
+            Self::Statement => "statement",
+        }
+    }
+}
+
+/// What should stand in place of a claim that does not hold.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Erratum {
+    /// The corrected form.
+    pub text: String,
+    /// The same for the program: constants of [`PaperTheory`] with which the check must hold.
+    pub set: BTreeMap<String, f64>,
+}
+
+impl Erratum {
+    /// The paper with the correction.
+    pub fn apply(&self, paper: &PaperTheory) -> Option<PaperTheory> {
+        let mut corrected = paper.clone();
+        for (name, &value) in &self.set {
+            corrected = corrected.with(name, value)?;
+        }
+        Some(corrected)
+    }
+}
+
+/// One claim.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// Its name.
+    pub id: String,
+    /// Where it stands.
+    pub place: String,
+    /// The numbers, as printed, of the displayed equations that it covers.
+    #[serde(default)]
+    pub equations: Vec<String>,
+    /// What it says.
+    pub statement: String,
+    /// What kind of thing it is.
+    pub kind: ClaimKind,
+    /// The check that tests it.
+    pub check: Option<String>,
+    /// The deviation that the words of the claim allow, in the check's own measure.
+    pub allowed: Option<f64>,
+    /// Why it cannot be tested.
+    pub untestable: Option<String>,
+    /// What should stand there.
+    pub erratum: Option<Erratum>,
+}
+
+/// All claims.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Register {
+    /// In the order of the paper.
+    #[serde(rename = "claim")]
+    pub claims: Vec<Claim>,
+}
+
+/// A register that cannot be used.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RegisterError {
+    /// No TOML, or a key or value that it may not have.
+    #[error("{file}: {message}")]
+    Syntax {
+        /// The file.
+        file: String,
+        /// What is wrong, with the place.
+        message: String,
+    },
+    /// A value that is not accepted.
+    #[error("{file}: claim `{id}`: `{key}` is {value}, but must be {accepted}")]
+    Value {
+        /// The file.
+        file: String,
+        /// The claim.
+        id: String,
+        /// The key.
+        key: String,
+        /// What it is.
+        value: String,
+        /// What it may be.
+        accepted: String,
+    },
+}
+
+impl Register {
+    /// The claims of the paper.
+    pub fn paper() -> Result<Self, RegisterError> {
+        Self::from_toml(TEXT, FILE)
+    }
+
+    /// Claims from the `text` of a `file`.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, RegisterError> {
+        let register: Self = toml::from_str(text).map_err(|error| RegisterError::Syntax {
+            file: file.to_owned(),
+            message: error.to_string(),
+        })?;
+        let mut seen = BTreeSet::new();
+        for claim in &register.claims {
+            claim
+                .validate(&mut seen)
+                .map_err(|wrong| RegisterError::Value {
+                    file: file.to_owned(),
+                    id: claim.id.clone(),
+                    key: wrong.key,
+                    value: wrong.value,
+                    accepted: wrong.accepted,
+                })?;
+        }
+        Ok(register)
+    }
+}
+
+struct Wrong {
+    key: String,
+    value: String,
+    accepted: String,
+}
+
+impl Wrong {
+    fn new(key: &str, value: impl ToString, accepted: impl Into<String>) -> Self {
+        Self {
+            key: key.to_owned(),
+            value: value.to_string(),
+            accepted: accepted.into(),
+        }
+    }
+}
+
+impl Claim {
+    fn validate<'a>(&'a self, seen: &mut BTreeSet<&'a str>) -> Result<(), Wrong> {
+        if !seen.insert(&self.id) {
+            return Err(Wrong::new("id", &self.id, "different for every claim"));
+        }
+        match (&self.check, &self.untestable) {
+            (Some(check), None) => self.validate_check(check)?,
+            (None, Some(_)) => {}
+            _ => {
+                let accepted = "given where there is no `untestable`, and only there";
+                let value = self.check.as_deref().unwrap_or("absent");
+                return Err(Wrong::new("check", value, accepted));
+            }
+        }
+        if let Some(allowed) = self
+            .allowed
+            .filter(|allowed| !(allowed.is_finite() && *allowed > 0.0))
+        {
+            return Err(Wrong::new("allowed", allowed, "a number above 0"));
+        }
+        self.validate_erratum()
+    }
+
+    fn validate_check(&self, name: &str) -> Result<(), Wrong> {
+        if checks::find(name).is_some() {
+            return Ok(());
+        }
+        let names: Vec<&str> = checks::all().map(|check| check.name).collect();
+        let accepted = format!("one of {}", names.join(", "));
+        Err(Wrong::new("check", name, accepted))
+    }
+
+    fn validate_erratum(&self) -> Result<(), Wrong> {
+        let Some(erratum) = &self.erratum else {
+            return Ok(());
+        };
+        if erratum.set.is_empty() || self.check.is_none() {
+            let accepted = "given, with a check that tests it";
+            return Err(Wrong::new("erratum.set", "absent", accepted));
+        }
+        let infinite = erratum.set.iter().find(|(_, value)| !value.is_finite());
+        if let Some((name, value)) = infinite {
+            let key = format!("erratum.set.{name}");
+            return Err(Wrong::new(&key, value, "a finite number"));
+        }
+        let unknown = erratum
+            .set
+            .keys()
+            .find(|name| !PaperTheory::NAMES.contains(&name.as_str()));
+        unknown.map_or(Ok(()), |name| {
+            let accepted = format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "));
+            Err(Wrong::new("erratum.set", name, accepted))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(change: &str) -> String {
+        let text =
+            format!("[[claim]]\nid = 'a'\nplace = 'p'\nstatement = 's'\nkind = 'number'\n{change}");
+        Register::from_toml(&text, "my.toml")
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn errors_name_file_key_value_and_what_is_accepted() {
+        let message = error("check = 'no-such-check'");
+        assert!(
+            message
+                .starts_with("my.toml: claim `a`: `check` is no-such-check, but must be one of ")
+        );
+        assert!(error("").contains("`check` is absent"));
+        assert!(error("verdict = 'holds'").contains("unknown field `verdict`"));
+        assert!(error("untestable = 'x'\nallowed = -1").contains("`allowed` is -1"));
+        let message =
+            error("check = 'quintic'\n[claim.erratum]\ntext = 't'\nset = { nothing = 1 }");
+        assert!(message.contains("`erratum.set` is nothing"), "{message}");
+    }
+}

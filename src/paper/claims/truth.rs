@@ -1,0 +1,383 @@
+//! What the printed formulas are held against, worked out anew from Newton's laws and the two springs.
+//!
+//! Lengths, stiffnesses and weights keep their dimensions here: a formula that lacks a factor r must show.
+
+use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::theory::{closed_form_limit, elastic_root};
+use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
+use std::sync::LazyLock;
+
+/// A radius that is not 1.
+pub const RADIUS: f64 = 1.7;
+/// A normal stiffness that is not 1.
+pub const NORMAL_STIFFNESS: f64 = 2.3;
+
+const NEWTON_STEPS: usize = 12;
+/// What is left of the equilibrium, relative to the floor force, when Newton's method has converged.
+const CONVERGED: f64 = 1e-11;
+
+/// z-component of the cross product in the plane.
+pub fn cross(left: Vector2<f64>, right: Vector2<f64>) -> f64 {
+    left.x * right.y - left.y * right.x
+}
+
+/// `normal` turned by −90°.
+pub fn turned(normal: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(normal.y, -normal.x)
+}
+
+/// Contact forces of the right half of the stack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forces {
+    /// Normal force between 1 and 2.
+    pub a: f64,
+    /// Tangential force between 1 and 2.
+    pub b: f64,
+    /// Normal force of the floor.
+    pub d: f64,
+    /// Tangential force of the floor.
+    pub e: f64,
+}
+
+/// Force and torque on cylinder 2, and the vertical force on 1, for c = 0 and torque arms r.
+fn imbalance(
+    forces: &Forces,
+    normal: Vector2<f64>,
+    radius: f64,
+    f: f64,
+    weight: f64,
+) -> Vector4<f64> {
+    let on_upper = normal * forces.a + turned(normal) * forces.b;
+    let floor = Vector2::new(-forces.e, forces.d);
+    let on_lower = floor - on_upper - Vector2::new(0.0, weight);
+    let torque = cross(normal * radius, -on_upper) + cross(Vector2::new(0.0, -radius), floor);
+    let upper = 2.0 * on_upper.y - f - weight;
+    Vector4::new(on_lower.x, on_lower.y, torque / radius, upper)
+}
+
+/// The forces that keep the stack in equilibrium under `f` when cylinder 1 lies in the direction `normal`
+/// from cylinder 2; `None` if there are none.
+pub fn equilibrium(normal: Vector2<f64>, radius: f64, f: f64, weight: f64) -> Option<Forces> {
+    let unit = |index: usize| {
+        let part = |which| if which == index { 1.0 } else { 0.0 };
+        Forces {
+            a: part(0),
+            b: part(1),
+            d: part(2),
+            e: part(3),
+        }
+    };
+    let nothing = imbalance(
+        &Forces {
+            a: 0.0,
+            b: 0.0,
+            d: 0.0,
+            e: 0.0,
+        },
+        normal,
+        radius,
+        f,
+        weight,
+    );
+    let columns =
+        [0, 1, 2, 3].map(|index| imbalance(&unit(index), normal, radius, f, weight) - nothing);
+    let solution = Matrix4::from_columns(&columns).lu().solve(&-nothing)?;
+    Some(Forces {
+        a: solution[0],
+        b: solution[1],
+        d: solution[2],
+        e: solution[3],
+    })
+}
+
+/// Displacements of the stack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Displacements {
+    /// How far 1 has sunk.
+    pub delta_11: f64,
+    /// How far 2 has sunk.
+    pub delta_21: f64,
+    /// How far 2 has moved outwards.
+    pub delta_22: f64,
+    /// How far 2 has turned, counter-clockwise.
+    pub theta: f64,
+}
+
+impl Displacements {
+    /// Centre of cylinder 1, cylinders just touching before.
+    pub fn upper(&self, radius: f64) -> Vector2<f64> {
+        let rise = (4.0 * radius * radius - radius * radius).sqrt();
+        Vector2::new(0.0, radius + rise - self.delta_11)
+    }
+
+    /// Centre of cylinder 2.
+    pub fn lower(&self, radius: f64) -> Vector2<f64> {
+        Vector2::new(radius + self.delta_22, radius - self.delta_21)
+    }
+
+    /// Direction from 2 to 1.
+    pub fn normal(&self, radius: f64) -> Vector2<f64> {
+        (self.upper(radius) - self.lower(radius)).normalize()
+    }
+
+    /// How the surface of 1 has moved against that of 2 at their contact.
+    pub fn surface_gap(&self, radius: f64) -> Vector2<f64> {
+        let arm = self.normal(radius) * radius;
+        let upper = Vector2::new(0.0, -self.delta_11);
+        upper - self.lower_surface(arm)
+    }
+
+    /// How the point of 2 at `arm` from its centre has moved.
+    pub fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
+        let centre = Vector2::new(self.delta_22, -self.delta_21);
+        centre + Vector2::new(-arm.y, arm.x) * self.theta
+    }
+
+    /// The forces of linear springs on these displacements.
+    pub fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
+        let normal = self.normal(radius);
+        let gap = self.surface_gap(radius);
+        let floor = self.lower_surface(Vector2::new(0.0, -radius));
+        let tangential_stiffness = normal_stiffness / ratio;
+        Forces {
+            a: -normal_stiffness * gap.dot(&normal),
+            b: -tangential_stiffness * gap.dot(&turned(normal)),
+            d: -normal_stiffness * floor.y,
+            e: tangential_stiffness * floor.x,
+        }
+    }
+}
+
+/// The stack at the moment the floor slips, for springs on the total displacements: the paper's five
+/// equations, solved without eliminating anything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldState {
+    /// μ.
+    pub friction: f64,
+    /// κ.
+    pub ratio: f64,
+    /// ε.
+    pub epsilon: f64,
+    /// Displacements.
+    pub displacements: Displacements,
+    /// Force of the wall.
+    pub force: f64,
+}
+
+impl YieldState {
+    /// By Newton's method on the five equations; `None` without a solution.
+    pub fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
+        let stack = Stack {
+            stiffness_ratio: ratio,
+            ..Stack::paper(friction, 1.0 / epsilon)
+        };
+        let guess = elastic_root(&stack)?;
+        let scale = RADIUS * NORMAL_STIFFNESS;
+        let mut unknowns = SVector::<f64, 5>::from([
+            (guess.x + guess.z) * RADIUS,
+            guess.z * RADIUS,
+            guess.y * RADIUS,
+            guess.theta,
+            (guess.load - 3.0) * epsilon * scale,
+        ]);
+        let state = |unknowns: &SVector<f64, 5>| Self {
+            friction,
+            ratio,
+            epsilon,
+            displacements: Displacements {
+                delta_11: unknowns[0],
+                delta_21: unknowns[1],
+                delta_22: unknowns[2],
+                theta: unknowns[3],
+            },
+            force: unknowns[4],
+        };
+        for _ in 0..NEWTON_STEPS {
+            let residual = state(&unknowns).residual();
+            let jacobian = SMatrix::<f64, 5, 5>::from_columns(&[0, 1, 2, 3, 4].map(|index| {
+                let step = 1e-7 * unknowns[1].max(1e-12);
+                let mut moved = unknowns;
+                moved[index] += step;
+                (state(&moved).residual() - residual) / step
+            }));
+            unknowns -= jacobian.lu().solve(&residual)?;
+        }
+        let solved = state(&unknowns);
+        let left = solved.residual().amax() / solved.forces().d;
+        (left < CONVERGED).then_some(solved)
+    }
+
+    fn residual(&self) -> SVector<f64, 5> {
+        let forces = self.forces();
+        let normal = self.displacements.normal(RADIUS);
+        let balance = imbalance(&forces, normal, RADIUS, self.force, self.weight());
+        let slip = forces.e - self.friction * forces.d;
+        SVector::from([balance[0], balance[1], balance[2], balance[3], slip])
+    }
+
+    /// Weight of a cylinder.
+    pub fn weight(&self) -> f64 {
+        self.epsilon * RADIUS * NORMAL_STIFFNESS
+    }
+
+    /// The contact forces.
+    pub fn forces(&self) -> Forces {
+        self.displacements
+            .spring_forces(RADIUS, NORMAL_STIFFNESS, self.ratio)
+    }
+
+    /// x = δ₁₁ − δ₂₁.
+    pub fn x(&self) -> f64 {
+        self.displacements.delta_11 - self.displacements.delta_21
+    }
+
+    /// y = δ₂₂.
+    pub fn y(&self) -> f64 {
+        self.displacements.delta_22
+    }
+
+    /// z = δ₂₁.
+    pub fn z(&self) -> f64 {
+        self.displacements.delta_21
+    }
+
+    /// α = ε r/z.
+    pub fn alpha(&self) -> f64 {
+        self.epsilon * RADIUS / self.z()
+    }
+
+    /// T, the tangent of half the angle between the line 2–1 and the vertical.
+    pub fn half_angle_tangent(&self) -> f64 {
+        let normal = self.displacements.normal(RADIUS);
+        -normal.x / (1.0 + normal.y)
+    }
+}
+
+/// States over all that the paper speaks of, and beyond in κ. They do not depend on what is printed.
+pub fn yield_states() -> &'static [YieldState] {
+    static STATES: LazyLock<Vec<YieldState>> = LazyLock::new(solve_everywhere);
+    &STATES
+}
+
+fn solve_everywhere() -> Vec<YieldState> {
+    let below = [0.1, 0.15, 0.2, 0.25];
+    let above = [0.28, 0.3, 0.4, 0.5, 0.7];
+    let mut states = Vec::new();
+    for friction in below.into_iter().chain([CRITICAL_FRICTION]).chain(above) {
+        for epsilon in [1e-2, 1e-3, 1e-4] {
+            for ratio in [1.0, 2.5, 10.0] {
+                states.extend(YieldState::solve(friction, ratio, epsilon));
+            }
+        }
+    }
+    states
+}
+
+/// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
+pub fn figure_loads() -> &'static [(Stack, f64)] {
+    static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
+        let stacks = [1e2, 1e3, 1e4].into_iter().flat_map(|stiffness| {
+            (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
+        });
+        let with_load = |stack: Stack| Some((stack, closed_form_limit(&stack).yield_force? + 3.0));
+        stacks.filter_map(with_load).collect()
+    });
+    &LOADS
+}
+
+/// Displacements that are no equilibrium: what is said of springs must hold for them too.
+pub fn arbitrary_displacements() -> Vec<Displacements> {
+    (1..=12)
+        .map(|index| {
+            let wave = |frequency: f64| (f64::from(index) * frequency).sin();
+            Displacements {
+                delta_11: 0.3 * wave(1.1),
+                delta_21: 0.2 * wave(2.3),
+                delta_22: 0.25 * wave(3.7),
+                theta: 0.4 * wave(5.3),
+            }
+        })
+        .collect()
+}
+
+/// The elastic equation multiplied out, in r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.
+///
+/// From T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
+/// G = (T² + 2√3 T − 1)/(T (1 + T²)(1 + κ(1 + T²))) (docs/theory.md, Eqs. 12, 14 and 67).
+pub fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
+    let rest: Polynomial = vec![(1, 0, 1.0), (0, 1, -1.0)];
+    let slip: Polynomial = vec![(1, 0, friction)];
+    let square = product(&rest, &rest);
+    let slip_square = product(&slip, &slip);
+    let length = sum(&square, &slip_square);
+    let compliance = sum(&square, &scaled(&length, ratio));
+    let mixed = scaled(&product(&slip, &rest), 2.0 * 3f64.sqrt());
+    let numerator = sum(&sum(&slip_square, &mixed), &scaled(&square, -1.0));
+    // (z − ε) T (1 + T²)(1 + κ(1 + T²)) = T² + 2√3 T − 1, times (z − ε)⁴.
+    let left = product(&product(&slip, &length), &compliance);
+    let all = sum(&left, &scaled(&product(&numerator, &square), -1.0));
+    let mut table = [[0.0; 6]; 6];
+    for (z_power, epsilon_power, coefficient) in all {
+        table[z_power][epsilon_power] += coefficient;
+    }
+    let leading = table[5][0];
+    table.map(|row| row.map(|coefficient| coefficient / leading))
+}
+
+/// Terms ε^j z^k as (k, j, coefficient).
+type Polynomial = Vec<(usize, usize, f64)>;
+
+fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
+    let pairs = left.iter().flat_map(|l| right.iter().map(move |r| (l, r)));
+    pairs
+        .map(|(l, r)| (l.0 + r.0, l.1 + r.1, l.2 * r.2))
+        .collect()
+}
+
+fn sum(left: &Polynomial, right: &Polynomial) -> Polynomial {
+    left.iter().chain(right).copied().collect()
+}
+
+fn scaled(polynomial: &Polynomial, factor: f64) -> Polynomial {
+    polynomial
+        .iter()
+        .map(|&(k, j, value)| (k, j, factor * value))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn five_equations_have_the_root_of_the_elastic_equation() {
+        let states = yield_states();
+        assert!(states.len() > 80, "{}", states.len());
+        for state in states {
+            let stack = Stack {
+                stiffness_ratio: state.ratio,
+                ..Stack::paper(state.friction, 1.0 / state.epsilon)
+            };
+            let root = elastic_root(&stack).unwrap();
+            assert!((state.z() / RADIUS - root.z).abs() < 1e-10 * root.z);
+            assert!((state.y() / RADIUS - root.y).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn multiplied_out_vanishes_at_the_root() {
+        for (friction, ratio, epsilon) in [(0.2, 2.5, 1e-2), (0.4, 1.0, 1e-3)] {
+            let state = YieldState::solve(friction, ratio, epsilon).unwrap();
+            let z = state.z() / RADIUS;
+            let table = multiplied_out(friction, ratio);
+            let terms: Vec<f64> = (0..6)
+                .flat_map(|k| (0..6).map(move |j| (k, j)))
+                .map(|(k, j)| table[k][j] * z.powi(k as i32) * epsilon.powi(j as i32))
+                .collect();
+            let largest = terms
+                .iter()
+                .fold(0.0, |largest: f64, term| largest.max(term.abs()));
+            assert!(terms.iter().sum::<f64>().abs() < 1e-11 * largest);
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Supplement, figure on convergence: the yield force over wall speed and time step, at μ = 0.2 and 1/ε = 1e4.
+
+use crate::code::Code;
+use crate::model::{Case, Protocol, Sampling, Stack};
+use crate::runs::RunSummary;
+use crate::runs::{Load, Progress, RunError, SelectedCode, Settings, read_all};
+use crate::study::yield_force::{PAPER_TIME_STEP, protocol_at_speed};
+use crate::theory::quasistatic_limit;
+use serde::Serialize;
+
+/// Wall speeds at the paper's time step. The slowest is for the native DEM alone.
+const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
+/// Time steps at [`FAST_WALL`]. The smallest is for the native DEM alone.
+const TIME_STEPS: [f64; 6] = [1e-1, 5e-2, 1e-2, 5e-3, 1e-3, 1e-4];
+/// Wall speed at which the paper varies the time step.
+pub const FAST_WALL: f64 = 1e-3;
+/// A fast wall passes the yield within a few time units: rows must be close.
+const FINE_INTERVAL: f64 = 0.1;
+
+/// The stack of the paper's convergence study.
+pub fn convergence_stack() -> Stack {
+    Stack::paper(0.2, 1e4)
+}
+
+/// One run of the study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConvergencePoint {
+    /// Who ran it.
+    pub code: Code,
+    /// Wall speed in r √(k_n/m).
+    pub wall_speed: f64,
+    /// Time step in √(m/k_n).
+    pub time_step: f64,
+    /// F at the onset of slip, in m g.
+    pub slip_force: Option<f64>,
+    /// Largest F, the paper's yield force, in m g.
+    pub peak_force: Option<f64>,
+    /// Exact limit under the code's convention, in m g.
+    pub limit: Option<f64>,
+    /// Why there is no number.
+    pub remark: Option<String>,
+}
+
+impl ConvergencePoint {
+    /// (peak − limit)/limit.
+    pub fn excess_of_peak(&self) -> Option<f64> {
+        let (peak, limit) = self.peak_force.zip(self.limit)?;
+        Some((peak - limit) / limit)
+    }
+
+    /// (slip onset − limit)/limit.
+    pub fn excess_of_slip(&self) -> Option<f64> {
+        let (slip, limit) = self.slip_force.zip(self.limit)?;
+        Some((slip - limit) / limit)
+    }
+}
+
+/// The whole study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Convergence {
+    /// Over the wall speed, at the paper's time step.
+    pub wall_speeds: Vec<ConvergencePoint>,
+    /// Over the time step, at [`FAST_WALL`].
+    pub time_steps: Vec<ConvergencePoint>,
+}
+
+/// The runs of one code: those over the wall speed first.
+fn load(code: Code) -> Load {
+    let own = |count: usize| match code {
+        Code::Native => count,
+        _ => count - 1,
+    };
+    let speeds = WALL_SPEEDS[..own(WALL_SPEEDS.len())]
+        .iter()
+        .map(|&speed| (speed, PAPER_TIME_STEP));
+    let steps = TIME_STEPS[..own(TIME_STEPS.len())]
+        .iter()
+        .map(|&step| (FAST_WALL, step));
+    let cases = speeds
+        .chain(steps)
+        .filter_map(|(speed, step)| case(code, speed, step));
+    Load {
+        code,
+        cases: cases.collect(),
+    }
+}
+
+fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
+    let (stack, convention) = (convergence_stack(), code.convention());
+    let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+    let protocol = protocol_at_speed(&limit, wall_speed, time_step)?;
+    let sampling = Sampling {
+        fine_interval: FINE_INTERVAL,
+        ..protocol.sampling
+    };
+    let protocol = Protocol {
+        sampling,
+        ..protocol
+    };
+    Some(Case {
+        stack,
+        convention,
+        protocol,
+    })
+}
+
+/// The runs of the study, code by code.
+pub fn convergence_loads(codes: &[Code]) -> Vec<Load> {
+    codes.iter().map(|&code| load(code)).collect()
+}
+
+/// Carries out the study; also returns every summary.
+pub fn converge(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> (Convergence, Vec<RunSummary>) {
+    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
+    let loads = convergence_loads(&names);
+    let results = read_all(&loads, codes, settings, progress);
+    let mut study = Convergence {
+        wall_speeds: Vec::new(),
+        time_steps: Vec::new(),
+    };
+    let mut summaries = Vec::new();
+    for (load, results) in loads.iter().zip(results) {
+        let speeds = load.cases.iter();
+        let speeds = speeds.filter(|case| case.protocol.time_step == PAPER_TIME_STEP);
+        let speeds = speeds.count().saturating_sub(1);
+        for (index, (case, result)) in load.cases.iter().zip(results).enumerate() {
+            let point = point(load.code, case, &result);
+            if index < speeds {
+                study.wall_speeds.push(point);
+            } else {
+                study.time_steps.push(point);
+            }
+            summaries.extend(result.ok());
+        }
+    }
+    (study, summaries)
+}
+
+fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
+    let convention = &case.convention;
+    let limit = quasistatic_limit(&case.stack, convention.pair_arm, convention.floor_arm);
+    let estimates = result.as_ref().ok().map(|summary| summary.estimates);
+    let force = |estimate: Option<crate::series::Estimate>| estimate.map(|estimate| estimate.force);
+    ConvergencePoint {
+        code,
+        wall_speed: case.protocol.wall_speed,
+        time_step: case.protocol.time_step,
+        slip_force: estimates.and_then(|read| force(read.slip)),
+        peak_force: estimates.and_then(|read| force(read.peak)),
+        limit: limit.yield_force,
+        remark: result.as_ref().err().map(ToString::to_string),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
+        for load in convergence_loads(&Code::ALL) {
+            let native = load.code == Code::Native;
+            assert_eq!(load.cases.len(), if native { 11 } else { 9 });
+            for case in &load.cases {
+                case.validate().unwrap();
+                assert!(native || case.total_steps() < 3_000_000);
+            }
+        }
+    }
+}

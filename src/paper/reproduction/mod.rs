@@ -1,0 +1,278 @@
+//! What the paper did, done again: the runs behind each of its figures, and some that it lacks.
+
+mod convergence;
+mod curves;
+mod force_series;
+mod scaling;
+mod snapshots;
+
+pub use convergence::{
+    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_loads, convergence_stack,
+};
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use force_series::{ForceSeries, force_series, force_series_stack};
+pub use scaling::{
+    Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
+    scaling_measurements,
+};
+pub use snapshots::{Snapshots, snapshots};
+
+use crate::code::Code;
+use crate::code::Provenance;
+use crate::model::PAPER_STIFFNESS_RATIO;
+use crate::runs::RunSummary;
+use crate::runs::{Progress, Recorded, RunError, SelectedCode, Settings};
+use crate::series::SeriesError;
+use crate::study::convention::{Probed, probe_all};
+use crate::study::preparation::{PreparationStudy, preparation_cases, preparation_studies};
+use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::study::trajectory::{
+    Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory, trajectory_stack,
+};
+use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
+use crate::theory::{BoundaryPoint, RegimeMap};
+use thiserror::Error;
+
+/// Points looked at on every boundary of the regime maps.
+const BOUNDARY_POINTS: usize = 13;
+
+/// Everything that was computed and measured for the paper.
+pub struct Reproduction {
+    /// What every code means by a contact.
+    pub probes: Vec<(Code, Probed)>,
+    /// Fig. 2(a): every stack of the standard profile with every code.
+    pub yield_curves: Vec<Judgement>,
+    /// Fig. 2(b).
+    pub scaling: Vec<Judgement>,
+    /// The exponents of Fig. 2(b).
+    pub exponents: Vec<Exponent>,
+    /// At the paper's literal wall speed and time step.
+    pub literal: Vec<Judgement>,
+    /// The supplement's figure on wall speed and time step.
+    pub convergence: Convergence,
+    /// The supplement's figure of f(t).
+    pub force_series: ForceSeries,
+    /// What the paper's preparation does to c and F, which all else leaves to the gravity ramp.
+    pub preparation: Vec<PreparationStudy>,
+    /// The stack from rest into collapse.
+    pub snapshots: Snapshots,
+    /// Whole series beside native twins.
+    pub trajectories: Vec<TrajectoryJudgement>,
+    /// The regime maps …
+    pub maps: [RegimeMap; 3],
+    /// … and what the native DEM says of them.
+    pub survey: Survey,
+    /// The theories over the ranges of the figures.
+    pub curves: Curves,
+    /// Where the runs come from, in the order of their use.
+    pub provenances: Vec<Provenance>,
+}
+
+/// Why the paper could not be reproduced.
+#[derive(Debug, Error)]
+pub enum ReproductionError {
+    /// A native run that everything else needs is not there.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The native run that is drawn left the finite numbers.
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+}
+
+/// How the paper is reproduced.
+pub struct Scope<'a> {
+    /// The codes that take part. The native one must be among them.
+    pub codes: &'a [SelectedCode],
+    /// Where runs come from and go to.
+    pub settings: &'a Settings<'a>,
+    /// The recorded runs that stand in for trajectories.
+    pub trajectories: Recorded,
+    /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
+    pub literal: bool,
+}
+
+/// Carries out everything; `None` after an interrupt. `examined` is told how many more points of the regime
+/// maps, of `Scope::points`, are done.
+///
+/// # Errors
+/// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
+pub fn reproduce(
+    scope: &Scope,
+    progress: &dyn Progress,
+    examined: &(dyn Fn(usize) + Sync),
+) -> Result<Option<Reproduction>, ReproductionError> {
+    let Scope {
+        codes, settings, ..
+    } = scope;
+    let interrupted = || settings.interrupt.requested();
+    let probes = probe_all(codes, settings, progress);
+    let names = codes.iter().map(|who| who.name);
+    let probes: Vec<(Code, Probed)> = names.zip(probes).collect();
+    let plan = Plan::new(scope);
+    let measurements = plan.all();
+    let judgements = measure(&measurements, codes, settings, progress);
+    if interrupted() {
+        return Ok(None);
+    }
+    let of = |part: &[Measurement]| judged(part, &measurements, &judgements);
+    let (yield_curves, scaling) = (of(&plan.yield_curves), of(&plan.scaling));
+    let literal = of(&plan.literal);
+    let (convergence, mut summaries) = converge(codes, settings, progress);
+    let native = SelectedCode::find(Code::Native);
+    if interrupted() {
+        return Ok(None);
+    }
+    let (force_series, summary) = force_series(&native, settings, progress)?;
+    summaries.push(summary);
+    let codes: Vec<Code> = codes.iter().map(|who| who.name).collect();
+    let preparation = preparation_studies(&codes, settings, progress);
+    if interrupted() {
+        return Ok(None);
+    }
+    let preparation = preparation?;
+    let trajectories = run_trajectories(scope, &probes, progress);
+    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
+    let points = boundary_points(&maps);
+    let survey = survey(&points, settings.threads, settings.interrupt, examined);
+    if interrupted() {
+        return Ok(None);
+    }
+    let Some(snapshots) = snapshots(settings.interrupt)? else {
+        return Ok(None);
+    };
+    let runs = judgements.iter().flat_map(|judgement| &judgement.runs);
+    let runs = runs.chain(&summaries);
+    let provenances = runs.map(|summary| &summary.provenance);
+    let prepared = preparation.iter().flat_map(|study| &study.rows);
+    let provenances = provenances.chain(prepared.flat_map(|row| &row.provenances));
+    Ok(Some(Reproduction {
+        provenances: provenances.cloned().collect(),
+        probes,
+        exponents: exponents(&scaling),
+        yield_curves,
+        scaling,
+        literal,
+        convergence,
+        force_series,
+        preparation,
+        snapshots,
+        trajectories,
+        maps,
+        survey,
+        curves: curves(),
+    }))
+}
+
+/// How many points of the regime maps are examined.
+pub fn examined_points() -> usize {
+    boundary_points(&RegimeMap::standard(PAPER_STIFFNESS_RATIO)).len() + examined_stacks().len()
+}
+
+fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
+    let of_map = |map: &RegimeMap| map.boundary_points(BOUNDARY_POINTS, THREE_DIGITS);
+    maps.iter().flat_map(of_map).collect()
+}
+
+fn run_trajectories(
+    scope: &Scope,
+    probes: &[(Code, Probed)],
+    progress: &dyn Progress,
+) -> Vec<TrajectoryJudgement> {
+    let external = scope.codes.iter().map(|who| who.name);
+    let external = external.filter(|name| !name.accepts_any_convention());
+    let plans: Vec<Trajectory> = external
+        .map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()))
+        .collect();
+    let settings = Settings {
+        store: scope.settings.store.clone(),
+        recorded: scope.trajectories.clone(),
+        ..*scope.settings
+    };
+    let judged = measure_trajectories(&plans, scope.codes, &settings, progress);
+    let judged = judged.into_iter().map(|judgement| {
+        let probes = probes.iter().map(|(code, probed)| (*code, probed));
+        judgement.unless_contradicted(probes)
+    });
+    judged.collect()
+}
+
+/// The measurements behind the figures.
+struct Plan {
+    yield_curves: Vec<Measurement>,
+    scaling: Vec<Measurement>,
+    literal: Vec<Measurement>,
+}
+
+impl Plan {
+    fn new(scope: &Scope) -> Self {
+        let codes: Vec<Code> = scope.codes.iter().map(|who| who.name).collect();
+        let mut literal = Profile::Paper.measurements(&codes);
+        if !scope.literal {
+            literal.retain(|row| row.stack == convergence_stack());
+        }
+        Self {
+            yield_curves: Profile::Standard.measurements(&codes),
+            scaling: scaling_measurements(&codes),
+            literal,
+        }
+    }
+
+    /// Every measurement once: figures share stacks.
+    fn all(&self) -> Vec<Measurement> {
+        let parts = [&self.yield_curves, &self.scaling, &self.literal];
+        let mut all: Vec<Measurement> = Vec::new();
+        for measurement in parts.into_iter().flatten() {
+            if !all.iter().any(|known| is_same(known, measurement)) {
+                all.push(measurement.clone());
+            }
+        }
+        all
+    }
+}
+
+fn is_same(left: &Measurement, right: &Measurement) -> bool {
+    (left.code, left.stack, left.method) == (right.code, right.stack, right.method)
+}
+
+/// The judgements on `part` of `measurements`, in the order of the part.
+fn judged(
+    part: &[Measurement],
+    measurements: &[Measurement],
+    judgements: &[Judgement],
+) -> Vec<Judgement> {
+    let found = part.iter().filter_map(|wanted| {
+        let mut all = measurements.iter().zip(judgements);
+        all.find(|(measurement, _)| is_same(measurement, wanted))
+    });
+    found.map(|(_, judgement)| judgement.clone()).collect()
+}
+
+/// Every run of an external code that the report needs and whose series is too large to keep: the summaries
+/// that `tristack record` takes.
+///
+/// # Errors
+/// The first run that fails.
+pub fn readings_to_record(
+    selected: &SelectedCode,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<RunSummary>, RunError> {
+    let codes = [selected.name];
+    let mut loads = convergence_loads(&codes);
+    let measurements = [
+        Profile::Standard.measurements(&codes),
+        scaling_measurements(&codes),
+        Profile::Paper.measurements(&codes),
+    ];
+    let prepared = preparation_cases(selected.name, settings, progress)?;
+    let cases = measurements.into_iter().flatten();
+    let cases = cases.flat_map(|measurement| measurement.cases);
+    for case in cases.chain(prepared) {
+        if !loads[0].cases.contains(&case) {
+            loads[0].cases.push(case);
+        }
+    }
+    let codes = std::slice::from_ref(selected);
+    let results = crate::runs::read_all(&loads, codes, settings, progress);
+    results.into_iter().flatten().collect()
+}

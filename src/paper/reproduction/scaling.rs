@@ -1,0 +1,181 @@
+//! Fig. 2(b): how the yield force scales with the stiffness below, at and above the critical friction.
+
+use crate::code::Code;
+use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::study::MAX_TOLERANCE;
+use crate::study::Verdict;
+use crate::study::yield_force::{Judgement, Measurement, plan};
+use serde::Serialize;
+
+/// Frictions of Fig. 2(b).
+pub const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
+
+/// Stiffnesses 1/ε of Fig. 2(b), one a decade.
+pub const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+
+/// Stiffnesses from here on are stiff enough to speak of scaling: ε is three decades below 1.
+pub const FITTED_FROM: f64 = 1e3;
+
+/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from [`FITTED_FROM`] on.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Exponent {
+    /// Whose yield forces were fitted.
+    pub code: Code,
+    /// Floor friction μ.
+    pub mu: f64,
+    /// Least-squares slope of ln(F + 3) over ln(1/ε).
+    pub exponent: f64,
+    /// What the uncertainties of the forces can do to it, if they all conspire.
+    pub uncertainty: f64,
+    /// The same fit to the exact limits under the code's convention: the exponent of this finite range.
+    pub exact: f64,
+    /// The exponent for ε → 0 (paper, Eq. for the scaling): 0, 1/2, 1.
+    pub asymptotic: f64,
+    /// How many stiffnesses were fitted.
+    pub points: usize,
+    /// Whether `exponent` is `exact`.
+    pub verdict: Verdict,
+}
+
+/// What is measured for Fig. 2(b): every stack that yields, by each of the `codes`.
+pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
+    let stacks = SCALING_FRICTIONS
+        .iter()
+        .flat_map(|&mu| SCALING_STIFFNESSES.map(|stiffness| Stack::paper(mu, stiffness)));
+    let rows = stacks.flat_map(|stack| {
+        let plans = codes
+            .iter()
+            .map(move |&code| plan(code, &stack, code.convention()));
+        plans.collect::<Vec<_>>()
+    });
+    rows.filter(|row| !row.cases.is_empty()).collect()
+}
+
+/// The exponents of every code at every friction of Fig. 2(b) that has at least two points to fit.
+pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
+    let mut fitted = Vec::new();
+    for mu in SCALING_FRICTIONS {
+        for code in Code::ALL {
+            let own = judgements.iter().filter(|judgement| {
+                let row = &judgement.row;
+                row.code == code && row.mu == mu && row.stiffness >= FITTED_FROM
+            });
+            let points: Vec<Point> = own.filter_map(Point::of).collect();
+            if points.len() >= 2 {
+                fitted.push(fit(code, mu, &points));
+            }
+        }
+    }
+    fitted
+}
+
+/// Logarithms of one measured force, its limit and its stiffness.
+struct Point {
+    stiffness: f64,
+    load: f64,
+    uncertainty: f64,
+    limit: f64,
+}
+
+impl Point {
+    fn of(judgement: &Judgement) -> Option<Self> {
+        let row = &judgement.row;
+        let load = row.yield_force? + 3.0;
+        Some(Self {
+            stiffness: libm::log(row.stiffness),
+            load: libm::log(load),
+            uncertainty: row.uncertainty? / load,
+            limit: libm::log(row.reference_force? + 3.0),
+        })
+    }
+}
+
+fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
+    let weights = slope_weights(points);
+    let weighted = |value: &dyn Fn(&Point) -> f64| -> f64 {
+        let terms = weights.iter().zip(points);
+        terms.map(|(weight, point)| weight * value(point)).sum()
+    };
+    let exponent = weighted(&|point| point.load);
+    let exact = weighted(&|point| point.limit);
+    let amplified = |error: &dyn Fn(&Point) -> f64| -> f64 {
+        let terms = weights.iter().zip(points);
+        terms
+            .map(|(weight, point)| weight.abs() * error(point))
+            .sum()
+    };
+    let uncertainty = amplified(&|point| point.uncertainty);
+    let tolerance = amplified(&|_| MAX_TOLERANCE);
+    Exponent {
+        code,
+        mu,
+        exponent,
+        uncertainty,
+        exact,
+        asymptotic: asymptotic_exponent(mu),
+        points: points.len(),
+        verdict: Verdict::of(exponent - exact, uncertainty, tolerance),
+    }
+}
+
+/// The weights with which the ordinates enter a least-squares slope.
+fn slope_weights(points: &[Point]) -> Vec<f64> {
+    let count = points.len() as f64;
+    let mean = points.iter().map(|point| point.stiffness).sum::<f64>() / count;
+    let spread: f64 = points
+        .iter()
+        .map(|point| (point.stiffness - mean).powi(2))
+        .sum();
+    points
+        .iter()
+        .map(|point| (point.stiffness - mean) / spread)
+        .collect()
+}
+
+/// The exponent for ε → 0 (paper, scaling of f + 3 m g below, at and above μ_c).
+pub fn asymptotic_exponent(mu: f64) -> f64 {
+    match mu.total_cmp(&CRITICAL_FRICTION) {
+        std::cmp::Ordering::Less => 0.0,
+        std::cmp::Ordering::Equal => 0.5,
+        std::cmp::Ordering::Greater => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(stiffness: f64, load: f64) -> Point {
+        Point {
+            stiffness: libm::log(stiffness),
+            load: libm::log(load),
+            uncertainty: 1e-6,
+            limit: libm::log(load * 1.000_001),
+        }
+    }
+
+    #[test]
+    fn a_power_law_gives_its_exponent_back() {
+        let points: Vec<Point> = [1e3, 1e4, 1e5]
+            .map(|stiffness: f64| point(stiffness, 2.0 * stiffness.powf(0.7)))
+            .into();
+        let fitted = fit(Code::Native, 0.3, &points);
+        assert!((fitted.exponent - 0.7).abs() < 1e-12);
+        assert_eq!(fitted.verdict, Verdict::Agrees);
+    }
+
+    #[test]
+    fn a_wrong_force_shows_in_the_exponent() {
+        let mut points: Vec<Point> = [1e3, 1e4, 1e5].map(|s: f64| point(s, s.sqrt())).into();
+        points[2].load += 1e-3;
+        let fitted = fit(Code::Native, CRITICAL_FRICTION, &points);
+        assert_eq!(fitted.verdict, Verdict::Differs);
+    }
+
+    #[test]
+    fn stacks_that_do_not_yield_are_not_planned() {
+        let rows = scaling_measurements(&Code::ALL);
+        assert!(rows.iter().all(|row| row.cases.len() == 5));
+        assert!(rows.len() > 6 * 15);
+    }
+}

@@ -1,0 +1,48 @@
+//! The stack with its contact forces, from rest into collapse.
+
+use super::SCALING_FRICTIONS;
+use crate::code::{Code, Interrupt};
+use crate::dem::compress_stack_into_frames;
+use crate::model::{Case, Stack};
+use crate::series::{Frames, SeriesError};
+use crate::study::yield_force::planned_protocol;
+use crate::theory::quasistatic_limit;
+
+/// Wall speed in units of the predicted displacement.
+const SPEED: f64 = 1e-3;
+const TIME_STEP: f64 = 0.1;
+
+/// A native run, frame by frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshots {
+    /// What was run.
+    pub case: Case,
+    /// Its frames.
+    pub frames: Frames,
+}
+
+/// Runs the native DEM on the softest stack of the paper above the critical friction, where displacements are
+/// large enough to be seen; `None` after an interrupt.
+///
+/// # Errors
+/// If the series is no series, which would be an error of the native DEM.
+pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
+    let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
+    let limit = quasistatic_limit(&stack, 0.0, 0.0);
+    let convention = Code::Native.convention();
+    let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
+    let Some(protocol) = protocol else {
+        return Ok(None);
+    };
+    let case = Case {
+        stack,
+        convention,
+        protocol,
+    };
+    let run = compress_stack_into_frames(&case, || !interrupt.requested());
+    if interrupt.requested() {
+        return Ok(None);
+    }
+    let (_, frames) = run?;
+    Ok(Some(Snapshots { case, frames }))
+}

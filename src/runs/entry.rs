@@ -1,0 +1,203 @@
+//! RunSummary and writing of entries; every write is a rename of something complete.
+
+use crate::code::{Provenance, Run};
+use crate::files::{
+    CHECKSUMS, FileError, check, checksums, create_parent, remove_abandoned, sync_directory,
+    write_synced,
+};
+use crate::model::Case;
+use crate::series::Series;
+use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const CASE: &str = "case.json";
+const SERIES: &str = "series.csv";
+const PROVENANCE: &str = "provenance.json";
+const DRAFT: &str = ".draft-";
+
+/// A directory of entries.
+#[derive(Debug, Clone)]
+pub struct Archive {
+    root: PathBuf,
+    drafts: PathBuf,
+}
+
+impl Archive {
+    /// An archive at `root`, which need not exist yet.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        let root = root.into();
+        let drafts = root.clone();
+        Self { root, drafts }
+    }
+
+    /// The same archive with its drafts in `drafts`, a directory in the same file system.
+    pub fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
+        let drafts = drafts.into();
+        Self { drafts, ..self }
+    }
+
+    /// Where the archive is.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Reads the entry `name`; `None` if there is none.
+    ///
+    /// # Errors
+    /// If it is there but damaged.
+    pub fn load(&self, name: &Path) -> Result<Option<Run>, FileError> {
+        let directory = self.root.join(name);
+        if !directory.is_dir() {
+            return Ok(None);
+        }
+        let checksums = read(&directory.join(CHECKSUMS))?;
+        let checksums = String::from_utf8_lossy(&checksums);
+        let checked = |file: &str| {
+            let content = read(&directory.join(file))?;
+            check(&checksums, &directory, file, &content)?;
+            Ok::<_, FileError>(content)
+        };
+        let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
+        let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
+        let provenance = parse_provenance(&directory.join(PROVENANCE), &checked(PROVENANCE)?)?;
+        Ok(Some(Run {
+            case,
+            series,
+            provenance,
+        }))
+    }
+
+    /// Writes `run` as the entry `name`, in place of an older one.
+    ///
+    /// # Errors
+    /// If the file system refuses; what is under `name` is then what was there before.
+    pub fn save(&self, name: &Path, run: &Run) -> Result<(), FileError> {
+        let target = self.root.join(name);
+        let parent = create_parent(&target)?;
+        if self.drafts == self.root {
+            // Elsewhere, whoever owns the place cleans up.
+            remove_abandoned(&self.drafts, DRAFT.as_ref());
+        }
+        let draft = tempfile::Builder::new()
+            .prefix(DRAFT)
+            .tempdir_in(&self.drafts)
+            .map_err(FileError::writing(&self.drafts))?;
+        let held = fs::File::open(draft.path()).map_err(FileError::writing(draft.path()))?;
+        let _ = held.try_lock();
+        write_entry(draft.path(), run)?;
+        put_in_place(draft.path(), &target)?;
+        // Removes what was there before, if anything was.
+        drop(draft);
+        sync_directory(&parent)
+    }
+
+    /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
+        create_parent(target)?;
+        match fs::rename(self.root.join(name), target) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            renamed => renamed.map_err(FileError::writing(target)),
+        }
+    }
+}
+
+fn write_entry(directory: &Path, run: &Run) -> Result<(), FileError> {
+    let files = [
+        (CASE, run.case.to_json().into_bytes()),
+        (SERIES, run.series.to_csv()),
+        (PROVENANCE, run.provenance.to_json().into_bytes()),
+    ];
+    for (name, content) in &files {
+        write_synced(&directory.join(name), content)?;
+    }
+    let sums = checksums(&files);
+    write_synced(&directory.join(CHECKSUMS), sums.as_bytes())?;
+    sync_directory(directory)
+}
+
+/// Renames `draft` to `target`; an older `target` takes the place of the draft in the same instant.
+fn put_in_place(draft: &Path, target: &Path) -> Result<(), FileError> {
+    let rename = |flags| renameat2(AT_FDCWD, draft, AT_FDCWD, target, flags);
+    let renamed = rename(RenameFlags::RENAME_NOREPLACE).or_else(|error| match error {
+        nix::Error::EEXIST => rename(RenameFlags::RENAME_EXCHANGE),
+        error => Err(error),
+    });
+    let renamed = match renamed {
+        // Network file systems know plain renames only.
+        Err(nix::Error::EINVAL) => put_in_place_by_steps(draft, target),
+        renamed => renamed.map_err(Into::into),
+    };
+    renamed.map_err(FileError::writing(target))
+}
+
+/// Renames `draft` to `target` once an older `target` is out of the way.
+fn put_in_place_by_steps(draft: &Path, target: &Path) -> std::io::Result<()> {
+    let old = draft.with_extension("old");
+    if target.exists() {
+        fs::rename(target, &old)?;
+    }
+    let renamed = fs::rename(draft, target);
+    if old.exists() {
+        match renamed {
+            Ok(()) => fs::remove_dir_all(&old)?,
+            Err(_) => fs::rename(&old, target)?,
+        }
+    }
+    renamed
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    fs::read(path).map_err(FileError::reading(path))
+}
+
+fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
+    let schedule = case.protocol.schedule();
+    Series::read(content, &schedule, case.protocol.time_step).map_err(|source| FileError::Series {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+fn parse_provenance(path: &Path, content: &[u8]) -> Result<Provenance, FileError> {
+    serde_json::from_slice(content).map_err(|error| FileError::Provenance {
+        path: path.to_owned(),
+        message: error.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn directory_with(root: &Path, name: &str, content: &str) -> PathBuf {
+        let directory = root.join(name);
+        fs::create_dir(&directory).unwrap();
+        fs::write(directory.join("file"), content).unwrap();
+        directory
+    }
+
+    fn content(directory: &Path) -> String {
+        fs::read_to_string(directory.join("file")).unwrap()
+    }
+
+    #[test]
+    fn an_older_entry_is_replaced_where_renames_can_exchange_and_where_they_cannot() {
+        let root = tempfile::tempdir().unwrap();
+        let target = root.path().join("entry");
+        let first = directory_with(root.path(), "first", "first");
+        put_in_place(&first, &target).unwrap();
+        let second = directory_with(root.path(), "second", "second");
+        put_in_place(&second, &target).unwrap();
+        assert_eq!(content(&target), "second");
+        assert_eq!(content(&second), "first");
+        fs::remove_dir_all(&second).unwrap();
+        let third = directory_with(root.path(), "third", "third");
+        put_in_place_by_steps(&third, &target).unwrap();
+        assert_eq!(content(&target), "third");
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,18 @@
+//! Finished runs: their entries on disk, the store of a user, the recorded runs of the project, and the
+//! schedule that makes what is in neither.
+
+mod entry;
+mod probe_record;
+mod read_all;
+mod recorded;
+mod schedule;
+mod store;
+mod summary;
+
+pub use entry::Archive;
+pub use probe_record::{Answer, ProbeRecord};
+pub use read_all::{Load, read_all};
+pub use recorded::{Recorded, RecordedError};
+pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
+pub use store::{LockOwner, Store, StoreError};
+pub use summary::RunSummary;

@@ -1,0 +1,413 @@
+//! Where requests are worked off: from the store, from recordings, by codes on all cores, or by waiting for another
+//! program that is at it.
+
+use super::requests::RunRequest;
+use super::store_writer::{Claim, FinishedRun, StoreWriter, keep, with_store_writer};
+use super::{Progress, RunError, SelectedCode, Settings};
+use crate::code::Run;
+use crate::code::{Batching, Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
+use crate::files::FileError;
+use crate::model::{Case, shown};
+use crate::runs::LockOwner;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Time between two looks at what other programs have finished.
+const POLL_INTERVAL: Duration = Duration::from_millis(200);
+
+type Slot<T> = Mutex<Option<Result<T, RunError>>>;
+
+/// Orders for one call of one code.
+struct Job<'a> {
+    code: &'a dyn InstalledCode,
+    requests: Vec<usize>,
+}
+
+/// Everything the workers share.
+pub(super) struct Executor<'a, T, Keep> {
+    requests: Vec<RunRequest<'a>>,
+    settings: &'a Settings<'a>,
+    progress: &'a dyn Progress,
+    keep: Keep,
+    slots: Vec<Slot<T>>,
+    /// Orders that other programs are working on.
+    elsewhere: Mutex<Vec<(usize, LockOwner)>>,
+}
+
+impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
+    pub(super) fn new(
+        requests: Vec<RunRequest<'a>>,
+        settings: &'a Settings<'a>,
+        progress: &'a dyn Progress,
+        keep: Keep,
+    ) -> Self {
+        Self {
+            slots: requests.iter().map(|_| Slot::<T>::default()).collect(),
+            requests,
+            settings,
+            progress,
+            keep,
+            elsewhere: Mutex::default(),
+        }
+    }
+
+    /// The result of every request.
+    pub(super) fn results(self, codes: &[SelectedCode]) -> Vec<Option<Result<T, RunError>>> {
+        let jobs = self.jobs(codes);
+        self.work_off(&jobs);
+        self.wait_for_others(codes);
+        let results = self.slots.into_iter().map(|slot| {
+            let result = slot.into_inner().unwrap_or_else(PoisonError::into_inner);
+            assert!(result.is_some(), "every request is reported");
+            result
+        });
+        results.collect()
+    }
+
+    fn case(&self, request: usize) -> &Case {
+        self.requests[request].case
+    }
+
+    fn fill(&self, request: usize, result: Result<Run, RunError>) {
+        let mut slot = self.slots[request]
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        *slot = Some(result.map(&self.keep));
+    }
+
+    /// Fills the slots of what is there already, and packs the rest into jobs.
+    fn jobs<'b>(&self, codes: &'b [SelectedCode]) -> Vec<Job<'b>> {
+        let mut open = Vec::new();
+        let mut total = 0;
+        for selected in codes {
+            let requests = self.requests_of(selected.name);
+            total += requests.len();
+            match selected.code.as_deref() {
+                Some(code) => open.extend(self.without_stored(code, requests)),
+                None => self.use_recorded(selected.name, &requests),
+            }
+        }
+        let seconds = |&request: &usize| self.total_seconds(request);
+        let work = open.iter().map(seconds).sum();
+        self.progress.planned(total, total - open.len(), work);
+        self.pack(&open, codes)
+    }
+
+    /// Jobs for the requests in `open`, the longest first.
+    fn pack<'b>(&self, open: &[usize], codes: &'b [SelectedCode]) -> Vec<Job<'b>> {
+        let mut jobs = Vec::new();
+        for selected in codes {
+            let Some(code) = selected.code.as_deref() else {
+                continue;
+            };
+            let own = |request: &usize| self.requests[*request].code == selected.name;
+            let own: Vec<usize> = open.iter().copied().filter(own).collect();
+            let calls = match code.batching() {
+                Batching::OneCallACase => own.len(),
+                Batching::FewCalls => self.settings.threads.div_ceil(codes.len()),
+                Batching::OneCallACore => self.settings.threads,
+            };
+            let hands = self.deal(own, calls).into_iter();
+            jobs.extend(hands.map(|requests| Job { code, requests }));
+        }
+        jobs.sort_by(|left, right| self.seconds(right).total_cmp(&self.seconds(left)));
+        jobs
+    }
+
+    /// Deals `requests` out to at most so many calls, the longest first, so that all calls take about as long.
+    fn deal(&self, mut requests: Vec<usize>, calls: usize) -> Vec<Vec<usize>> {
+        requests.sort_by_key(|&request| std::cmp::Reverse(self.case(request).total_steps()));
+        let calls = calls.min(requests.len());
+        let hand = |call| requests.iter().copied().skip(call).step_by(calls).collect();
+        (0..calls).map(hand).collect()
+    }
+
+    fn requests_of(&self, code: Code) -> Vec<usize> {
+        let all = self.requests.iter().enumerate();
+        let own = all.filter(|(_, request)| request.code == code);
+        own.map(|(index, _)| index).collect()
+    }
+
+    /// What an request takes, about.
+    fn total_seconds(&self, request: usize) -> f64 {
+        let request = &self.requests[request];
+        request.seconds(request.case.total_steps())
+    }
+
+    fn seconds(&self, job: &Job) -> f64 {
+        let requests = job.requests.iter();
+        requests.map(|&request| self.total_seconds(request)).sum()
+    }
+
+    fn use_recorded(&self, code: Code, requests: &[usize]) {
+        for &request in requests {
+            let run = self.settings.recorded.get(code, self.case(request));
+            self.fill(request, run.map_err(RunError::from));
+        }
+    }
+
+    /// Fills the slots of the requests whose runs are in the store, and returns the others.
+    fn without_stored(&self, code: &dyn InstalledCode, mut requests: Vec<usize>) -> Vec<usize> {
+        if !self.settings.fresh {
+            // What is damaged is looked at when nobody else is at it.
+            requests.retain(|&request| !self.fill_from_store(code, request, |_| ()));
+        }
+        requests
+    }
+
+    /// Fills the slot of `request` if its run is in the store; one that is damaged is `damaged`.
+    fn fill_from_store(
+        &self,
+        code: &dyn InstalledCode,
+        request: usize,
+        damaged: impl FnOnce(FileError),
+    ) -> bool {
+        let case = self.case(request);
+        let deck_hash = code.name().deck_hash(case);
+        match self.settings.store.get(code.identity(), case, &deck_hash) {
+            Ok(Some(run)) => {
+                self.fill(request, Ok(run));
+                return true;
+            }
+            Ok(None) => {}
+            Err(error) => damaged(error),
+        }
+        false
+    }
+
+    fn work_off(&self, jobs: &[Job]) {
+        let workers = self.settings.threads.min(jobs.len());
+        if workers == 0 {
+            return;
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
+        with_store_writer(
+            |finished_run| self.settle(finished_run),
+            |store_writer| match pool {
+                Ok(pool) => pool.in_place_scope_fifo(|scope| {
+                    for job in jobs {
+                        scope.spawn_fifo(move |_| self.carry_out(job, store_writer));
+                    }
+                }),
+                Err(error) => {
+                    self.progress
+                        .warn(&format!("everything runs on one core: {error}"));
+                    jobs.iter()
+                        .for_each(|job| self.carry_out(job, store_writer));
+                }
+            },
+        );
+    }
+
+    fn carry_out(&self, job: &Job, store_writer: &StoreWriter<'a>) {
+        if self.settings.interrupt.requested() {
+            return self.fail_all(job.code, &job.requests, || FailureKind::Interrupted);
+        }
+        let (claim, requests) = self.take_on(job);
+        if requests.is_empty() {
+            return;
+        }
+        let cases: Vec<Case> = requests
+            .iter()
+            .map(|&request| *self.case(request))
+            .collect();
+        let root = self.settings.store.work_directory();
+        let prefix = format!("{}-", job.code.name());
+        let directory = match tempfile::Builder::new().prefix(&prefix).tempdir_in(root) {
+            Ok(directory) => directory,
+            Err(error) => {
+                let message = error.to_string();
+                let start = || FailureKind::Start(std::io::Error::other(message.clone()));
+                return self.fail_all(job.code, &requests, start);
+            }
+        };
+        let checkpoints = self.settings.store.checkpoint_directory();
+        let context = RunContext {
+            directory: directory.path(),
+            checkpoints: Some(&checkpoints),
+            time_limit: self.settings.time_limit,
+            interrupt: self.settings.interrupt,
+            advanced: &|index, steps| self.requests[requests[index]].advance(steps, self.progress),
+        };
+        let mut evidence = false;
+        job.code.run(&cases, &context, &mut |index, result| {
+            let request = requests[index];
+            match result {
+                Ok(run) => self.hand_in(job.code, request, run, &claim, store_writer),
+                Err(failure) => {
+                    evidence |= failure.left_evidence();
+                    self.report(job.code.name(), request, Err(failure));
+                }
+            }
+        });
+        if evidence {
+            keep_evidence(directory);
+        }
+    }
+
+    /// Claims the requests of `job`, and returns those that are still to be made, by this program.
+    fn take_on(&self, job: &Job) -> (Arc<Claim<'a>>, Vec<usize>) {
+        let addresses = job
+            .requests
+            .iter()
+            .map(|&request| self.address(job, request));
+        let addresses: Vec<String> = addresses.collect();
+        let store = &self.settings.store;
+        let owners = store.claim(&addresses).unwrap_or_else(|error| {
+            let message = format!("other programs may make the same runs again: {error}");
+            self.progress.warn(&message);
+            vec![None; addresses.len()]
+        });
+        let mut claim = Claim {
+            store,
+            progress: self.progress,
+            addresses: Vec::new(),
+        };
+        let mut own = Vec::new();
+        for ((&request, address), owner) in job.requests.iter().zip(addresses).zip(owners) {
+            match owner {
+                // By a program that is still at others.
+                Some(_) if self.is_made(job.code, request, |_| ()) => {}
+                Some(owner) => self.wait_later(request, owner),
+                None => {
+                    let damaged = |error| self.put_aside(&address, &error);
+                    if !self.is_made(job.code, request, damaged) {
+                        own.push(request);
+                    }
+                    claim.addresses.push(address);
+                }
+            }
+        }
+        (Arc::new(claim), own)
+    }
+
+    fn address(&self, job: &Job, request: usize) -> String {
+        let case = self.case(request);
+        let deck_hash = job.code.name().deck_hash(case);
+        job.code.identity().address(case, &deck_hash)
+    }
+
+    /// Whether the run has been kept since the jobs were packed; its slot is then filled.
+    fn is_made(
+        &self,
+        code: &dyn InstalledCode,
+        request: usize,
+        damaged: impl FnOnce(FileError),
+    ) -> bool {
+        let made = !self.settings.fresh && self.fill_from_store(code, request, damaged);
+        if made {
+            self.advance(request);
+        }
+        made
+    }
+
+    /// Puts the damaged run under `address` aside, and tells why and where.
+    fn put_aside(&self, address: &str, error: &FileError) {
+        let place = match self.settings.store.put_aside(address) {
+            Ok(place) => format!("it is now {}", shown(&place)),
+            Err(error) => error.to_string(),
+        };
+        let message = format!("damaged run in the store, computed anew: {error}; {place}");
+        self.progress.warn(&message);
+    }
+
+    fn hand_in(
+        &self,
+        code: &dyn InstalledCode,
+        request: usize,
+        run: Run,
+        claim: &Arc<Claim<'a>>,
+        store_writer: &StoreWriter<'a>,
+    ) {
+        let finished_run = FinishedRun {
+            code: code.name(),
+            request,
+            run,
+            claim: Arc::clone(claim),
+        };
+        if let Err(refused) = store_writer.send(finished_run) {
+            keep(&refused.0);
+            self.settle(refused.0);
+        }
+    }
+
+    fn settle(&self, finished_run: FinishedRun) {
+        self.report(
+            finished_run.code,
+            finished_run.request,
+            Ok(finished_run.run),
+        );
+    }
+
+    fn report(&self, code: Code, request: usize, result: Result<Run, Failure>) {
+        self.advance(request);
+        self.progress
+            .finished(code, self.case(request), result.as_ref());
+        self.fill(request, result.map_err(RunError::from));
+    }
+
+    fn advance(&self, request: usize) {
+        self.requests[request].advance(self.case(request).total_steps(), self.progress);
+    }
+
+    fn fail_all(
+        &self,
+        code: &dyn InstalledCode,
+        requests: &[usize],
+        kind: impl Fn() -> FailureKind,
+    ) {
+        for &request in requests {
+            let failure = Failure {
+                code: code.name(),
+                subject: self.case(request).to_string(),
+                kind: kind(),
+                run_directory: None,
+                last_lines: Vec::new(),
+            };
+            self.report(code.name(), request, Err(failure));
+        }
+    }
+
+    fn wait_later(&self, request: usize, owner: LockOwner) {
+        let mut elsewhere = self.elsewhere();
+        elsewhere.push((request, owner));
+    }
+
+    fn elsewhere(&self) -> std::sync::MutexGuard<'_, Vec<(usize, LockOwner)>> {
+        self.elsewhere
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes what other programs finish, and makes what they leave.
+    fn wait_for_others(&self, codes: &[SelectedCode]) {
+        let mut announced = BTreeMap::new();
+        loop {
+            let waiting = std::mem::take(&mut *self.elsewhere());
+            if waiting.is_empty() {
+                return;
+            }
+            self.announce(&waiting, &mut announced);
+            let requests: Vec<usize> = waiting.into_iter().map(|(request, _)| request).collect();
+            if !self.settings.interrupt.requested() {
+                std::thread::sleep(POLL_INTERVAL);
+            }
+            self.work_off(&self.pack(&requests, codes));
+        }
+    }
+
+    /// Says once of every program how many runs are waited for.
+    fn announce(&self, waiting: &[(usize, LockOwner)], announced: &mut BTreeMap<String, usize>) {
+        let mut counts = BTreeMap::new();
+        for (_, owner) in waiting {
+            *counts.entry(owner.to_string()).or_insert(0) += 1;
+        }
+        for (owner, count) in counts {
+            if announced.insert(owner.clone(), count).is_none() {
+                self.progress
+                    .warn(&format!("waiting for {count} runs that {owner} is making"));
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Who wants which run: however many workloads want the same, it is one request.
+
+use super::{Progress, Workload};
+use crate::code::Code;
+use crate::model::Case;
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// One run: however many workloads want it, it is made once.
+pub(super) struct RunRequest<'a> {
+    pub(super) code: Code,
+    pub(super) case: &'a Case,
+    /// Steps of which [`Progress`] has been told.
+    told: AtomicU64,
+}
+
+impl<'a> RunRequest<'a> {
+    fn new(code: Code, case: &'a Case) -> Self {
+        Self {
+            code,
+            case,
+            told: AtomicU64::new(0),
+        }
+    }
+
+    /// What so many steps take, about.
+    pub(super) fn seconds(&self, steps: u64) -> f64 {
+        steps as f64 * self.code.seconds_per_step()
+    }
+
+    /// Tells `progress` that so many steps are done in all.
+    pub(super) fn advance(&self, steps: u64, progress: &dyn Progress) {
+        let told = self.told.fetch_max(steps, Ordering::Relaxed);
+        progress.advanced(self.seconds(steps.saturating_sub(told)));
+    }
+}
+
+/// Every run that `workloads` want, once, and which of them every case of every workload is.
+pub(super) fn requests<W: Workload>(workloads: &[W]) -> (Vec<RunRequest<'_>>, Vec<Vec<usize>>) {
+    let mut requests = Vec::new();
+    let mut known: HashMap<(Code, String), usize> = HashMap::new();
+    let wanted = workloads.iter().map(|workload| {
+        let code = workload.code();
+        let cases = workload.cases().iter().map(|case| {
+            let key = (code, case.content_hash());
+            *known.entry(key).or_insert_with(|| {
+                requests.push(RunRequest::new(code, case));
+                requests.len() - 1
+            })
+        });
+        cases.collect()
+    });
+    let wanted = wanted.collect();
+    (requests, wanted)
+}
+
+/// The results of the requests that every workload wanted; copies only where several wanted the same.
+pub(super) fn hand_out<R: Clone>(
+    mut results: Vec<Option<R>>,
+    wanted: Vec<Vec<usize>>,
+) -> Vec<Vec<R>> {
+    let mut uses = vec![0; results.len()];
+    for &request in wanted.iter().flatten() {
+        uses[request] += 1;
+    }
+    let mut result = |request: usize| {
+        uses[request] -= 1;
+        let result = match uses[request] {
+            0 => results[request].take(),
+            _ => results[request].clone(),
+        };
+        result.expect("nobody takes a result that somebody else still wants")
+    };
+    let mut of_workload = |wanted: Vec<usize>| wanted.into_iter().map(&mut result).collect();
+    wanted.into_iter().map(&mut of_workload).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ContactConvention, Preparation, Protocol, Sampling, Stack};
+    use crate::runs::Load;
+
+    #[test]
+    fn what_two_workloads_want_both_get() {
+        let results = ["a", "b", "c"].map(|name| Some(name.to_owned()));
+        let handed = hand_out(results.to_vec(), vec![vec![0, 1], vec![], vec![1, 2, 1]]);
+        assert_eq!(handed, [vec!["a", "b"], vec![], vec!["b", "c", "b"]]);
+    }
+
+    fn case(friction: f64, wall_speed: f64) -> Case {
+        Case {
+            stack: Stack::paper(friction, 1e2),
+            convention: ContactConvention::PAPER,
+            protocol: Protocol {
+                preparation: Preparation::GravityRamp {
+                    ramp_time: 100.0,
+                    rest_time: 100.0,
+                },
+                time_step: 0.1,
+                wall_speed,
+                wall_travel: 0.01,
+                sampling: Sampling {
+                    coarse_interval: 1.0,
+                    fine_from_travel: 0.01,
+                    fine_interval: 1.0,
+                },
+                shortcuts: None,
+            },
+        }
+    }
+
+    #[test]
+    fn a_run_that_several_workloads_want_is_made_once() {
+        let cases = |friction: f64| [2e-4, 1e-4].map(|wall_speed| case(friction, wall_speed));
+        let (some, others) = (cases(0.2), cases(0.3));
+        let load = |code, cases: [&[Case]; 2]| Load {
+            code,
+            cases: cases.concat(),
+        };
+        let workloads = [
+            load(Code::Native, [&some, &some[1..]]),
+            load(Code::Native, [&others, &some]),
+            load(Code::Yade, [&some, &[]]),
+        ];
+        let (requests, wanted) = requests(&workloads);
+        assert_eq!(requests.len(), some.len() + others.len() + some.len());
+        for (workload, wanted) in workloads.iter().zip(&wanted) {
+            assert_eq!(wanted.len(), workload.cases.len());
+            for (case, &request) in workload.cases.iter().zip(wanted) {
+                assert_eq!(requests[request].code, workload.code);
+                assert_eq!(requests[request].case, case);
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The lock under which a store's sessions are looked at and changed. It is held for less than a millisecond, and
+//! the system frees it when its owner dies.
+
+use super::{LockOwner, StoreError};
+use crate::files::FileError;
+use std::fs::{File, TryLockError};
+use std::io::{Seek, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Somebody who holds it longer is not working on it, but stopped.
+const PATIENCE: Duration = Duration::from_secs(20);
+const POLL_INTERVAL: Duration = Duration::from_millis(2);
+
+/// The lock, held as long as this lives.
+pub(super) struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    /// Waits for the lock in the file at `path`, and writes there who has it.
+    pub(super) fn acquire(path: &Path, owner: &LockOwner) -> Result<Self, StoreError> {
+        Self::acquire_within(PATIENCE, path, owner)
+    }
+
+    fn acquire_within(
+        patience: Duration,
+        path: &Path,
+        owner: &LockOwner,
+    ) -> Result<Self, StoreError> {
+        let mut options = File::options();
+        let mut file = options
+            .create(true)
+            .truncate(false)
+            .read(true)
+            .write(true)
+            .open(path)
+            .map_err(FileError::writing(path))?;
+        let start = Instant::now();
+        loop {
+            match file.try_lock() {
+                Ok(()) => break,
+                Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
+                    std::thread::sleep(POLL_INTERVAL);
+                }
+                Err(TryLockError::WouldBlock) => return Err(busy(path)),
+                Err(TryLockError::Error(error)) => {
+                    return Err(FileError::writing(path)(error).into());
+                }
+            }
+        }
+        let text = owner.to_string();
+        // For those who wait in vain; the lock holds without it.
+        let _ = file
+            .set_len(0)
+            .and_then(|()| file.rewind())
+            .and_then(|()| file.write_all(text.as_bytes()));
+        Ok(Self { _file: file })
+    }
+}
+
+fn busy(path: &Path) -> StoreError {
+    let owner = std::fs::read(path).unwrap_or_default();
+    StoreError::Busy {
+        path: path.to_owned(),
+        owner: String::from_utf8_lossy(&owner).into_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lock_names_its_holder_and_is_free_when_dropped() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("lock");
+        let owner = LockOwner::this_program();
+        let held = Lock::acquire(&path, &owner).unwrap();
+        let refused = Lock::acquire_within(Duration::ZERO, &path, &owner);
+        let message = refused.err().unwrap().to_string();
+        assert!(message.contains(&format!("process {}", std::process::id())));
+        drop(held);
+        Lock::acquire_within(Duration::ZERO, &path, &owner).unwrap();
+    }
+}

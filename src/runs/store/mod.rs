@@ -1,0 +1,207 @@
+//! The store of finished runs, addressed by case, code, version, program and all it was given.
+//!
+//! Several programs may use one store at a time: each claims the runs that it is making, and takes those that
+//! others have made. What is damaged is put aside, never used and never deleted.
+
+mod format;
+mod lock;
+mod owner;
+mod session;
+
+pub use owner::LockOwner;
+
+use crate::code::{Identity, Provenance, Run};
+use crate::files::{FileError, seal, unseal, write_atomically_via};
+use crate::model::{Case, shown};
+use crate::runs::{Archive, ProbeRecord};
+use session::Session;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why a store cannot be used.
+#[derive(Debug, Error)]
+pub enum StoreError {
+    /// A file or directory could not be read or written.
+    #[error(transparent)]
+    Files(#[from] FileError),
+    /// It was made by a tristack that keeps its runs in another way.
+    #[error(
+        "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
+        shown(path)
+    )]
+    OtherFormat {
+        /// The file that says so.
+        path: PathBuf,
+        /// What it says.
+        found: String,
+        /// What it should say.
+        accepted: &'static str,
+    },
+    /// Somebody holds its lock and does not let go.
+    #[error(
+        "{}: locked by {owner}, which does not go on; continue or end it",
+        shown(path)
+    )]
+    Busy {
+        /// The lock.
+        path: PathBuf,
+        /// Who holds it.
+        owner: String,
+    },
+}
+
+/// Finished runs of one user.
+#[derive(Debug, Clone)]
+pub struct Store {
+    archive: Archive,
+    session: Arc<Session>,
+}
+
+impl Store {
+    /// A store at `root`, which is created.
+    ///
+    /// # Errors
+    /// If it cannot be written to, or has another format.
+    pub fn open(root: &Path) -> Result<Self, StoreError> {
+        format::check(root)?;
+        let session = Session::begin(root)?;
+        Ok(Self {
+            archive: Archive::new(root).with_drafts_in(session.work()),
+            session: Arc::new(session),
+        })
+    }
+
+    /// The finished run of `case` by the code with `identity`, if there is one.
+    ///
+    /// # Errors
+    /// If there is one, but damaged.
+    pub fn get(
+        &self,
+        identity: &Identity,
+        case: &Case,
+        deck_hash: &str,
+    ) -> Result<Option<Run>, FileError> {
+        let address = identity.address(case, deck_hash);
+        let run = self.archive.load(&name(&address))?;
+        let run = run.filter(|run| {
+            let provenance = &run.provenance;
+            let same = provenance.identity == *identity && provenance.deck_hash == deck_hash;
+            same && run.case == *case
+        });
+        if run.is_some() {
+            self.forget_checkpoint(&address);
+        }
+        Ok(run)
+    }
+
+    /// Keeps a finished run. What was kept of it while it was under way is no longer needed.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn put(&self, run: &Run) -> Result<(), FileError> {
+        let Provenance {
+            identity,
+            deck_hash,
+            ..
+        } = &run.provenance;
+        let address = identity.address(&run.case, deck_hash);
+        self.archive.save(&name(&address), run)?;
+        self.forget_checkpoint(&address);
+        Ok(())
+    }
+
+    fn forget_checkpoint(&self, address: &str) {
+        let checkpoint = self.checkpoint_directory().join(format!("{address}.json"));
+        // Most runs have none.
+        let _ = std::fs::remove_file(checkpoint);
+    }
+
+    /// Puts the damaged run under `address` aside, and says where it is now.
+    ///
+    /// # Errors
+    /// If it cannot be moved.
+    pub fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+        let aside = self.aside(address);
+        self.archive.move_away(&name(address), &aside)?;
+        Ok(aside)
+    }
+
+    /// The kept probe with the given address, if there is one.
+    ///
+    /// # Errors
+    /// If there is one, but damaged.
+    pub fn probe(&self, address: &str) -> Result<Option<ProbeRecord>, FileError> {
+        let path = self.probe_path(address);
+        match std::fs::read(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(FileError::reading(&path)(error)),
+            Ok(sealed) => ProbeRecord::parse(unseal(&path, &sealed)?, &path).map(Some),
+        }
+    }
+
+    /// Keeps a probe.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
+        let path = self.probe_path(address);
+        let sealed = seal(record.to_json().as_bytes());
+        write_atomically_via(self.session.work(), &path, &sealed)
+    }
+
+    /// Puts the damaged probe under `address` aside, and says where it is now.
+    ///
+    /// # Errors
+    /// If it cannot be moved.
+    pub fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+        let aside = self.aside(address);
+        self.archive
+            .move_away(&self.probe_path(address), &aside)
+            .map(|()| aside)
+    }
+
+    /// Says of each of the runs under `addresses` who else is making it. The others are now this program's to make,
+    /// until it releases them or ends.
+    ///
+    /// # Errors
+    /// If nobody can know.
+    pub fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
+        self.session.claim(addresses)
+    }
+
+    /// This program no longer makes the runs under `addresses`.
+    ///
+    /// # Errors
+    /// If others cannot be told; they are when this program ends.
+    pub fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
+        self.session.release(addresses)
+    }
+
+    /// Where native runs are kept that are under way.
+    pub fn checkpoint_directory(&self) -> PathBuf {
+        self.archive.root().join("checkpoints")
+    }
+
+    /// Where run directories are made; those of failed runs stay.
+    pub fn work_directory(&self) -> &Path {
+        self.session.work()
+    }
+
+    fn probe_path(&self, address: &str) -> PathBuf {
+        let name = format!("{address}.json");
+        self.archive.root().join("probes").join(name)
+    }
+
+    /// A place that is free.
+    fn aside(&self, address: &str) -> PathBuf {
+        let directory = self.archive.root().join("quarantine");
+        let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
+        let free = places.find(|place| !place.exists());
+        free.expect("numbers do not end before places do")
+    }
+}
+
+fn name(address: &str) -> PathBuf {
+    Path::new("runs").join(&address[..2]).join(&address[2..])
+}

@@ -1,0 +1,273 @@
+//! Programs that use a store at the same time: who is there, and what each of them is working on.
+//!
+//! A session is a file that its program keeps locked and a directory for all that is not finished. The system frees
+//! the lock when the program ends, however it ends: an unlocked file tells of a dead program, whose leftovers the
+//! next one removes.
+
+use super::lock::Lock;
+use super::{LockOwner, StoreError};
+use crate::files::FileError;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeSet, HashMap};
+use std::fs::{self, File};
+use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a session's file says.
+#[derive(Debug, Serialize, Deserialize)]
+struct Claims {
+    owner: LockOwner,
+    /// Addresses of the runs that it is making.
+    addresses: BTreeSet<String>,
+}
+
+/// This program in a store.
+#[derive(Debug)]
+pub(super) struct Session {
+    root: PathBuf,
+    path: PathBuf,
+    work: PathBuf,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    file: File,
+    claims: Claims,
+}
+
+impl Session {
+    /// Begins a session in the store at `root`, after the leftovers of dead ones are removed.
+    pub(super) fn begin(root: &Path) -> Result<Self, StoreError> {
+        let (sessions, all_work) = (root.join("sessions"), root.join("work"));
+        for directory in [&sessions, &all_work] {
+            fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
+        }
+        let owner = LockOwner::this_program();
+        let _lock = Lock::acquire(&root.join("lock"), &owner)?;
+        remove_dead(root);
+        let writing = || FileError::writing(&sessions);
+        let draft = tempfile::Builder::new()
+            .prefix("")
+            .suffix(".json")
+            .tempfile_in(&sessions)
+            .map_err(writing())?;
+        draft.as_file().lock().map_err(writing())?;
+        let (file, path) = draft.keep().map_err(|error| writing()(error.error))?;
+        let work = work_of(root, &path);
+        let session = Self {
+            root: root.to_owned(),
+            path,
+            work,
+            state: Mutex::new(State {
+                file,
+                claims: Claims {
+                    owner,
+                    addresses: BTreeSet::new(),
+                },
+            }),
+        };
+        session.state().write(&session.path)?;
+        fs::create_dir(&session.work).map_err(FileError::writing(&session.work))?;
+        Ok(session)
+    }
+
+    /// Where this session keeps what is not finished.
+    pub(super) fn work(&self) -> &Path {
+        &self.work
+    }
+
+    /// Says of each of `addresses` who else is working on it; the others are claimed for this session.
+    pub(super) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
+        let mut state = self.state();
+        let _lock = self.lock(&state)?;
+        let others = self.others();
+        let owners: Vec<Option<LockOwner>> = addresses
+            .iter()
+            .map(|address| others.get(address).cloned())
+            .collect();
+        let free = addresses.iter().zip(&owners);
+        let free = free.filter(|(_, owner)| owner.is_none());
+        let free: Vec<String> = free.map(|(address, _)| address.clone()).collect();
+        if !free.is_empty() {
+            state.claims.addresses.extend(free);
+            state.write(&self.path)?;
+        }
+        Ok(owners)
+    }
+
+    /// Gives claims back.
+    pub(super) fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
+        let mut state = self.state();
+        let _lock = self.lock(&state)?;
+        for address in addresses {
+            state.claims.addresses.remove(address);
+        }
+        state.write(&self.path)
+    }
+
+    fn lock(&self, state: &State) -> Result<Lock, StoreError> {
+        Lock::acquire(&self.root.join("lock"), &state.claims.owner)
+    }
+
+    /// What other living sessions are working on, and who they are.
+    fn others(&self) -> HashMap<String, LockOwner> {
+        remove_dead(&self.root);
+        let mut others = HashMap::new();
+        for path in session_files(&self.root) {
+            if path == self.path || is_unlocked(&path) {
+                continue;
+            }
+            let Some(Claims { owner, addresses }) = claims(&path) else {
+                continue;
+            };
+            others.extend(
+                addresses
+                    .into_iter()
+                    .map(|address| (address, owner.clone())),
+            );
+        }
+        others
+    }
+
+    /// A set of addresses is whole, whoever held it and died.
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    fn write(&mut self, path: &Path) -> Result<(), StoreError> {
+        let text = serde_json::to_vec(&self.claims).expect("plain data has a JSON form");
+        let file = &mut self.file;
+        let written = file
+            .set_len(0)
+            .and_then(|()| file.rewind())
+            .and_then(|()| file.write_all(&text));
+        Ok(written.map_err(FileError::writing(path))?)
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        // Stays if a failed run has left something to look into.
+        let _ = fs::remove_dir(&self.work);
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+fn session_files(root: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root.join("sessions")).into_iter().flatten();
+    entries.flatten().map(|entry| entry.path()).collect()
+}
+
+fn work_of(root: &Path, session: &Path) -> PathBuf {
+    root.join("work")
+        .join(session.file_stem().unwrap_or_default())
+}
+
+fn claims(session: &Path) -> Option<Claims> {
+    let text = fs::read(session).ok()?;
+    serde_json::from_slice(&text).ok()
+}
+
+/// Whether nobody on this machine holds it.
+fn is_unlocked(session: &Path) -> bool {
+    File::open(session).is_ok_and(|file| file.try_lock_shared().is_ok())
+}
+
+/// Removes what dead sessions have left. Has to be called under the lock, so that no session is between its
+/// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
+/// cannot be seen from here.
+fn remove_dead(root: &Path) {
+    let here = LockOwner::this_program().host;
+    for session in session_files(root) {
+        let foreign = || claims(&session).is_some_and(|claims| claims.owner.host != here);
+        if is_unlocked(&session) && !foreign() {
+            // Whoever cannot remove it leaves it to the next one, and the session with it.
+            let removed = match fs::remove_dir_all(work_of(root, &session)) {
+                Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+                Ok(()) => true,
+            };
+            if removed {
+                let _ = fs::remove_file(&session);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn addresses(names: &[&str]) -> Vec<String> {
+        names.iter().map(|&name| name.to_owned()).collect()
+    }
+
+    #[test]
+    fn what_one_session_works_on_no_other_begins() {
+        let root = tempfile::tempdir().unwrap();
+        let [one, other] = [(); 2].map(|()| Session::begin(root.path()).unwrap());
+        let [ab, bc] = [addresses(&["a", "b"]), addresses(&["b", "c"])];
+        assert_eq!(one.claim(&ab).unwrap(), [None, None]);
+        let owners = other.claim(&bc).unwrap();
+        let owner = owners[0].as_ref().expect("b is taken");
+        assert_eq!(owner.process, std::process::id());
+        assert_eq!(owners[1], None);
+        one.release(&ab).unwrap();
+        assert_eq!(other.claim(&bc).unwrap(), [None, None]);
+        assert!(one.claim(&addresses(&["c"])).unwrap()[0].is_some());
+        drop(other);
+        assert_eq!(one.claim(&bc).unwrap(), [None, None]);
+    }
+
+    #[test]
+    fn a_dead_session_holds_nothing_and_its_leftovers_go() {
+        let root = tempfile::tempdir().unwrap();
+        let dead = root.path().join("sessions/dead.json");
+        let left = root.path().join("work/dead/yade-1");
+        let evidence = root.path().join("work/ended/yade-2");
+        for directory in [&left, &evidence] {
+            fs::create_dir_all(directory).unwrap();
+        }
+        fs::create_dir_all(dead.parent().unwrap()).unwrap();
+        let claims = Claims {
+            owner: LockOwner::this_program(),
+            addresses: addresses(&["a"]).into_iter().collect(),
+        };
+        fs::write(&dead, serde_json::to_vec(&claims).unwrap()).unwrap();
+        let session = Session::begin(root.path()).unwrap();
+        assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
+        assert!(!dead.exists() && !left.exists());
+        assert!(evidence.exists(), "it belongs to a session that ended well");
+    }
+
+    #[test]
+    fn a_session_of_another_machine_holds_nothing_without_a_lock_but_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("sessions/elsewhere.json");
+        let work = root.path().join("work/elsewhere");
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::create_dir_all(&work).unwrap();
+        let mut claims = Claims {
+            owner: LockOwner::this_program(),
+            addresses: addresses(&["a"]).into_iter().collect(),
+        };
+        claims.owner.host += "-not";
+        fs::write(&path, serde_json::to_vec(&claims).unwrap()).unwrap();
+        let session = Session::begin(root.path()).unwrap();
+        assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
+        assert!(path.exists() && work.exists());
+    }
+
+    #[test]
+    fn a_session_that_ends_leaves_nothing() {
+        let root = tempfile::tempdir().unwrap();
+        drop(Session::begin(root.path()).unwrap());
+        for directory in ["sessions", "work"] {
+            let entries = fs::read_dir(root.path().join(directory)).unwrap();
+            assert_eq!(entries.count(), 0, "{directory}");
+        }
+    }
+}

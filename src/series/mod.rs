@@ -1,0 +1,17 @@
+//! A time series with named columns, and the yield force read off it.
+
+mod drop;
+mod estimate;
+mod frame;
+mod motion;
+mod polynomial;
+mod pyramid_run;
+mod samples;
+
+pub use drop::DropWatch;
+pub use estimate::{Estimate, YieldEstimates};
+pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
+pub use motion::{BodyRow, Motion, MotionRow};
+pub use polynomial::{value_at_zero, weights_at_zero};
+pub use pyramid_run::PyramidRun;
+pub use samples::{Sample, Series, SeriesError};

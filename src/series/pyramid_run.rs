@@ -1,0 +1,57 @@
+//! What the run of a pyramid delivers.
+
+use super::SeriesError;
+
+/// Where the cylinders of a pyramid are in the end, and how long the timed steps took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PyramidRun {
+    centres: Vec<[f64; 2]>,
+    timed_seconds: f64,
+}
+
+impl PyramidRun {
+    /// A run at the end of which the cylinders are at `centres` (in r, in the order of
+    /// [`Pyramid::centres`](crate::model::Pyramid::centres)), and the last steps of which took `timed_seconds`
+    /// of wall time.
+    ///
+    /// # Errors
+    /// If there are not `count` cylinders, something is not finite, or the time is negative.
+    pub fn new(
+        centres: Vec<[f64; 2]>,
+        timed_seconds: f64,
+        count: usize,
+    ) -> Result<Self, SeriesError> {
+        if centres.len() != count {
+            return Err(SeriesError::Truncated {
+                found: centres.len(),
+                expected: count,
+            });
+        }
+        let finite = |centre: &[f64; 2]| centre.iter().all(|coordinate| coordinate.is_finite());
+        if let Some(index) = centres.iter().position(|centre| !finite(centre)) {
+            return Err(SeriesError::Garbled {
+                row: index + 1,
+                message: format!("the centre is {:?}", centres[index]),
+            });
+        }
+        if !(timed_seconds.is_finite() && timed_seconds >= 0.0) {
+            return Err(SeriesError::Absent {
+                message: format!("the timed steps took {timed_seconds} seconds"),
+            });
+        }
+        Ok(Self {
+            centres,
+            timed_seconds,
+        })
+    }
+
+    /// Centres of the cylinders, in r.
+    pub fn centres(&self) -> &[[f64; 2]] {
+        &self.centres
+    }
+
+    /// Wall time of the timed steps, without anything before them, in seconds.
+    pub fn timed_seconds(&self) -> f64 {
+        self.timed_seconds
+    }
+}

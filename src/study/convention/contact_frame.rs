@@ -1,0 +1,96 @@
+//! A motion as the contact sees it: overlap, relative velocities, force components.
+
+use super::clock::Clock;
+use super::experiments::ContactKind;
+use crate::model::ContactTest;
+use crate::series::{Motion, MotionRow};
+
+/// A contact at one step. Velocities belong to the half step before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactRow {
+    /// Unit normal, towards cylinder 1.
+    pub normal: [f64; 2],
+    /// Overlap δ.
+    pub overlap: f64,
+    /// Normal velocity, positive when separating.
+    pub separation_speed: f64,
+    /// Tangential velocity of the centres.
+    pub tangential_speed: f64,
+    /// Sum of the angular velocities.
+    pub spin: f64,
+    /// Normal force.
+    pub normal_force: f64,
+    /// Tangential force on cylinder 1.
+    pub tangential_force: f64,
+    /// Torque on cylinder 1.
+    pub torque: f64,
+    /// Torque on cylinder 2.
+    pub other_torque: f64,
+    /// Reported force of the top wall.
+    pub wall_force: f64,
+    /// Time step.
+    pub time_step: f64,
+    /// Friction coefficient that was asked for.
+    pub friction: f64,
+}
+
+/// The rows of `motion` from step 1 on, as long as the contact is closed.
+pub fn contact_rows(
+    kind: ContactKind,
+    test: &ContactTest,
+    motion: &Motion,
+    clock: &Clock,
+) -> Vec<ContactRow> {
+    let rows = motion.rows()[1..].iter();
+    rows.map(|row| contact_row(kind, test, row, clock))
+        .take_while(|row| row.overlap > 0.0)
+        .collect()
+}
+
+fn contact_row(
+    kind: ContactKind,
+    test: &ContactTest,
+    row: &MotionRow,
+    clock: &Clock,
+) -> ContactRow {
+    let dt = test.time_step;
+    let [one, two] = row.bodies();
+    let [(velocity, spin), (other_velocity, other_spin)] =
+        [&one, &two].map(|body| clock.half_step_earlier(body, dt));
+    let (normal, overlap, relative, spin) = match kind {
+        ContactKind::Floor => ([0.0, 1.0], 1.0 - one.position[1], velocity, spin),
+        ContactKind::Wall => {
+            let height = test.wall_height_at(row.step);
+            let relative = [velocity[0], velocity[1] + test.wall_speed];
+            let overlap = 1.0 - (height - one.position[1]);
+            ([0.0, -1.0], overlap, relative, spin)
+        }
+        ContactKind::Pair => {
+            let apart = [0, 1].map(|axis| one.position[axis] - two.position[axis]);
+            let distance = apart[0].hypot(apart[1]);
+            let relative = [0, 1].map(|axis| velocity[axis] - other_velocity[axis]);
+            let normal = apart.map(|component| component / distance);
+            (normal, 2.0 - distance, relative, spin + other_spin)
+        }
+    };
+    let along = |vector: [f64; 2]| normal[0] * vector[0] + normal[1] * vector[1];
+    let across = |vector: [f64; 2]| normal[0] * vector[1] - normal[1] * vector[0];
+    ContactRow {
+        normal,
+        overlap,
+        separation_speed: along(relative),
+        tangential_speed: across(relative),
+        spin,
+        normal_force: along(one.force),
+        tangential_force: across(one.force),
+        torque: one.torque,
+        other_torque: two.torque,
+        wall_force: row.wall_force,
+        time_step: dt,
+        friction: match kind {
+            ContactKind::Pair => test.cylinder_friction,
+            ContactKind::Floor => test.floor_friction,
+            ContactKind::Wall => 0.0,
+        },
+    }
+}

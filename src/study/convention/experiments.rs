@@ -1,0 +1,246 @@
+//! The micro-tests: how two cylinders are launched so that one contact shows its law.
+
+use crate::model::{ContactConvention, ContactTest, InitialMotion};
+
+/// Which contact is tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactKind {
+    /// Between the two cylinders.
+    Pair,
+    /// Between cylinder 1 and the floor.
+    Floor,
+    /// Between cylinder 1 and the top wall.
+    Wall,
+}
+
+impl ContactKind {
+    /// The word that begins the names of its properties.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Pair => "pair",
+            Self::Floor => "floor",
+            Self::Wall => "wall",
+        }
+    }
+}
+
+/// Weak damping, so that the normal force of a collision rises for a while.
+const RESTITUTION: f64 = 0.9;
+/// A tangential spring that is stiffer than the normal one, so that it reaches the limit while that rises.
+const STIFFNESS_RATIO: f64 = 0.5;
+/// High enough that a contact in gentle motion sticks.
+const ROUGH: f64 = 0.9;
+/// Low enough that a contact in fast motion slides, and sticks again when it has slowed down.
+const SLIPPERY: f64 = 0.2;
+/// Low enough that the limit is reached within a few steps by a motion that hardly changes the geometry.
+const SLEEK: f64 = 5e-4;
+/// Direction of the line between the cylinders of a pair: askew, so that no component is special.
+const PAIR_ANGLE: f64 = 0.4;
+const PAIR_CENTRE: [f64; 2] = [0.0, 2.3];
+const WALL_HEIGHT: f64 = 4.5;
+const BESIDE: InitialMotion = InitialMotion {
+    x: 6.0,
+    y: 2.0,
+    vx: 0.0,
+    vy: 0.0,
+    spin: 0.0,
+};
+
+/// Motion of the first body relative to the second in the frame of the contact, and spins of both.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Start {
+    /// Overlap.
+    pub overlap: f64,
+    /// Velocity along the normal, positive when separating.
+    pub separation_speed: f64,
+    /// Velocity along the tangent.
+    pub tangential_speed: f64,
+    /// Angular velocity of the first body; the second one of a pair has two thirds of it.
+    pub spin: f64,
+    /// Angular velocity at which a pair turns as a whole.
+    pub turn: f64,
+}
+
+/// Friction, time step and number of steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Run {
+    friction: f64,
+    time_step: f64,
+    steps: u64,
+}
+
+/// Gentle motions at three overlaps, in which the contact sticks.
+pub fn sticking(kind: ContactKind, convention: &ContactConvention) -> [ContactTest; 3] {
+    let run = Run {
+        friction: ROUGH,
+        time_step: 0.05,
+        steps: 40,
+    };
+    GENTLE.map(|start| test(kind, convention, start, run))
+}
+
+const GENTLE: [Start; 3] = [
+    Start {
+        overlap: 0.02,
+        separation_speed: -0.03,
+        tangential_speed: 0.002,
+        spin: 0.0,
+        turn: 0.0,
+    },
+    Start {
+        overlap: 0.1,
+        separation_speed: -0.05,
+        tangential_speed: 0.0,
+        spin: 0.004,
+        turn: 0.0,
+    },
+    Start {
+        overlap: 0.3,
+        separation_speed: -0.1,
+        tangential_speed: 0.008,
+        spin: -0.006,
+        turn: 0.0,
+    },
+];
+
+/// The same motions with half the time step, from which the moments that forces belong to follow.
+pub fn refined(kind: ContactKind, convention: &ContactConvention) -> [ContactTest; 3] {
+    let run = Run {
+        friction: ROUGH,
+        time_step: 0.025,
+        steps: 80,
+    };
+    GENTLE.map(|start| test(kind, convention, start, run))
+}
+
+/// A fast motion, in which the contact slides while the normal force changes, and then sticks again.
+pub fn sliding(kind: ContactKind, convention: &ContactConvention) -> ContactTest {
+    let start = Start {
+        overlap: 0.08,
+        separation_speed: -0.3,
+        tangential_speed: 0.08,
+        spin: -0.03,
+        turn: 0.0,
+    };
+    let run = Run {
+        friction: SLIPPERY,
+        time_step: 0.02,
+        steps: 120,
+    };
+    test(kind, convention, start, run)
+}
+
+/// A separation so fast that the damping exceeds the spring.
+pub fn separating(kind: ContactKind, convention: &ContactConvention) -> ContactTest {
+    let start = Start {
+        overlap: 0.03,
+        separation_speed: 1.0,
+        ..Start::default()
+    };
+    let run = Run {
+        friction: ROUGH,
+        time_step: 0.01,
+        steps: 4,
+    };
+    test(kind, convention, start, run)
+}
+
+/// A spin that brings the contact to Coulomb's limit within a few steps, if it is fast enough.
+pub fn brink(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
+    let start = Start {
+        overlap: 0.2,
+        spin,
+        ..Start::default()
+    };
+    let run = Run {
+        friction: SLEEK,
+        time_step: 0.01,
+        steps: 8,
+    };
+    test(kind, convention, start, run)
+}
+
+/// A stretched spring between two cylinders that turn about each other.
+pub fn turning(convention: &ContactConvention) -> ContactTest {
+    let start = Start {
+        overlap: 0.3,
+        separation_speed: -0.2,
+        tangential_speed: 0.1,
+        turn: 0.1,
+        ..Start::default()
+    };
+    let run = Run {
+        friction: ROUGH,
+        time_step: 0.005,
+        steps: 400,
+    };
+    test(ContactKind::Pair, convention, start, run)
+}
+
+fn test(kind: ContactKind, convention: &ContactConvention, start: Start, run: Run) -> ContactTest {
+    let initial_motions = match kind {
+        ContactKind::Pair => pair(start),
+        ContactKind::Floor => [
+            single([0.0, 1.0], [0.0, 1.0 - start.overlap], start),
+            BESIDE,
+        ],
+        ContactKind::Wall => {
+            let height = WALL_HEIGHT - 1.0 + start.overlap;
+            [single([0.0, -1.0], [0.0, height], start), BESIDE]
+        }
+    };
+    ContactTest {
+        convention: ContactConvention {
+            restitution: RESTITUTION,
+            ..*convention
+        },
+        stiffness_ratio: STIFFNESS_RATIO,
+        floor_friction: run.friction,
+        cylinder_friction: run.friction,
+        time_step: run.time_step,
+        steps: run.steps,
+        wall_height: WALL_HEIGHT,
+        wall_speed: if kind == ContactKind::Wall { 0.02 } else { 0.0 },
+        initial_motions,
+    }
+}
+
+/// A cylinder pressed against a wall with the given normal.
+fn single(normal: [f64; 2], [x, y]: [f64; 2], start: Start) -> InitialMotion {
+    let [vx, vy] = in_the_plane(normal, start.separation_speed, start.tangential_speed);
+    InitialMotion {
+        x,
+        y,
+        vx,
+        vy,
+        spin: start.spin,
+    }
+}
+
+/// Two cylinders pressed against each other.
+fn pair(start: Start) -> [InitialMotion; 2] {
+    let normal = [libm::sin(PAIR_ANGLE), libm::cos(PAIR_ANGLE)];
+    let half_distance = 0.5 * (2.0 - start.overlap);
+    let orbital = 2.0 * half_distance * start.turn;
+    let relative = in_the_plane(
+        normal,
+        start.separation_speed,
+        start.tangential_speed + orbital,
+    );
+    let body = |sign: f64, spin: f64| InitialMotion {
+        x: PAIR_CENTRE[0] + sign * half_distance * normal[0],
+        y: PAIR_CENTRE[1] + sign * half_distance * normal[1],
+        vx: 0.5 * sign * relative[0],
+        vy: 0.5 * sign * relative[1],
+        spin: spin + start.turn,
+    };
+    [body(1.0, start.spin), body(-1.0, start.spin / 1.5)]
+}
+
+/// The vector with the given components along the normal and along t = (−n_y, n_x).
+fn in_the_plane(normal: [f64; 2], along: f64, across: f64) -> [f64; 2] {
+    [
+        along * normal[0] - across * normal[1],
+        along * normal[1] + across * normal[0],
+    ]
+}

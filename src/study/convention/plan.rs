@@ -1,0 +1,175 @@
+//! The micro-tests of one kind, and the laws read off their motions.
+
+use super::clock::Clock;
+use super::contact_frame::{ContactRow, contact_rows};
+use super::experiments::{self, ContactKind};
+use super::normal::{NormalLaw, pull};
+use super::properties::{Property, normal_properties, sliding_properties, tangential_properties};
+use super::regression::{Measured, fit};
+use super::sliding::{BRINK, SlidingLaw, is_at_limit, largest_operand};
+use super::tangential::TangentialLaw;
+use crate::model::{ContactConvention, ContactTest};
+use crate::series::Motion;
+
+/// Spin of the motion from which those to the brink of sliding are scaled.
+const GENTLE_SPIN: f64 = 1e-4;
+
+/// Shares of the damping in the Coulomb operand that are tried.
+const SHARES: [f64; 2] = [0.0, 1.0];
+
+/// A micro-test and what came out of it.
+pub type Outcome<'a> = (&'a ContactTest, &'a Motion);
+
+/// The micro-tests of one kind.
+pub struct Plan {
+    kind: ContactKind,
+    convention: ContactConvention,
+    tests: Vec<ContactTest>,
+}
+
+/// Places of the tests in a plan.
+const STICKING: std::ops::Range<usize> = 0..3;
+const REFINED: std::ops::Range<usize> = 3..6;
+const SEPARATING: usize = 6;
+const SLIDING: usize = 7;
+const GENTLE: usize = 8;
+
+impl Plan {
+    /// The tests of `kind` for a code with the given convention.
+    pub fn new(kind: ContactKind, convention: &ContactConvention) -> Self {
+        let mut tests = Vec::new();
+        tests.extend(experiments::sticking(kind, convention));
+        tests.extend(experiments::refined(kind, convention));
+        tests.push(experiments::separating(kind, convention));
+        if kind != ContactKind::Wall {
+            tests.push(experiments::sliding(kind, convention));
+            tests.push(experiments::brink(kind, convention, GENTLE_SPIN));
+        }
+        Self {
+            kind,
+            convention: *convention,
+            tests,
+        }
+    }
+
+    /// The tests, in order.
+    pub fn tests(&self) -> &[ContactTest] {
+        &self.tests
+    }
+
+    /// Reads the laws off the motions of the tests; `turning` is the motion of a pair that turns.
+    pub fn read(self, motions: &[Outcome], turning: &[ContactRow], clock: &Clock) -> Laws {
+        let rows: Vec<Vec<ContactRow>> = motions
+            .iter()
+            .map(|(test, motion)| contact_rows(self.kind, test, motion, clock))
+            .collect();
+        let (coarse, fine) = (rows[STICKING].concat(), rows[REFINED].concat());
+        let normal = NormalLaw::read(&coarse, &fine, clock.mass.value);
+        let turning = (self.kind == ContactKind::Pair).then_some(turning);
+        Laws {
+            pull: pull(&rows[SEPARATING], &normal),
+            tangential: TangentialLaw::read(&rows[STICKING], turning),
+            normal,
+            rows,
+            plan: self,
+        }
+    }
+}
+
+/// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ; a
+/// twentieth of the distance from the brink does not matter.
+fn rounded(spin: f64) -> f64 {
+    format!("{spin:.10e}").parse().unwrap_or(spin)
+}
+
+/// The laws of one kind.
+pub struct Laws {
+    plan: Plan,
+    normal: NormalLaw,
+    pull: Measured,
+    tangential: TangentialLaw,
+    rows: Vec<Vec<ContactRow>>,
+}
+
+impl Laws {
+    /// Motions to just below and just above Coulomb's limit, for every share of the damping that may count in
+    /// its operand. Sticking is linear in the spin, so that a gentle motion tells how fast they must be.
+    pub fn brinks(&self) -> Vec<ContactTest> {
+        let Some(gentle) = self.rows.get(GENTLE) else {
+            return Vec::new();
+        };
+        let spins = SHARES.iter().flat_map(|&share| {
+            let largest = largest_operand(gentle, &self.tangential, share);
+            let at_limit = GENTLE_SPIN / largest.map_or(f64::NAN, |(_, ratio)| ratio);
+            [at_limit * (1.0 - BRINK), at_limit * (1.0 + BRINK)]
+        });
+        spins
+            .map(|spin| {
+                // A contact without friction or damping has no brink; any other motion tells as much.
+                let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
+                experiments::brink(self.plan.kind, &self.plan.convention, rounded(spin))
+            })
+            .collect()
+    }
+
+    /// The share of the damping in the Coulomb operand: the one with which the contact sticks just below the
+    /// limit and slides just above it.
+    fn operand_damping(&self, outcomes: &[Outcome], clock: &Clock) -> Measured {
+        let gentle = self.rows.get(GENTLE).map_or(&[][..], Vec::as_slice);
+        let candidates = SHARES.iter().zip(outcomes.chunks(2));
+        let mut found = candidates.filter_map(|(&share, motions)| {
+            let (row, ratio) = largest_operand(gentle, &self.tangential, share)?;
+            let slides = |(test, motion): &Outcome| {
+                let rows = contact_rows(self.plan.kind, test, motion, clock);
+                rows.get(row).map(is_at_limit)
+            };
+            let [below, above] = [motions.first()?, motions.get(1)?].map(slides);
+            let brink = below == Some(false) && above == Some(true);
+            brink.then(|| Measured::new(share, BRINK * self.limit_over_damping(row, ratio)))
+        });
+        found.next().unwrap_or(Measured::UNKNOWN)
+    }
+
+    /// The limit in units of the damping force, at the brink.
+    fn limit_over_damping(&self, row: usize, ratio: f64) -> f64 {
+        let row = &self.rows[GENTLE][row];
+        let damping = self.tangential.damping.value * self.tangential.surface_speed(row);
+        row.friction * row.normal_force * ratio / damping.abs()
+    }
+
+    /// All properties of the kind; `brinks` are the outcomes of the motions to the brink of sliding.
+    pub fn properties(&self, brinks: &[Outcome], clock: &Clock) -> Vec<Property> {
+        let kind = self.plan.kind;
+        let test = &self.plan.tests[0];
+        let mut properties = normal_properties(kind, &self.normal, self.pull, test);
+        if kind == ContactKind::Wall {
+            properties.extend(self.wall_properties());
+            return properties;
+        }
+        let share = self.operand_damping(brinks, clock);
+        let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
+        properties.extend(tangential_properties(kind, &self.tangential, test));
+        let test = &self.plan.tests[SLIDING];
+        properties.extend(sliding_properties(kind, &sliding, share, test));
+        properties
+    }
+
+    /// The top wall has no friction, and what it reports is what it exerts.
+    fn wall_properties(&self) -> [Property; 2] {
+        let rows = self.rows[STICKING].iter().flatten();
+        let against_normal = |value: fn(&ContactRow) -> f64| {
+            let terms: Vec<([f64; 1], f64)> = rows
+                .clone()
+                .map(|row| ([row.normal_force], value(row)))
+                .collect();
+            let [ratio] = fit(&terms);
+            ratio
+        };
+        let friction = against_normal(|row| row.tangential_force.abs());
+        let reported = against_normal(|row| row.wall_force);
+        [
+            Property::at(ContactKind::Wall, "friction", friction, 0.0),
+            Property::at(ContactKind::Wall, "reported_force", reported, 1.0),
+        ]
+    }
+}

@@ -1,0 +1,172 @@
+//! The cost of a step of a pyramid, per cylinder.
+
+use super::statistics::{fastest, median};
+use super::target::{BenchError, convention};
+use crate::code::{Code, InstalledCode, RunContext};
+use crate::model::Pyramid;
+
+/// Softer than this the lowest row of a hundred would be pressed flat.
+const STIFFNESS: f64 = 1e5;
+
+/// Enough for all rows to carry; the largest pyramid still sways a little then.
+const RAMP_STEPS_A_ROW: u64 = 50;
+
+/// Which pyramids are built by whom, and how long is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PyramidBench {
+    /// Numbers of rows; n rows are n(n + 1)/2 cylinders.
+    pub rows: Vec<u32>,
+    /// The codes, each of which must be able to build pyramids.
+    pub codes: Vec<Code>,
+    /// Steps times cylinders that are timed in every run.
+    pub cylinder_steps: u64,
+    /// How often each run is made. Codes and pyramids take turns, so that a machine which is busy for a
+    /// while slows down all of them.
+    pub repeats: usize,
+}
+
+/// What a step of one pyramid costs one code.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PyramidCost {
+    /// Who ran it.
+    pub code: Code,
+    /// Its version.
+    pub version: String,
+    /// Number of rows.
+    pub rows: u32,
+    /// Number of cylinders.
+    pub cylinders: usize,
+    /// Steps that were timed in each run.
+    pub timed_steps: u64,
+    /// Wall time per step and cylinder in nanoseconds, of each repeat in order.
+    pub nanoseconds: Vec<f64>,
+}
+
+impl Default for PyramidBench {
+    /// About 1, 2, 5 and 10 thousand cylinders, native, LAMMPS and LIGGGHTS; some minutes.
+    fn default() -> Self {
+        Self {
+            rows: vec![44, 62, 99, 140],
+            codes: vec![Code::Native, Code::Lammps, Code::Liggghts],
+            cylinder_steps: 10_000_000,
+            repeats: 5,
+        }
+    }
+}
+
+impl PyramidBench {
+    /// Measures, in directories of their own in that of `context`. Only the last steps of a run are timed, by
+    /// the code itself (the loop time in the log of LAMMPS and LIGGGHTS): start-up, neighbour lists of the
+    /// beginning and the rise of gravity do not count.
+    ///
+    /// # Errors
+    /// If an code is missing or does not build pyramids, or a run fails.
+    pub fn measure(&self, context: &RunContext) -> Result<Vec<PyramidCost>, BenchError> {
+        let find = |name: &Code| name.find().ok_or(BenchError::Missing { code: *name });
+        let codes: Vec<_> = self.codes.iter().map(find).collect::<Result<_, _>>()?;
+        let mut costs = self.nothing_measured_yet(&codes);
+        for _ in 0..self.repeats {
+            for (index, cost) in costs.iter_mut().enumerate() {
+                let code = &codes[index % codes.len()];
+                let directory = format!("{}-{}", cost.code, cost.rows);
+                let context = RunContext {
+                    directory: &context.directory.join(directory),
+                    ..*context
+                };
+                let run = code.pyramid(&self.pyramid(cost.code, cost.rows), &context)?;
+                let cylinder_steps = cost.timed_steps as f64 * cost.cylinders as f64;
+                cost.nanoseconds
+                    .push(1e9 * run.timed_seconds() / cylinder_steps);
+            }
+        }
+        Ok(costs)
+    }
+
+    /// The pyramid of so many rows as `code` builds it. Native takes the convention of LAMMPS, so that the two
+    /// compute the same thing.
+    pub fn pyramid(&self, code: Code, rows: u32) -> Pyramid {
+        let pyramid = Pyramid::touching(rows, STIFFNESS, convention(code));
+        let cylinders = pyramid.cylinder_count().max(1) as u64;
+        Pyramid {
+            ramp_steps: RAMP_STEPS_A_ROW * u64::from(rows),
+            timed_steps: self.cylinder_steps.div_ceil(cylinders),
+            ..pyramid
+        }
+    }
+
+    fn nothing_measured_yet(&self, codes: &[Box<dyn InstalledCode>]) -> Vec<PyramidCost> {
+        let cost = |rows: u32, code: &dyn InstalledCode| {
+            let pyramid = self.pyramid(code.name(), rows);
+            PyramidCost {
+                code: code.name(),
+                version: code.identity().version.clone(),
+                rows,
+                cylinders: pyramid.cylinder_count(),
+                timed_steps: pyramid.timed_steps,
+                nanoseconds: Vec::new(),
+            }
+        };
+        let rows = self.rows.iter();
+        rows.flat_map(|rows| codes.iter().map(move |code| cost(*rows, &**code)))
+            .collect()
+    }
+}
+
+impl PyramidCost {
+    /// The median of the repeats, in nanoseconds per step and cylinder; not a number if there is none.
+    pub fn median(&self) -> f64 {
+        median(&self.nanoseconds)
+    }
+
+    /// The fastest of the repeats, which a busy machine disturbs least, in nanoseconds per step and cylinder.
+    pub fn fastest(&self) -> f64 {
+        fastest(&self.nanoseconds)
+    }
+
+    /// How many times the cost of `other` this is: the median of the ratios of those runs that were made one
+    /// after the other.
+    pub fn ratio_to(&self, other: &Self) -> f64 {
+        let pairs = self.nanoseconds.iter().zip(&other.nanoseconds);
+        let ratios: Vec<f64> = pairs.map(|(own, other)| own / other).collect();
+        median(&ratios)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cost(nanoseconds: &[f64]) -> PyramidCost {
+        PyramidCost {
+            code: Code::Native,
+            version: String::new(),
+            rows: 2,
+            cylinders: 3,
+            timed_steps: 1,
+            nanoseconds: nanoseconds.to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_ratio_is_taken_run_by_run() {
+        // The machine was twice as slow in the second round.
+        let (one, other) = (cost(&[40.0, 80.0, 41.0]), cost(&[120.0, 240.0, 123.0]));
+        assert_eq!(other.ratio_to(&one), 3.0);
+        assert_eq!(one.median(), 41.0);
+        assert_eq!(one.fastest(), 40.0);
+    }
+
+    #[test]
+    fn every_pyramid_is_valid_and_timed_for_as_long() {
+        let bench = PyramidBench::default();
+        for code in &bench.codes {
+            for rows in &bench.rows {
+                let pyramid = bench.pyramid(*code, *rows);
+                pyramid.validate().expect("a pyramid");
+                let work = pyramid.timed_steps * pyramid.cylinder_count() as u64;
+                assert!(work >= bench.cylinder_steps);
+                assert!(work < bench.cylinder_steps + pyramid.cylinder_count() as u64);
+            }
+        }
+    }
+}

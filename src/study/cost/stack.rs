@@ -1,0 +1,273 @@
+//! What the stack of three costs: a step, a start, and a yield force.
+
+use super::statistics::median;
+use super::target::{BenchError, BenchTarget, InstalledTarget, TimedRuns, convention};
+use crate::code::{Code, RunContext};
+use crate::model::{Case, Preparation, Protocol, Sampling, Stack};
+use crate::runs::RunSummary;
+use crate::series::YieldEstimates;
+use crate::study::yield_force::{Measurement, extrapolate, plan};
+
+/// Everything is measured at this stiffness, the middle one of the paper, …
+const STIFFNESS: f64 = 1e3;
+/// … around this friction.
+const FRICTION: f64 = 0.3;
+/// Between the frictions of two neighbouring cases.
+const FRICTION_STEP: f64 = 1e-3;
+/// Wall travel of the timed steps in r. It ends long before the yield, where a measurement spends nearly all
+/// of its steps.
+const TRAVEL: f64 = 0.05;
+/// How many times as long as the short run the long one is.
+pub(super) const LENGTHS: u64 = 8;
+/// As in planned runs.
+const TIME_STEP: f64 = 0.1;
+/// Duration of gravity ramp and of rest, as in planned runs.
+const RAMP_TIME: f64 = 100.0;
+const FINE_INTERVAL: f64 = 10.0;
+
+/// Who is measured on the stack, and how long.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StackBench {
+    /// Who.
+    pub targets: Vec<BenchTarget>,
+    /// Steps of the compression in the longer one of the two runs whose difference is the cost of a step.
+    pub steps: u64,
+    /// Cases that native runs for that, since its steps are so much faster; external codes run one.
+    pub native_cases: usize,
+    /// Stacks whose yield force is measured, each by the runs that a crosscheck plans, all in one call.
+    pub stacks: usize,
+    /// How often everything is measured. The targets take turns, so that a machine which is busy for a
+    /// while slows down all of them.
+    pub repeats: usize,
+}
+
+/// What the stack costs one target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StackCost {
+    /// Who.
+    pub target: BenchTarget,
+    /// Its version.
+    pub version: String,
+    /// Steps of all cases together that were timed in each repeat.
+    pub steps: u64,
+    /// Wall time per step and case in nanoseconds, of each repeat in order: the difference of a long and a
+    /// short run over the difference of their steps, so that whatever comes before the first step does not count.
+    pub nanoseconds: Vec<f64>,
+    /// Wall time of the short run beyond its steps, in seconds: start, preparation of files, end.
+    pub start_up_seconds: Vec<f64>,
+    /// Wall time per yield force in seconds, start included.
+    pub seconds_per_yield_force: Vec<f64>,
+    /// Largest distance of these yield forces from the exact limit, relative to F + 3.
+    pub largest_error: f64,
+    /// Largest resident memory, in bytes, of the processes that measured the yield forces: for native this
+    /// one. `None` where the system does not tell.
+    pub peak_bytes: Option<u64>,
+}
+
+impl Default for StackBench {
+    /// Everyone who is installed; a few minutes.
+    fn default() -> Self {
+        let installed = Self::installed().into_iter();
+        Self {
+            targets: installed.flat_map(BenchTarget::of).collect(),
+            steps: 400_000,
+            native_cases: 64,
+            stacks: 8,
+            repeats: 5,
+        }
+    }
+}
+
+impl StackBench {
+    /// Those of native, LIGGGHTS, YADE on its box, and LAMMPS that are installed.
+    pub fn installed() -> Vec<Code> {
+        let codes = [Code::Native, Code::Liggghts, Code::Yade, Code::Lammps];
+        let installed = codes.into_iter().filter(|name| name.find().is_some());
+        installed.collect()
+    }
+
+    /// Measures on one core, in directories of their own in that of `context`.
+    ///
+    /// # Errors
+    /// If an code is missing, a run fails, or there is no place for its files.
+    pub fn measure(&self, context: &RunContext) -> Result<Vec<StackCost>, BenchError> {
+        let targets = self.targets.iter().map(|&who| InstalledTarget::find(who));
+        let targets: Vec<InstalledTarget> = targets.collect::<Result<_, _>>()?;
+        let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
+        for target in &targets {
+            // The first start reads a program from disk.
+            let short = timed_cases(target.code.name(), 1, self.steps, 1);
+            target.time(&short, context)?;
+        }
+        for _ in 0..self.repeats {
+            for (target, cost) in targets.iter().zip(&mut costs) {
+                self.time_steps(target, cost, context)?;
+                self.time_yield_forces(target, cost, context)?;
+            }
+        }
+        Ok(costs)
+    }
+
+    fn time_steps(
+        &self,
+        target: &InstalledTarget,
+        cost: &mut StackCost,
+        context: &RunContext,
+    ) -> Result<(), BenchError> {
+        let code = target.code.name();
+        let count = match code {
+            Code::Native => self.native_cases,
+            _ => 1,
+        };
+        let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, self.steps, part));
+        let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
+        let short = target.time(&short, context)?.duration.as_secs_f64();
+        let long = target.time(&long, context)?.duration.as_secs_f64();
+        cost.add_steps([(few, short), (many, long)]);
+        Ok(())
+    }
+
+    fn time_yield_forces(
+        &self,
+        target: &InstalledTarget,
+        cost: &mut StackCost,
+        context: &RunContext,
+    ) -> Result<(), BenchError> {
+        let code = target.code.name();
+        let plans = self.plans(code);
+        let cases: Vec<Case> = plans.iter().flat_map(|plan| plan.cases.clone()).collect();
+        let timed = target.time(&cases, context)?;
+        cost.add_yield_forces(&plans, timed);
+        Ok(())
+    }
+
+    /// The measurements of a yield force, as a crosscheck plans them for `code`.
+    pub(super) fn plans(&self, code: Code) -> Vec<Measurement> {
+        let stacks = (0..self.stacks).map(stack);
+        let plans = stacks.map(|stack| plan(code, &stack, convention(code)));
+        plans.collect()
+    }
+}
+
+/// The stack of the case at `index`: all have frictions of their own.
+fn stack(index: usize) -> Stack {
+    Stack::paper(FRICTION + FRICTION_STEP * index as f64, STIFFNESS)
+}
+
+/// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, with hardly a row.
+pub(super) fn timed_cases(code: Code, count: usize, steps: u64, part: u64) -> Vec<Case> {
+    let case = |index| Case {
+        stack: stack(index),
+        convention: convention(code),
+        protocol: timed_protocol(steps, part),
+    };
+    (0..count).map(case).collect()
+}
+
+fn timed_protocol(steps: u64, part: u64) -> Protocol {
+    let long_time = TIME_STEP * steps as f64;
+    let wall_travel = TRAVEL * part as f64 / LENGTHS as f64;
+    Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: RAMP_TIME,
+            rest_time: RAMP_TIME,
+        },
+        time_step: TIME_STEP,
+        wall_speed: TRAVEL / long_time,
+        wall_travel,
+        sampling: Sampling {
+            coarse_interval: long_time / LENGTHS as f64,
+            fine_from_travel: wall_travel,
+            fine_interval: FINE_INTERVAL,
+        },
+        shortcuts: None,
+    }
+}
+
+impl StackCost {
+    fn nothing_yet(target: &InstalledTarget) -> Self {
+        Self {
+            target: target.target,
+            version: target.code.identity().version.clone(),
+            steps: 0,
+            nanoseconds: Vec::new(),
+            start_up_seconds: Vec::new(),
+            seconds_per_yield_force: Vec::new(),
+            largest_error: 0.0,
+            peak_bytes: None,
+        }
+    }
+
+    /// Enters the steps and seconds of a short and a long run.
+    fn add_steps(&mut self, [(few, short), (many, long)]: [(u64, f64); 2]) {
+        self.steps = many - few;
+        let seconds_per_step = (long - short) / self.steps as f64;
+        self.nanoseconds.push(1e9 * seconds_per_step);
+        let start_up = short - seconds_per_step * few as f64;
+        self.start_up_seconds.push(start_up.max(0.0));
+    }
+
+    /// Enters the runs of all `plans` together.
+    fn add_yield_forces(&mut self, plans: &[Measurement], timed: TimedRuns) {
+        let seconds = timed.duration.as_secs_f64() / plans.len() as f64;
+        self.seconds_per_yield_force.push(seconds);
+        self.peak_bytes = self.peak_bytes.max(timed.peak_bytes);
+        let mut runs = timed.runs.into_iter();
+        for plan in plans {
+            let own = runs.by_ref().take(plan.cases.len());
+            let error = yield_force_error(plan, own.map(RunSummary::new));
+            self.largest_error = self.largest_error.max(error);
+        }
+    }
+
+    /// Wall time per step and case in nanoseconds: the median of the repeats.
+    pub fn median(&self) -> f64 {
+        median(&self.nanoseconds)
+    }
+
+    /// Start and end in seconds: the median of the repeats.
+    pub fn start_up(&self) -> f64 {
+        median(&self.start_up_seconds)
+    }
+
+    /// Yield forces per second, to [`Self::largest_error`]: the median of the repeats.
+    pub fn yield_forces_per_second(&self) -> f64 {
+        1.0 / median(&self.seconds_per_yield_force)
+    }
+}
+
+/// Distance of the yield force that `summaries` give from the limit, relative to F + 3; infinite without one.
+fn yield_force_error(plan: &Measurement, summaries: impl Iterator<Item = RunSummary>) -> f64 {
+    let estimates: Vec<YieldEstimates> = summaries.map(|summary| summary.estimates).collect();
+    let steps: Vec<u64> = plan.cases.iter().map(Case::total_steps).collect();
+    let slip = extrapolate(&estimates, &steps, plan.stack.stiffness, |run| run.slip);
+    let error = slip.zip(plan.limit.yield_force);
+    error.map_or(f64::INFINITY, |(slip, exact)| {
+        (slip.force - exact).abs() / (exact + 3.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_and_long_runs_are_valid_and_differ_in_their_steps_alone() {
+        let [short, long] = [1, LENGTHS].map(|part| timed_cases(Code::Yade, 2, 8000, part));
+        for (short, long) in short.iter().zip(&long) {
+            assert_eq!([short.validate(), long.validate()], [Ok(()), Ok(())]);
+            assert_eq!(long.total_steps() - short.total_steps(), 7000);
+            assert_eq!(short.protocol.wall_speed, long.protocol.wall_speed);
+        }
+        assert_ne!(short[0].stack, short[1].stack);
+    }
+
+    #[test]
+    fn what_comes_before_the_first_step_does_not_count() {
+        let target = InstalledTarget::find(BenchTarget::NativeScalar).unwrap();
+        let mut cost = StackCost::nothing_yet(&target);
+        cost.add_steps([(1000, 3.001), (9000, 3.009)]);
+        assert!((cost.median() - 1000.0).abs() < 1e-6);
+        assert!((cost.start_up() - 3.0).abs() < 1e-9);
+    }
+}

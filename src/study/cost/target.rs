@@ -1,0 +1,143 @@
+//! Who is timed, and how.
+
+use super::memory::{Processes, with_peak};
+use crate::code::Run;
+use crate::code::{Code, Failure, InstalledCode, RunContext};
+use crate::files::FileError;
+use crate::model::{Case, ContactConvention};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// Who is timed: an external code, or native in one of its two ways.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BenchTarget {
+    /// Native, a run at a time.
+    NativeScalar,
+    /// Native, a run in each lane of the machine's vectors; what all are compared with.
+    NativeLanes,
+    /// An external code, all runs in one process where it can.
+    External(Code),
+}
+
+/// Why nothing was measured.
+#[derive(Debug, Error)]
+pub enum BenchError {
+    /// An code is not installed.
+    #[error("{code} is not installed; to install it: {}", code.installation_hint())]
+    Missing {
+        /// Which one.
+        code: Code,
+    },
+    /// A run failed.
+    #[error(transparent)]
+    Failed(#[from] Box<Failure>),
+    /// There is no place for the files of the runs.
+    #[error(transparent)]
+    Files(#[from] FileError),
+}
+
+impl BenchTarget {
+    /// The targets of `code`.
+    pub fn of(code: Code) -> Vec<Self> {
+        match code {
+            Code::Native => vec![Self::NativeScalar, Self::NativeLanes],
+            external => vec![Self::External(external)],
+        }
+    }
+
+    /// The name in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::NativeScalar => "native-scalar",
+            Self::NativeLanes => "native-lanes",
+            Self::External(code) => code.as_str(),
+        }
+    }
+
+    /// Whose runs they are.
+    pub fn code(self) -> Code {
+        match self {
+            Self::NativeScalar | Self::NativeLanes => Code::Native,
+            Self::External(code) => code,
+        }
+    }
+}
+
+/// A target whose code is installed.
+pub(super) struct InstalledTarget {
+    pub(super) target: BenchTarget,
+    pub(super) code: Box<dyn InstalledCode>,
+}
+
+/// Runs that were timed together.
+pub(super) struct TimedRuns {
+    pub(super) duration: Duration,
+    /// Largest resident memory of the processes that made them, in bytes, where the system tells.
+    pub(super) peak_bytes: Option<u64>,
+    /// In the order of the cases.
+    pub(super) runs: Vec<Run>,
+}
+
+impl InstalledTarget {
+    pub(super) fn find(target: BenchTarget) -> Result<Self, BenchError> {
+        let code = target.code();
+        let found = code.find().ok_or(BenchError::Missing { code })?;
+        Ok(Self {
+            target,
+            code: found,
+        })
+    }
+
+    /// Runs `cases`, from the start of the first process to the end of the last, on one core.
+    pub(super) fn time(
+        &self,
+        cases: &[Case],
+        context: &RunContext,
+    ) -> Result<TimedRuns, BenchError> {
+        let directory = tempfile::tempdir_in(context.directory)
+            .map_err(FileError::writing(context.directory))?;
+        let context = RunContext {
+            directory: directory.path(),
+            ..*context
+        };
+        let processes = match self.target {
+            BenchTarget::External(_) => Processes::Children,
+            _ => Processes::Own,
+        };
+        let timed = || {
+            let start = Instant::now();
+            let runs = self.run(cases, &context);
+            (start.elapsed(), runs)
+        };
+        let ((duration, runs), peak_bytes) = with_peak(processes, timed);
+        Ok(TimedRuns {
+            duration,
+            peak_bytes,
+            runs: runs?,
+        })
+    }
+
+    fn run(&self, cases: &[Case], context: &RunContext) -> Result<Vec<Run>, Box<Failure>> {
+        let cases_a_call = match self.target {
+            BenchTarget::NativeScalar => 1,
+            _ => cases.len(),
+        };
+        let mut results: Vec<Option<Result<Run, Failure>>> = cases.iter().map(|_| None).collect();
+        for (call, together) in cases.chunks(cases_a_call).enumerate() {
+            let first = call * cases_a_call;
+            self.code.run(together, context, &mut |index, result| {
+                results[first + index] = Some(result);
+            });
+        }
+        let results = results.into_iter().flatten();
+        results.map(|result| result.map_err(Box::new)).collect()
+    }
+}
+
+/// What a contact is to `code`. Native takes the convention of LAMMPS, so that the two compute the same thing.
+pub(super) fn convention(code: Code) -> ContactConvention {
+    match code {
+        Code::Native => Code::Lammps.convention(),
+        other => other.convention(),
+    }
+}

@@ -1,0 +1,284 @@
+//! c(A) and F(A) of every code, beside the gravity ramp and the exact limit.
+
+use super::critical::{CriticalPush, critical_pushes};
+use super::plan::{PreparationPlan, plan_preparation};
+use crate::code::Code;
+use crate::code::Provenance;
+use crate::model::{CRITICAL_FRICTION, Case, Stack};
+use crate::runs::RunSummary;
+use crate::runs::{Progress, RunError, SelectedCode, Settings, Workload, read_all};
+use crate::series::YieldEstimates;
+use crate::study::yield_force::{
+    COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, extrapolate, peak_allowance,
+};
+use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
+use serde::Serialize;
+
+/// What a yield force is read off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Estimator {
+    /// The onset of slip at the floor, which needs least extrapolation.
+    SlipOnset,
+    /// The peak of f, the paper's definition, where a stack slips without yielding before it: one that
+    /// begins at the verge of slip.
+    Peak,
+}
+
+/// What one preparation leads to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PreparationRow {
+    /// Who computed it.
+    pub code: Code,
+    /// Whose convention it was computed with; native with another one's is that one's twin.
+    pub convention_of: Code,
+    /// A in r; `None` for the gravity ramp.
+    pub push: Option<f64>,
+    /// The exact limit after a gravity ramp under this convention, in m g, or with a push, and arms 0, what
+    /// becomes of it if nothing slides during the preparation ([`pushed_slip_force`]).
+    pub limit_force: Option<f64>,
+    /// c between the bottom cylinders when the compression begins, in m g.
+    pub contact_force: Option<f64>,
+    /// What twice the time step and half the rests change of it, in m g.
+    pub contact_uncertainty: Option<f64>,
+    /// F at vanishing wall speed, in m g.
+    pub yield_force: Option<f64>,
+    /// Its uncertainty in m g: wall speed, time step, rests, sampling, round-off, print precision.
+    pub uncertainty: Option<f64>,
+    /// What it was read off.
+    pub estimator: Option<Estimator>,
+    /// Why something is missing.
+    pub note: Option<String>,
+    /// Where its runs come from.
+    #[serde(skip)]
+    pub provenances: Vec<Provenance>,
+}
+
+/// What the choice of the preparation moves, for one stack.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PreparationStudy {
+    /// The stack.
+    pub stack: Stack,
+    /// The exact quasi-static limit after a gravity ramp, under the paper's convention, in m g.
+    pub exact_force: Option<f64>,
+    /// A* to leading order in ε, if nothing slides during the preparation, in r.
+    pub predicted_critical_push: f64,
+    /// A* as found by bisection, under the paper's convention.
+    pub critical_push: Option<CriticalPush>,
+    /// For every code, and every code's native twin: the gravity ramp, then the pushes in order, A*
+    /// among them.
+    pub rows: Vec<PreparationRow>,
+}
+
+impl PreparationStudy {
+    /// The rows of `code` with the convention of `convention_of`.
+    pub fn rows_of(
+        &self,
+        code: Code,
+        convention_of: Code,
+    ) -> impl Iterator<Item = &PreparationRow> {
+        let own =
+            move |row: &&PreparationRow| row.code == code && row.convention_of == convention_of;
+        self.rows.iter().filter(own)
+    }
+
+    /// The row of the native twin of `row`.
+    pub fn twin_of(&self, row: &PreparationRow) -> Option<&PreparationRow> {
+        let mut twins = self.rows_of(Code::Native, row.convention_of);
+        twins.find(|twin| twin.push == row.push)
+    }
+
+    /// By how much F at `push` is above F at A = 0, natively under the paper's convention, relative to
+    /// F + 3.
+    pub fn shift(&self, push: f64) -> Option<f64> {
+        let force = |push: f64| {
+            let mut rows = self.rows_of(Code::Native, Code::Native);
+            rows.find(|row| row.push == Some(push))?.yield_force
+        };
+        let unpushed = force(0.0)?;
+        Some((force(push)? - unpushed) / (unpushed + 3.0))
+    }
+}
+
+/// Frictions below, at and above the critical one, and stiffnesses, of the paper's figures.
+const FRICTIONS: [f64; 3] = [0.2, CRITICAL_FRICTION, 0.3];
+const STIFFNESSES: [f64; 2] = [1e2, 1e4];
+/// Pushes in units of ε, besides 0 and A*: two below A*, three above.
+const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
+
+/// Everything about the preparation that the paper's figures call for: every one of `codes` at μ = 0.2 and
+/// stiffness 100, and native at frictions below, at and above the critical one at the stiffnesses 100 and 10⁴.
+///
+/// # Errors
+/// See [`study_preparation`].
+pub fn preparation_studies(
+    codes: &[Code],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<PreparationStudy>, RunError> {
+    let stacks: Vec<Stack> = STIFFNESSES
+        .iter()
+        .flat_map(|&stiffness| FRICTIONS.map(|friction| Stack::paper(friction, stiffness)))
+        .collect();
+    let (first, others) = stacks.split_at(1);
+    let mut studies = study_preparation(first, &PUSHES, codes, settings, progress)?;
+    studies.extend(study_preparation(others, &PUSHES, &[], settings, progress)?);
+    Ok(studies)
+}
+
+/// The cases of [`preparation_studies`] that `code` runs.
+///
+/// # Errors
+/// If a step of the bisection failed.
+pub fn preparation_cases(
+    code: Code,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Case>, RunError> {
+    let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
+    let critical = critical_pushes(&[stack], settings, progress)?;
+    let critical = critical.first().and_then(Option::as_ref);
+    let mut plans = plans(&stack, &PUSHES, critical, &[code]);
+    plans.retain(|plan| plan.code == code);
+    Ok(plans
+        .iter()
+        .flat_map(|plan| plan.cases())
+        .copied()
+        .collect())
+}
+
+/// Measures c(A) and F(A) of each of `stacks` with native and every one of `codes`, at A = 0, at A* and at
+/// the pushes `relative_pushes` × ε; those that do not offer side walls show the gravity ramp alone. Native
+/// computes a twin of every other code.
+///
+/// # Errors
+/// If a step of the bisection failed. A failed row says so in its note.
+pub fn study_preparation(
+    stacks: &[Stack],
+    relative_pushes: &[f64],
+    codes: &[Code],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<PreparationStudy>, RunError> {
+    let critical = critical_pushes(stacks, settings, progress)?;
+    let mut names = [&[Code::Native], codes].concat();
+    names.sort();
+    names.dedup();
+    let codes: Vec<SelectedCode> = names.iter().copied().map(SelectedCode::find).collect();
+    let plans: Vec<Vec<PreparationPlan>> = stacks
+        .iter()
+        .zip(&critical)
+        .map(|(stack, critical)| plans(stack, relative_pushes, critical.as_ref(), &names))
+        .collect();
+    let all: Vec<PreparationPlan> = plans.concat();
+    let results = read_all(&all, &codes, settings, progress);
+    let mut rows = all.iter().zip(results).map(|(plan, runs)| row(plan, runs));
+    let studies = stacks.iter().zip(critical).zip(plans);
+    Ok(studies
+        .map(|((stack, found), plans)| PreparationStudy {
+            stack: *stack,
+            exact_force: quasistatic_limit(stack, 0.0, 0.0).yield_force,
+            predicted_critical_push: critical_push(stack),
+            critical_push: found,
+            rows: rows.by_ref().take(plans.len()).collect(),
+        })
+        .collect())
+}
+
+fn plans(
+    stack: &Stack,
+    relative_pushes: &[f64],
+    critical: Option<&CriticalPush>,
+    codes: &[Code],
+) -> Vec<PreparationPlan> {
+    let relative = relative_pushes.iter().map(|push| push * stack.epsilon());
+    let mut pushes: Vec<f64> = relative.chain(critical.map(|found| found.push)).collect();
+    pushes.push(0.0);
+    pushes.sort_by(f64::total_cmp);
+    pushes.dedup();
+    let preparations = || [None].into_iter().chain(pushes.iter().copied().map(Some));
+    let mut plans = Vec::new();
+    for &name in codes {
+        let twin = (name != Code::Native).then_some(Code::Native);
+        for code in [name].into_iter().chain(twin) {
+            plans.extend(preparations().map(|push| plan_preparation(code, name, stack, push)));
+        }
+    }
+    plans.retain(|plan| {
+        // A twin of a run that is not there is of no use.
+        let names = [plan.code, plan.convention_of];
+        let offered = |case: &Case| {
+            let preparation = &case.protocol.preparation;
+            let refused = |name: Code| name.check_preparation(preparation).is_err();
+            !names.into_iter().any(refused)
+        };
+        plan.cases().iter().all(offered)
+    });
+    plans
+}
+
+fn limit_force(plan: &PreparationPlan) -> Option<f64> {
+    let convention = plan.convention_of.convention();
+    let arms = (convention.pair_arm, convention.floor_arm);
+    match plan.push {
+        None => plan.measurement.limit.yield_force,
+        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.measurement.stack, push),
+        Some(_) => None,
+    }
+}
+
+fn row(plan: &PreparationPlan, runs: Vec<Result<RunSummary, RunError>>) -> PreparationRow {
+    let mut row = PreparationRow {
+        code: plan.code,
+        convention_of: plan.convention_of,
+        push: plan.push,
+        limit_force: limit_force(plan),
+        contact_force: None,
+        contact_uncertainty: None,
+        yield_force: None,
+        uncertainty: None,
+        estimator: None,
+        note: None,
+        provenances: Vec::new(),
+    };
+    match runs
+        .into_iter()
+        .collect::<Result<Vec<RunSummary>, RunError>>()
+    {
+        Ok(runs) if runs.is_empty() => row.note = Some("nothing yields".to_owned()),
+        Ok(runs) => row.read(plan, &runs),
+        Err(error) => row.note = Some(error.to_string()),
+    }
+    row
+}
+
+impl PreparationRow {
+    fn read(&mut self, plan: &PreparationPlan, runs: &[RunSummary]) {
+        let contact = |run: usize| runs.get(run)?.contact_force;
+        let change = |run: usize| Some((contact(run)? - contact(MIDDLE_RUN)?).abs());
+        let changes = change(COARSE_TIME_STEP_RUN).zip(change(SHORT_RAMP_RUN));
+        self.contact_force = contact(MIDDLE_RUN);
+        self.contact_uncertainty = changes.map(|(time_step, rest)| time_step + rest);
+        self.provenances = runs.iter().map(|run| run.provenance.clone()).collect();
+        let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
+        let steps: Vec<u64> = plan.cases().iter().map(Case::total_steps).collect();
+        let stiffness = plan.measurement.stack.stiffness;
+        let slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
+        let Some(peak) = extrapolate(&estimates, &steps, stiffness, |run| run.peak) else {
+            self.note = Some("the wall force has no peak".to_owned());
+            return;
+        };
+        let allowance = peak_allowance(&plan.measurement, peak.force).unwrap_or(0.0);
+        let peak_uncertainty = peak.budget.total() + allowance;
+        let same = slip.filter(|slip| {
+            (slip.force - peak.force).abs() <= slip.budget.total() + peak_uncertainty
+        });
+        let (force, uncertainty, estimator) = match same {
+            Some(slip) => (slip.force, slip.budget.total(), Estimator::SlipOnset),
+            None => (peak.force, peak_uncertainty, Estimator::Peak),
+        };
+        self.yield_force = Some(force);
+        self.uncertainty = Some(uncertainty);
+        self.estimator = Some(estimator);
+    }
+}

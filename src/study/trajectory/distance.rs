@@ -1,0 +1,213 @@
+//! How far two series are apart, branch by branch.
+
+use crate::series::Sample;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Deviations whose first time is noted, in the unit of the quantity.
+pub const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
+/// What is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// f(t), in units of its peak.
+    WallForce,
+    /// x₂(t), in r.
+    X2,
+    /// y₁(t), in r.
+    Y1,
+    /// θ₂(t), in radians.
+    Theta2,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::WallForce, Self::X2, Self::Y1, Self::Theta2];
+
+    /// The name in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::WallForce => "wall_force",
+            Self::X2 => "x2",
+            Self::Y1 => "y1",
+            Self::Theta2 => "theta2",
+        }
+    }
+
+    /// Its value in a row; the force in k_n r.
+    pub fn of(self, sample: &Sample) -> f64 {
+        match self {
+            Self::WallForce => sample.wall_force,
+            Self::X2 => sample.x2,
+            Self::Y1 => sample.y1,
+            Self::Theta2 => sample.theta2,
+        }
+    }
+}
+
+/// A part of a compression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Branch {
+    /// From the row after the first to the peak of the wall force. Row 0, where the wall just touches, is
+    /// left out: codes disagree on whether a contact of zero overlap exists.
+    Compression,
+    /// From the peak until the wall has lost cylinder 1.
+    Collapse,
+    /// From there until cylinder 1 has landed on the floor. The wall force is zero.
+    Fall,
+}
+
+impl Branch {
+    /// All of them, in order of time.
+    pub const ALL: [Self; 3] = [Self::Compression, Self::Collapse, Self::Fall];
+
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Compression => "compression",
+            Self::Collapse => "collapse",
+            Self::Fall => "fall",
+        }
+    }
+
+    /// What there is to compare on this branch.
+    pub fn quantities(self) -> &'static [Quantity] {
+        match self {
+            Self::Compression | Self::Collapse => &Quantity::ALL,
+            Self::Fall => &[Quantity::X2, Quantity::Y1, Quantity::Theta2],
+        }
+    }
+}
+
+/// Rows at which something happens in a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Milestones {
+    /// The wall force is highest.
+    pub peak: usize,
+    /// The first row without a wall force after that.
+    pub lost: usize,
+    /// The first row in which cylinder 1 touches the floor.
+    pub landed: usize,
+}
+
+impl Milestones {
+    /// Reads them off a series; `None` if one of them is missing.
+    pub fn read(samples: &[Sample]) -> Option<Self> {
+        let force = |row: usize| samples[row].wall_force;
+        let peak = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
+        let after = |row: usize, happens: fn(&Sample) -> bool| {
+            let later = samples[row..].iter().position(happens)?;
+            Some(row + later)
+        };
+        let lost = after(peak, |sample| sample.wall_force <= 0.0)?;
+        let landed = after(lost, |sample| sample.y1 < 1.0)?;
+        (peak > 1).then_some(Self { peak, lost, landed })
+    }
+
+    /// The rows of a branch.
+    pub fn rows(&self, branch: Branch) -> Range<usize> {
+        match branch {
+            Branch::Compression => 1..self.peak + 1,
+            Branch::Collapse => self.peak + 1..self.lost,
+            Branch::Fall => self.lost..self.landed,
+        }
+    }
+}
+
+/// How far two series of the same time step are apart in one quantity on one branch, in the unit of the
+/// quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// Time step of both.
+    pub time_step: f64,
+    /// Largest distance of two rows.
+    pub largest: f64,
+    /// Root of the mean square over the rows.
+    pub rms: f64,
+    /// Time of the first row that deviates by more than each of [`DEVIATIONS`].
+    pub first_above: [Option<f64>; 3],
+    /// What rounding may have done to the largest distance.
+    pub round_off: f64,
+}
+
+impl Distance {
+    /// The distance between rows of two series; rows of the same index must be at the same time. Deviations
+    /// are divided by `unit`.
+    pub fn between(
+        quantity: Quantity,
+        unit: f64,
+        time_step: f64,
+        (left, right): (&[Sample], &[Sample]),
+    ) -> Self {
+        let deviations: Vec<f64> = left
+            .iter()
+            .zip(right)
+            .map(|(left, right)| (quantity.of(left) - quantity.of(right)).abs() / unit)
+            .collect();
+        let squares: f64 = deviations
+            .iter()
+            .map(|deviation| deviation * deviation)
+            .sum();
+        Self {
+            time_step,
+            largest: deviations.iter().copied().fold(0.0, f64::max),
+            rms: (squares / deviations.len().max(1) as f64).sqrt(),
+            first_above: DEVIATIONS.map(|threshold| {
+                let row = deviations
+                    .iter()
+                    .position(|&deviation| deviation > threshold)?;
+                Some(left[row].time)
+            }),
+            round_off: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(step: u64, wall_force: f64, y1: f64) -> Sample {
+        let json = serde_json::json!({
+            "step": step, "time": step as f64 * 0.5, "wall_force": wall_force, "x1": 0.0, "y1": y1,
+            "theta1": 0.0, "x2": 1.0, "y2": 1.0, "theta2": 0.0, "x3": -1.0, "y3": 1.0, "theta3": 0.0,
+            "floor_n2": 0.0, "floor_t2": 0.0, "floor_n3": 0.0, "floor_t3": 0.0,
+        });
+        serde_json::from_value(json).unwrap()
+    }
+
+    fn series() -> Vec<Sample> {
+        let forces = [0.0, 0.1, 0.2, 0.4, 0.3, 0.0, 0.0, 0.1, 0.0];
+        let heights = [2.7, 2.6, 2.5, 2.4, 2.3, 2.0, 1.1, 0.99, 0.98];
+        let rows = forces.iter().zip(heights).enumerate();
+        rows.map(|(step, (&force, height))| sample(step as u64, force, height))
+            .collect()
+    }
+
+    #[test]
+    fn branches_meet_and_leave_out_the_touch_and_the_landing() {
+        let milestones = Milestones::read(&series()).unwrap();
+        let rows = Branch::ALL.map(|branch| milestones.rows(branch));
+        assert_eq!(rows, [1..4, 4..5, 5..7]);
+    }
+
+    #[test]
+    fn a_series_without_landing_has_no_milestones() {
+        assert_eq!(Milestones::read(&series()[..7]), None);
+    }
+
+    #[test]
+    fn largest_mean_and_first_deviations_are_those_of_the_rows() {
+        let left = series();
+        let mut right = left.clone();
+        right[2].wall_force += 4e-6;
+        right[3].wall_force -= 4e-4;
+        let pair = (&left[..4], &right[..4]);
+        let distance = Distance::between(Quantity::WallForce, 0.4, 0.5, pair);
+        assert!((distance.largest - 1e-3).abs() < 1e-12);
+        assert!((distance.rms - (0.25 * (1e-6 + 1e-10_f64)).sqrt()).abs() < 1e-12);
+        assert_eq!(distance.first_above, [Some(1.0), Some(1.5), None]);
+    }
+}

@@ -1,0 +1,211 @@
+//! What to run: a code at three time steps, and its twins at the same ones and two more.
+
+use crate::code::Code;
+use crate::model::{
+    Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack,
+};
+use crate::runs::Workload;
+use crate::theory::quasistatic_limit;
+use serde::{Deserialize, Serialize};
+
+/// Wall speed in r √(k_n/m): fast enough for inertia and damping to show, slow enough for a yield.
+pub const WALL_SPEED: f64 = 1e-3;
+
+/// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the first
+/// touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.
+pub const TIME_STEPS: [f64; 3] = [0.025, 0.0125, 0.00625];
+
+/// Relative change of the wall speed by which the growth of a small disturbance is measured: small enough
+/// to stay linear, and some hundred times what rounding does.
+pub(super) const DISTURBANCE: f64 = 1e-9;
+
+const RAMP_TIME: f64 = 100.0;
+const REST_TIME: f64 = 100.0;
+/// Time between rows, in whole steps of every time step; some 370 rows a run.
+const INTERVAL: f64 = 2.0;
+/// Time that the wall goes on beyond the quasi-static yield: the force peaks some 10 later, the wall loses
+/// cylinder 1 after another 22, and cylinder 1 lands after another 10.
+const TIME_BEYOND_YIELD: f64 = 60.0;
+
+/// The stack whose trajectories are compared: above critical friction, where torque arms matter most, and
+/// soft enough for positions and angles to move far.
+pub fn trajectory_stack() -> Stack {
+    Stack::paper(0.3, 100.0)
+}
+
+/// What a twin has of the convention of the code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Twin {
+    /// All of it.
+    Full,
+    /// All but the transport of the tangential spring, which turns with the contact. The distance to this
+    /// twin is of first order in the time step, and large enough for the order to be seen.
+    RotatedSpring,
+}
+
+impl Twin {
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::RotatedSpring => "rotated-spring",
+        }
+    }
+}
+
+/// The runs of a native twin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TwinRuns {
+    /// What it has of the convention of the code.
+    pub twin: Twin,
+    /// One case per time step of the code, in the same order.
+    pub cases: Vec<Case>,
+    /// The finest of them with its time step halved, to see what the step itself costs.
+    pub halved: Case,
+    /// The coarsest of them with the wall slightly faster, to see how rounding grows.
+    pub disturbed: Case,
+}
+
+impl TwinRuns {
+    /// Every case, those of the time steps first.
+    pub fn all(&self) -> impl Iterator<Item = &Case> {
+        self.cases.iter().chain([&self.halved, &self.disturbed])
+    }
+}
+
+/// All that the comparison of one code needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trajectory {
+    /// Who is compared with its twins.
+    pub code: Code,
+    /// Its runs, one per time step.
+    pub cases: Vec<Case>,
+    /// Its twins.
+    pub twins: Vec<TwinRuns>,
+}
+
+impl Workload for Trajectory {
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+}
+
+/// Plans the trajectories of `stack` by `code` and by native twins that take on the convention `declared`
+/// for it. Nothing is planned where the stack does not yield.
+pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -> Trajectory {
+    let protocols = protocols(stack, &code.convention());
+    let with = |convention: ContactConvention| {
+        let cases = protocols.iter().map(|&protocol| Case {
+            stack: *stack,
+            convention,
+            protocol,
+        });
+        cases.collect::<Vec<Case>>()
+    };
+    let rotated = ContactConvention {
+        history_update: HistoryUpdate::Rotated,
+        ..declared
+    };
+    let mut twins = vec![(Twin::Full, declared)];
+    if declared != rotated {
+        twins.push((Twin::RotatedSpring, rotated));
+    }
+    let twins = twins
+        .into_iter()
+        .filter_map(|(twin, convention)| twin_runs(twin, with(convention)));
+    Trajectory {
+        code,
+        cases: with(code.convention()),
+        twins: twins.collect(),
+    }
+}
+
+fn twin_runs(twin: Twin, cases: Vec<Case>) -> Option<TwinRuns> {
+    let mut halved = *cases.last()?;
+    halved.protocol.time_step *= 0.5;
+    let mut disturbed = *cases.first()?;
+    disturbed.protocol.wall_speed *= 1.0 + DISTURBANCE;
+    Some(TwinRuns {
+        twin,
+        cases,
+        halved,
+        disturbed,
+    })
+}
+
+/// One protocol per time step; none where nothing yields.
+fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
+    let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
+    let Some(travel) = limit.yield_force.and(limit.wall_travel) else {
+        return Vec::new();
+    };
+    // Whole rows: a plan must not see the last digits of the limit, which may differ between machines.
+    let rows = ((travel / WALL_SPEED + TIME_BEYOND_YIELD) / INTERVAL).ceil();
+    let protocol = |time_step| Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: RAMP_TIME,
+            rest_time: REST_TIME,
+        },
+        time_step,
+        wall_speed: WALL_SPEED,
+        wall_travel: (rows * INTERVAL).round() / (1.0 / WALL_SPEED).round(),
+        sampling: Sampling {
+            coarse_interval: INTERVAL,
+            fine_from_travel: 0.0,
+            fine_interval: INTERVAL,
+        },
+        shortcuts: None,
+    };
+    TIME_STEPS.map(protocol).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn planned(code: Code) -> Trajectory {
+        plan_trajectory(code, &trajectory_stack(), code.convention())
+    }
+
+    #[test]
+    fn every_planned_case_is_valid_and_has_rows_at_the_same_times() {
+        for code in Code::ALL {
+            let plan = planned(code);
+            let all = plan.twins.iter().flat_map(TwinRuns::all);
+            for case in plan.cases.iter().chain(all) {
+                case.validate().unwrap();
+                let schedule = case.protocol.schedule();
+                let interval = schedule.fine_every as f64 * case.protocol.time_step;
+                assert!((interval - INTERVAL).abs() < 1e-12);
+                assert_eq!(schedule.rows(), plan.cases[0].protocol.schedule().rows());
+                assert!(schedule.rows() < 500);
+            }
+        }
+    }
+
+    #[test]
+    fn a_code_that_turns_its_springs_has_one_twin() {
+        assert_eq!(planned(Code::Native).twins.len(), 1);
+        let twins = planned(Code::Liggghts).twins;
+        assert_eq!(
+            [twins[0].twin, twins[1].twin],
+            [Twin::Full, Twin::RotatedSpring]
+        );
+        assert_eq!(twins[0].cases, planned(Code::Liggghts).cases);
+    }
+
+    #[test]
+    fn nothing_is_planned_where_nothing_yields() {
+        let plan = plan_trajectory(
+            Code::Native,
+            &Stack::paper(0.05, 100.0),
+            ContactConvention::PAPER,
+        );
+        assert!(plan.cases.is_empty() && plan.twins.is_empty());
+    }
+}

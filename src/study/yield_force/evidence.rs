@@ -1,0 +1,57 @@
+//! What stands behind a row, and what it does not prove.
+
+use super::row::Row;
+use crate::code::Code;
+use crate::study::Source;
+
+/// Kinds of evidence, strongest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Evidence {
+    /// Our own code against the solution in closed form.
+    ClosedForm,
+    /// An independent code, its convention measured here, against the limit under that convention.
+    IndependentCode,
+    /// A run recorded elsewhere, by an independent code, against the same limit.
+    RecordedRun,
+}
+
+impl Evidence {
+    /// All kinds, strongest first.
+    pub const ALL: [Self; 3] = [Self::ClosedForm, Self::IndependentCode, Self::RecordedRun];
+
+    /// The evidence of a row.
+    pub fn of(row: &Row) -> Self {
+        match (row.source, row.code) {
+            (Source::Recorded, _) => Self::RecordedRun,
+            (Source::Live, Code::Native) => Self::ClosedForm,
+            (Source::Live, _) => Self::IndependentCode,
+        }
+    }
+
+    /// The words in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "closed form",
+            Self::IndependentCode => "independent code",
+            Self::RecordedRun => "recorded run",
+        }
+    }
+
+    /// One sentence on what an agreement does not prove.
+    pub fn does_not_prove(self) -> &'static str {
+        match self {
+            Self::ClosedForm => {
+                "that the model is the right one for real cylinders, or that the stepping is right beyond \
+                 the quasi-static limit: theory and stepping are by the same authors and share the model"
+            }
+            Self::IndependentCode => {
+                "that the code is right in other contact laws, in three dimensions, for many bodies or away \
+                 from the quasi-static limit, or that its convention is the physical one"
+            }
+            Self::RecordedRun => {
+                "that the code on your machine gives the same: it only shows that nothing on our side has \
+                 changed since the runs were recorded"
+            }
+        }
+    }
+}

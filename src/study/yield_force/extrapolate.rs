@@ -1,0 +1,336 @@
+//! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
+
+use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
+use crate::series::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
+use serde::Serialize;
+
+/// What the numerical uncertainty u_num consists of, in the words of ASME V&V 20; each part an expected
+/// largest error in m g.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Budget {
+    /// Distance between the extrapolations of second and first order in the wall speed.
+    pub wall_speed: f64,
+    /// Change of the middle run with the time step doubled: the error of the single step if it is of first
+    /// order, three times that if it is of second.
+    pub time_step: f64,
+    /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
+    /// state by an amount inversely proportional to its duration, so that this is the shift itself.
+    pub preparation: f64,
+    /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
+    pub sampling: f64,
+    /// Rounding of positions in every step, accumulated like a random walk, as the summary of the force and
+    /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
+    /// times less (tests/round_off.rs).
+    pub round_off: f64,
+    /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
+    pub print_precision: f64,
+    /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
+    /// What they cost is linear in the wall speed first of all, and goes with it.
+    pub shortcuts: f64,
+}
+
+impl Budget {
+    /// The parts by name, in order.
+    pub fn parts(&self) -> [(&'static str, f64); 7] {
+        [
+            ("wall speed", self.wall_speed),
+            ("time step", self.time_step),
+            ("preparation", self.preparation),
+            ("sampling", self.sampling),
+            ("round-off", self.round_off),
+            ("print precision", self.print_precision),
+            ("shortcuts", self.shortcuts),
+        ]
+    }
+
+    /// The expanded uncertainty: the sum of the parts, as if they all conspired. It is never below their root
+    /// sum of squares, by which V&V 20 combines independent parts.
+    pub fn total(&self) -> f64 {
+        self.parts().iter().map(|(_, part)| part).sum()
+    }
+}
+
+/// A yield force at vanishing wall speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extrapolation {
+    /// F = f/(m g), extrapolated with the parabola through the three speeds.
+    pub force: f64,
+    /// The same with the straight line through the two slower ones.
+    pub first_order: f64,
+    /// Where its uncertainty comes from.
+    pub budget: Budget,
+    /// How fast the differences between the speeds shrink.
+    pub order: ConvergenceOrder,
+}
+
+/// ConvergenceOrder of convergence in the wall speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConvergenceOrder {
+    /// log₂ of the ratio of successive differences; absent where they are lost in noise.
+    pub observed: Option<f64>,
+    /// How far the observed order may be from the expected one: what noise and curvature do to it.
+    pub allowance: f64,
+}
+
+impl ConvergenceOrder {
+    /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
+    pub const EXPECTED: f64 = 1.0;
+
+    /// From forces at three speeds, each half the one before, known up to `noise`. The term of second order
+    /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
+    /// that moves the order by less than 0.01. Five times as much is allowed.
+    fn of(forces: &[f64], noise: f64) -> Self {
+        const CURVATURE: f64 = 0.05;
+        let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
+        let smallest = differences[0].min(differences[1]);
+        if smallest <= 2.0 * noise {
+            return Self {
+                observed: None,
+                allowance: f64::INFINITY,
+            };
+        }
+        let relative_noise = 2.0 * noise / smallest;
+        Self {
+            observed: Some(libm::log2(differences[0] / differences[1])),
+            allowance: CURVATURE + 2.0 * relative_noise / std::f64::consts::LN_2,
+        }
+    }
+
+    /// Whether the runs converge as they should, as far as can be seen.
+    pub fn is_expected(&self) -> bool {
+        let off = |observed: f64| (observed - Self::EXPECTED).abs();
+        self.observed
+            .is_none_or(|observed| off(observed) <= self.allowance)
+    }
+}
+
+/// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
+const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
+/// Root mean square of one rounding, in units of the last place: 1/√12.
+const ROUNDING: f64 = 0.288_675_134_594_812_9;
+/// Half a unit of the seventeenth significant digit.
+const PRINTED: f64 = 0.5e-16;
+
+/// Extrapolates one estimator over the runs of a measurement, in the order of its cases, which take so many
+/// `steps` each. `None` if it is absent from any of them.
+pub fn extrapolate(
+    estimates: &[YieldEstimates],
+    steps: &[u64],
+    stiffness: f64,
+    estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
+) -> Option<Extrapolation> {
+    let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
+    let by_speed = all.get(..SPEEDS.len())?;
+    let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
+    let straight_line = |runs: [usize; 2]| {
+        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
+        Some(2.0 * middle? - fast?)
+    };
+    let change_without_shortcuts = straight_line(PLAIN_RUNS)
+        .zip(straight_line([0, MIDDLE_RUN]))
+        .map(|(plain, short)| (plain - short).abs());
+    let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
+    let force = value_at_zero(&SPEEDS, &forces);
+    let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
+    let weights = weights_at_zero(&SPEEDS);
+    let amplified = |error: &dyn Fn(&Estimate, u64) -> f64| -> f64 {
+        let runs = by_speed.iter().zip(steps);
+        let terms = weights.iter().zip(runs);
+        terms
+            .map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps))
+            .sum()
+    };
+    let rounded = |estimate: &Estimate, steps: u64| {
+        let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
+        per_step * (steps as f64).sqrt() * estimate.sensitivity
+    };
+    let printed =
+        |estimate: &Estimate, _| PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity;
+    let budget = Budget {
+        wall_speed: (force - first_order).abs(),
+        time_step: change_from_middle(COARSE_TIME_STEP_RUN)?,
+        preparation: change_from_middle(SHORT_RAMP_RUN)?,
+        sampling: amplified(&|estimate, _| estimate.sampling),
+        round_off: amplified(&rounded),
+        print_precision: amplified(&printed),
+        shortcuts: change_without_shortcuts.unwrap_or(0.0),
+    };
+    let noise =
+        |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);
+    let noise = by_speed.iter().zip(steps).map(noise).fold(0.0, f64::max);
+    Some(Extrapolation {
+        force,
+        first_order,
+        budget,
+        order: ConvergenceOrder::of(&forces, noise),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEPS: [u64; 5] = [10_000, 20_000, 40_000, 10_000, 20_000];
+
+    fn estimates(forces: [f64; 5]) -> Vec<YieldEstimates> {
+        let estimate = |force| {
+            Some(Estimate {
+                force,
+                sampling: 1e-9,
+                sensitivity: 1.0,
+            })
+        };
+        forces
+            .map(|force| YieldEstimates {
+                slip: estimate(force),
+                peak: None,
+                sliding_friction: None,
+            })
+            .to_vec()
+    }
+
+    #[test]
+    fn a_linear_approach_is_removed_and_recognised() {
+        let runs = estimates([10.4, 10.2, 10.1, 10.2003, 10.1999]);
+        let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
+        assert!((result.force - 10.0).abs() < 1e-12);
+        let order = result.order.observed.unwrap();
+        assert!((order - 1.0).abs() < 1e-12);
+        assert!(result.order.is_expected());
+        assert!(result.budget.wall_speed < 1e-12);
+        assert!((result.budget.time_step - 3e-4).abs() < 1e-12);
+        assert!((result.budget.preparation - 1e-4).abs() < 1e-12);
+        assert!((result.budget.sampling - 5e-9).abs() < 1e-15);
+    }
+
+    #[test]
+    fn curvature_in_the_speed_shows_in_the_budget() {
+        let runs = estimates([10.4 + 0.16, 10.2 + 0.04, 10.1 + 0.01, 10.24, 10.24]);
+        let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
+        assert!((result.force - 10.0).abs() < 1e-12);
+        assert!((result.budget.wall_speed - 0.02).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wrong_order_is_noticed() {
+        let runs = estimates([10.0 + 1.6, 10.0 + 0.4, 10.1, 10.4, 10.4]);
+        let order = extrapolate(&runs, &STEPS, 100.0, |run| run.slip)
+            .unwrap()
+            .order;
+        assert!((order.observed.unwrap() - 2.0).abs() < 1e-12);
+        assert!(!order.is_expected());
+    }
+
+    #[test]
+    fn an_order_below_the_noise_is_not_observed() {
+        let runs = estimates([10.0 + 1e-9, 10.0, 10.0 - 1e-9, 10.0, 10.0]);
+        let order = extrapolate(&runs, &STEPS, 100.0, |run| run.slip)
+            .unwrap()
+            .order;
+        assert_eq!(order.observed, None);
+        assert!(order.is_expected());
+    }
+
+    #[test]
+    fn an_estimator_missing_from_one_run_is_missing() {
+        let runs = estimates([1.0; 5]);
+        assert_eq!(extrapolate(&runs, &STEPS, 1.0, |run| run.peak), None);
+    }
+
+    #[test]
+    fn constants_are_their_definitions() {
+        assert_eq!(LARGEST_COORDINATE, 1.0 + 3f64.sqrt());
+        assert_eq!(ROUNDING, 1.0 / 12f64.sqrt());
+    }
+
+    #[test]
+    fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
+        let budget = Budget {
+            wall_speed: 1.0,
+            time_step: 2.0,
+            preparation: 4.0,
+            sampling: 8.0,
+            round_off: 16.0,
+            print_precision: 32.0,
+            shortcuts: 64.0,
+        };
+        let parts = [
+            ("wall speed", 1.0),
+            ("time step", 2.0),
+            ("preparation", 4.0),
+            ("sampling", 8.0),
+            ("round-off", 16.0),
+            ("print precision", 32.0),
+            ("shortcuts", 64.0),
+        ];
+        assert_eq!(budget.parts(), parts);
+        assert_eq!(budget.total(), 127.0);
+    }
+
+    #[test]
+    fn rounding_walks_at_random_and_is_amplified_by_reading_and_extrapolation() {
+        let mut runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
+        for run in &mut runs {
+            run.slip.as_mut().unwrap().sensitivity = 3.0;
+        }
+        let stiffness = 1e4;
+        let result = extrapolate(&runs, &STEPS, stiffness, |run| run.slip).unwrap();
+        // Weights 1/3, -2, 8/3 of the parabola through 4 v, 2 v and v.
+        let walked: f64 = [(1e4, 1.0 / 3.0), (2e4, 2.0), (4e4, 8.0 / 3.0)]
+            .map(|(steps, weight): (f64, f64)| weight * steps.sqrt())
+            .iter()
+            .sum();
+        let one_step = (1.0 + 3f64.sqrt()) * f64::EPSILON / 12f64.sqrt() * stiffness * 3.0;
+        let printed = 5.0 * 0.5e-16 * (1.0 + 3f64.sqrt()) * stiffness * 3.0;
+        let budget = result.budget;
+        assert!((budget.round_off / (one_step * walked) - 1.0).abs() < 1e-12);
+        assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
+        // What the order is known to: the noisiest of the runs, here the longest.
+        let noise = 1e-9 + one_step * 200.0;
+        let allowance = ConvergenceOrder::of(&[10.4, 10.2, 10.1], noise).allowance;
+        assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn shortcuts_cost_what_the_straight_line_without_them_says() {
+        let estimate = estimates([0.0; 5])[0].slip.unwrap();
+        let forces = [10.4, 10.2, 10.1, 10.2, 10.2, 10.41, 10.202];
+        let runs: Vec<YieldEstimates> = forces
+            .map(|force| YieldEstimates {
+                slip: Some(Estimate { force, ..estimate }),
+                peak: None,
+                sliding_friction: None,
+            })
+            .to_vec();
+        let budget = |count: usize| {
+            let steps = [10_000; 7];
+            let result = extrapolate(&runs[..count], &steps[..count], 1e2, |run| run.slip);
+            result.unwrap().budget
+        };
+        // |(2 * 10.202 - 10.41) - (2 * 10.2 - 10.4)|
+        assert!((budget(7).shortcuts - 0.006).abs() < 1e-12);
+        assert_eq!(budget(5).shortcuts, 0.0);
+    }
+
+    #[test]
+    fn an_order_is_observed_as_soon_as_differences_exceed_twice_the_noise() {
+        let forces = [2.0, 1.0, 0.5];
+        assert_eq!(ConvergenceOrder::of(&forces, 0.25).observed, None);
+        assert_eq!(ConvergenceOrder::of(&forces, 0.25).allowance, f64::INFINITY);
+        assert_eq!(ConvergenceOrder::of(&forces, 0.249).observed, Some(1.0));
+    }
+
+    #[test]
+    fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
+        // Each of two differences of which the smaller is 0.1 may be off by 0.002.
+        let order = ConvergenceOrder::of(&[10.4, 10.2, 10.1], 1e-3);
+        let expected = 0.05 + 2.0 * 0.02 / 2f64.ln();
+        assert!((order.allowance - expected).abs() < 1e-12);
+        let at_the_limit = |observed| ConvergenceOrder {
+            observed: Some(observed),
+            allowance: 0.5,
+        };
+        assert!(at_the_limit(1.5).is_expected() && at_the_limit(0.5).is_expected());
+        assert!(!at_the_limit(1.5 + 1e-9).is_expected());
+    }
+}

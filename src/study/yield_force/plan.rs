@@ -1,0 +1,433 @@
+//! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
+
+use super::runs::{MIDDLE_RUN, SPEEDS};
+use super::touch::max_touch_speed;
+use crate::code::Code;
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
+use crate::runs::Workload;
+use crate::theory::{Event, Limit, quasistatic_limit};
+use thiserror::Error;
+
+/// Time step of all runs but one.
+const TIME_STEP: f64 = 0.1;
+/// Duration of the gravity ramp of all runs but one.
+const RAMP_TIME: f64 = 100.0;
+const REST_TIME: f64 = 100.0;
+/// Rows before the fine ones.
+const COARSE_ROWS: f64 = 60.0;
+const FINE_INTERVAL: f64 = 2.0;
+/// Fraction of the predicted wall travel from which rows are fine.
+const FINE_FROM: f64 = 0.98;
+/// Fraction of the predicted wall travel that is run in any case …
+const TRAVEL_MARGIN: f64 = 1.05;
+/// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
+const TIME_MARGIN: f64 = 80.0;
+/// Longest duration of a compression that is slowed down for a gentle touch: 2.9 × 10⁶ steps.
+const LONGEST_COMPRESSION: f64 = 2.9e5;
+/// Planned speeds have six digits.
+const LEAST_DIGITS: f64 = 1.0 + 1e-5;
+
+/// There is nothing to run because the stack does not yield at the floor.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("`--mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
+pub struct NoYield {
+    /// The stack.
+    pub stack: Stack,
+    /// What happens instead of the yield.
+    pub reason: String,
+    /// Lowest and highest floor friction at which such a stack yields, if there is any.
+    pub range: Option<(f64, f64)>,
+}
+
+fn accepted(range: Option<(f64, f64)>) -> String {
+    range.map_or_else(String::new, |(lowest, highest)| {
+        format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
+    })
+}
+
+/// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
+const STIFF: f64 = 2e4;
+
+/// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
+pub const PAPER_WALL_SPEED: f64 = 1e-6;
+/// Time step of the paper, in √(m/k_n) (supplement I.C).
+pub const PAPER_TIME_STEP: f64 = 1e-3;
+/// Wall speeds of a literal measurement: the paper's, and twice it to learn what it costs.
+const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
+
+/// How the yield force is read off the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Slip onset, extrapolated to vanishing wall speed.
+    Extrapolated,
+    /// As in the paper: the peak at the wall speed and time step of the paper.
+    Literal,
+}
+
+/// All that one row of a crosscheck needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Who measures.
+    pub code: Code,
+    /// What.
+    pub stack: Stack,
+    /// What a contact is to this code.
+    pub convention: ContactConvention,
+    /// The exact limit under this convention, by which the code is judged.
+    pub limit: Limit,
+    /// Distance of that limit from the one under the paper's convention, relative to F + 3.
+    pub model_form: Option<f64>,
+    /// How its yield force is read.
+    pub method: Method,
+    /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
+    /// that may take too long.
+    pub is_gentle: bool,
+    /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
+    /// short gravity ramp as well. None where nothing yields.
+    pub cases: Vec<Case>,
+}
+
+impl Workload for Measurement {
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+}
+
+/// Plans the measurement of `stack` with `code` under `convention`.
+pub fn plan(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
+    planned(code, stack, convention, Method::Extrapolated)
+}
+
+/// Plans the measurement of `stack` as the paper made it.
+pub fn plan_literal(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
+    planned(code, stack, convention, Method::Literal)
+}
+
+impl Measurement {
+    /// The same with shortcuts in every run, and the two faster runs once more without, which say what the
+    /// shortcuts change. The wall still touches gently, and is faster by the same factor in every run, so that
+    /// what this costs vanishes with the speed like the rest.
+    ///
+    /// Measurements that are literal, or by an code that knows no shortcuts, are left as they are.
+    #[must_use]
+    pub fn shortened(mut self) -> Self {
+        let fastest = self.cases.first().map(|case| case.protocol.wall_speed);
+        let (Some(fastest), Some(travel)) = (fastest, self.limit.wall_travel) else {
+            return self;
+        };
+        if !self.code.takes_shortcuts() || self.method == Method::Literal {
+            return self;
+        }
+        let gentle = max_touch_speed(&self.stack, &self.convention);
+        let Some(shortcuts) = Shortcuts::towards(travel, fastest, gentle) else {
+            return self;
+        };
+        let shortcuts = Shortcuts {
+            speed_factor: rounded(shortcuts.speed_factor),
+            fast_until_travel: rounded(shortcuts.fast_until_travel),
+            ..shortcuts
+        };
+        let plain = self.cases[..=MIDDLE_RUN].to_vec();
+        for case in &mut self.cases {
+            case.protocol.shortcuts = Some(shortcuts);
+        }
+        self.cases.extend(plain);
+        self
+    }
+}
+
+fn planned(
+    code: Code,
+    stack: &Stack,
+    convention: ContactConvention,
+    method: Method,
+) -> Measurement {
+    let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
+    let paper = quasistatic_limit(stack, 0.0, 0.0);
+    let model_form = limit
+        .yield_force
+        .zip(paper.yield_force)
+        .map(|(own, paper)| (own - paper) / (paper + 3.0));
+    let protocols = match method {
+        Method::Extrapolated => planned_protocols(&limit, stack, &convention),
+        Method::Literal => literal_protocols(&limit),
+    };
+    let protocols = protocols.into_iter().flatten();
+    let cases = protocols.map(|protocol| Case {
+        stack: *stack,
+        convention,
+        protocol,
+    });
+    let cases: Vec<Case> = cases.collect();
+    let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
+    Measurement {
+        code,
+        stack: *stack,
+        convention,
+        method,
+        is_gentle: is_surely_gentle(fastest, stack)
+            || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
+        cases,
+        limit,
+        model_form,
+    }
+}
+
+fn planned_protocols(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<Vec<Protocol>> {
+    let scale = speed_scale(limit, stack, convention)?;
+    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, TIME_STEP));
+    let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
+    let middle = protocols[MIDDLE_RUN];
+    protocols.push(Protocol {
+        time_step: 2.0 * TIME_STEP,
+        ..middle
+    });
+    protocols.push(Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: 0.5 * RAMP_TIME,
+            rest_time: REST_TIME,
+        },
+        ..middle
+    });
+    Some(protocols)
+}
+
+fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
+    let protocols = LITERAL_SPEEDS.map(|speed| protocol_at_speed(limit, speed, PAPER_TIME_STEP));
+    protocols.into_iter().collect()
+}
+
+/// The displacement by which wall speeds are measured: z at the predicted yield, or the predicted travel of
+/// the wall where that is smaller, so that no yield comes too soon after the start; less where the fastest
+/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. `None`
+/// where nothing yields.
+fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
+    let [fastest, _, slowest] = SPEEDS;
+    let travel = limit.wall_travel?;
+    let scale = limit.z?.min(travel);
+    if is_surely_gentle(fastest * scale, stack) {
+        return Some(scale);
+    }
+    let gentle = max_touch_speed(stack, convention) / fastest;
+    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
+    Some(scale.min(gentle.max(affordable)))
+}
+
+/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
+fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
+    wall_speed <= 0.5 * stack.epsilon()
+}
+
+/// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the
+/// speeds of a measurement are measured. `None` where nothing yields.
+pub fn planned_protocol(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+    speed: f64,
+    time_step: f64,
+) -> Option<Protocol> {
+    let scale = speed_scale(limit, stack, convention)?;
+    protocol_at_speed(limit, speed * scale, time_step)
+}
+
+/// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
+pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
+    limit.yield_force?;
+    let travel = limit.wall_travel?;
+    let fine_from_travel = FINE_FROM * travel;
+    Some(Protocol {
+        preparation: Preparation::GravityRamp {
+            ramp_time: RAMP_TIME,
+            rest_time: REST_TIME,
+        },
+        time_step,
+        wall_speed: rounded(wall_speed),
+        wall_travel: rounded(TRAVEL_MARGIN * travel + time_margin(limit) * wall_speed),
+        sampling: Sampling {
+            coarse_interval: rounded(fine_from_travel / wall_speed / COARSE_ROWS),
+            fine_from_travel: rounded(fine_from_travel),
+            fine_interval: FINE_INTERVAL,
+        },
+        shortcuts: None,
+    })
+}
+
+/// How long the wall goes on beyond the planned travel. What drives the collapse of a stack near μ_c falls with
+/// the square root of ε, so that stiff ones take longer.
+fn time_margin(limit: &Limit) -> f64 {
+    let stiffness = limit.yield_force.zip(limit.z);
+    let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
+    TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
+}
+
+/// `value` to six significant digits. A plan is part of the address of a run: it must not depend on the
+/// last digits of the limit, which may differ between machines.
+fn rounded(value: f64) -> f64 {
+    let text = format!("{value:.5e}");
+    text.parse().unwrap_or(value)
+}
+
+/// The refusal to run a stack that does not yield, with what would be accepted.
+pub fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
+    NoYield {
+        stack: *stack,
+        reason: limit
+            .reason
+            .clone()
+            .unwrap_or_else(|| "no yield force".to_owned()),
+        range: yielding_frictions(stack, convention),
+    }
+}
+
+/// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
+/// four digits; `None` if there is none.
+pub fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
+    const GRID: f64 = 0.01;
+    let yields = |floor_friction: f64| {
+        let stack = Stack {
+            floor_friction,
+            ..*stack
+        };
+        let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+        limit.event == Event::FloorSlip && limit.yield_force.is_some()
+    };
+    let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
+    let first = grid.iter().position(|&friction| yields(friction))?;
+    let last = grid.iter().rposition(|&friction| yields(friction))?;
+    let border = |mut inside: f64, mut outside: f64| {
+        while (inside - outside).abs() > 1e-5 {
+            let middle = 0.5 * (inside + outside);
+            if yields(middle) {
+                inside = middle
+            } else {
+                outside = middle
+            }
+        }
+        inside
+    };
+    Some((
+        border(grid[first], grid[first] - GRID),
+        border(grid[last], grid[last] + GRID),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
+    use super::*;
+    use crate::model::CRITICAL_FRICTION;
+
+    #[test]
+    fn every_planned_case_is_valid_and_of_similar_length() {
+        for stack in crate::study::yield_force::Profile::Quick.stacks() {
+            let measurement = plan(Code::Yade, &stack, Code::Yade.convention());
+            assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
+            for case in &measurement.cases {
+                case.validate().unwrap();
+                let steps = case.total_steps();
+                assert!((3_000..150_000).contains(&steps), "{steps}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_further_run_differs_from_the_middle_one_in_one_thing() {
+        let stack = Stack::paper(0.3, 1e3);
+        let cases = plan(Code::Native, &stack, ContactConvention::PAPER).cases;
+        let middle = cases[MIDDLE_RUN];
+        let mut coarse = cases[COARSE_TIME_STEP_RUN];
+        assert_eq!(coarse.protocol.time_step, 2.0 * TIME_STEP);
+        coarse.protocol.time_step = TIME_STEP;
+        assert_eq!(coarse, middle);
+        let mut short = cases[SHORT_RAMP_RUN];
+        assert_ne!(short, middle);
+        short.protocol.preparation = middle.protocol.preparation;
+        assert_eq!(short, middle);
+    }
+
+    /// The recorded runs depend on it: their plans are from before the touch of the wall was looked at.
+    #[test]
+    fn walls_of_the_figure_are_gentle_as_they_are() {
+        let profile = crate::study::yield_force::Profile::Standard;
+        for plan in profile.measurements(&Code::ALL) {
+            let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
+            let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
+            let expected = SPEEDS.map(|speed| rounded(speed * scale));
+            assert_eq!(speeds.take(3).collect::<Vec<_>>(), expected);
+            assert!(plan.is_gentle);
+        }
+    }
+
+    #[test]
+    fn a_wall_that_would_make_the_floor_slide_is_slower_or_the_plan_says_so() {
+        let planned = |stiffness: f64| {
+            let stack = Stack {
+                stiffness_ratio: 1.2,
+                ..Stack::paper(0.35, stiffness)
+            };
+            plan(Code::Native, &stack, ContactConvention::PAPER)
+        };
+        let [slowed, rough] = [1e5, 1e6].map(planned);
+        assert!(slowed.is_gentle && !rough.is_gentle);
+        assert!(slowed.cases[0].protocol.wall_speed < 9e-5);
+        for case in slowed.cases.iter().chain(&rough.cases) {
+            assert!(case.total_steps() < 3_000_000, "{}", case.total_steps());
+        }
+    }
+
+    #[test]
+    fn a_plan_does_not_see_the_last_digits_of_the_limit() {
+        assert_eq!(rounded(1.642_259_585e-4), 1.64226e-4);
+        assert_eq!(rounded(0.7), 0.7);
+    }
+
+    #[test]
+    fn shortcuts_save_most_of_the_steps_and_two_runs_go_without_them() {
+        let stack = Stack::paper(0.3, 1e2);
+        let measurement = plan(Code::Native, &stack, ContactConvention::PAPER);
+        let shortened = measurement.clone().shortened();
+        for (position, plain) in PLAIN_RUNS.into_iter().zip(&measurement.cases) {
+            assert_eq!(shortened.cases[position], *plain);
+        }
+        for (short, plain) in shortened.cases.iter().zip(&measurement.cases) {
+            short.validate().unwrap();
+            let [short, plain] = [short, plain].map(|case| {
+                let schedule = case.protocol.schedule();
+                schedule.compression_steps as f64
+            });
+            assert!(short < 0.5 * plain, "{short} {plain}");
+        }
+        let literal = plan_literal(Code::Native, &stack, ContactConvention::PAPER);
+        assert_eq!(literal.clone().shortened(), literal);
+        let yade = plan(Code::Yade, &stack, Code::Yade.convention());
+        assert_eq!(yade.clone().shortened(), yade);
+    }
+
+    #[test]
+    fn nothing_is_planned_where_nothing_yields() {
+        let measurement = plan(
+            Code::Native,
+            &Stack::paper(0.05, 1e2),
+            ContactConvention::PAPER,
+        );
+        assert!(measurement.cases.is_empty());
+    }
+
+    #[test]
+    fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
+        let (lowest, highest) =
+            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::PAPER).unwrap();
+        assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
+        // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
+        assert!((highest - 0.53994).abs() < 2e-5);
+    }
+}

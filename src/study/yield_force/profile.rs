@@ -1,0 +1,127 @@
+//! Which stacks a crosscheck covers, and how.
+
+use super::plan::{Measurement, plan, plan_literal};
+use crate::code::Code;
+use crate::model::{CRITICAL_FRICTION, Stack};
+
+/// Stiffnesses 1/ε of the paper (supplement I.A).
+pub const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
+
+/// Frictions of the quick profile.
+const QUICK_FRICTIONS: [f64; 6] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
+
+/// Frictions of the paper's Fig. 2(a), from a little above the stack's own weight to a little below wall
+/// contact, closer around the critical one.
+const FIGURE_FRICTIONS: [f64; 25] = [
+    0.1,
+    0.12,
+    0.14,
+    0.16,
+    0.18,
+    0.2,
+    0.21,
+    0.22,
+    0.23,
+    0.24,
+    0.25,
+    0.26,
+    CRITICAL_FRICTION,
+    0.275,
+    0.28,
+    0.29,
+    0.3,
+    0.32,
+    0.34,
+    0.36,
+    0.38,
+    0.4,
+    0.43,
+    0.46,
+    0.5,
+];
+
+/// The point at which codes other than native run the paper's literal settings: that of its own convergence
+/// figure (supplement I.C).
+const LITERAL_STACK: (f64, f64) = (0.2, 1e4);
+
+/// Which stacks a crosscheck covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Profile {
+    /// Six frictions around the critical one at three stiffnesses.
+    Quick,
+    /// The paper's figure 2(a): 25 frictions at its three stiffnesses.
+    Standard,
+    /// The same as the paper made it, by the peak at wall speed 1e-6 and time step 1e-3; external codes at
+    /// mu = 0.2, stiffness 1e4 alone.
+    Paper,
+}
+
+impl Profile {
+    /// The stacks, stiffness by stiffness.
+    pub fn stacks(self) -> Vec<Stack> {
+        let frictions: &[f64] = match self {
+            Self::Quick => &QUICK_FRICTIONS,
+            Self::Standard | Self::Paper => &FIGURE_FRICTIONS,
+        };
+        let rows = PAPER_STIFFNESSES.into_iter();
+        rows.flat_map(|stiffness| {
+            let stacks = frictions.iter();
+            stacks.map(move |&friction| Stack::paper(friction, stiffness))
+        })
+        .collect()
+    }
+
+    /// What is measured, stack by stack, by each of the `codes`.
+    pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
+        let mut measurements = Vec::new();
+        for stack in self.stacks() {
+            for &code in codes {
+                let convention = code.convention();
+                match self {
+                    Self::Quick | Self::Standard => {
+                        measurements.push(plan(code, &stack, convention));
+                    }
+                    Self::Paper if is_run_literally(code, &stack) => {
+                        measurements.push(plan_literal(code, &stack, convention));
+                    }
+                    Self::Paper => {}
+                }
+            }
+        }
+        measurements
+    }
+}
+
+fn is_run_literally(code: Code, stack: &Stack) -> bool {
+    code == Code::Native || (stack.floor_friction, stack.stiffness) == LITERAL_STACK
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::yield_force::Method;
+
+    #[test]
+    fn every_stack_of_the_figure_yields_for_every_code_and_every_case_is_valid() {
+        for profile in [Profile::Standard, Profile::Paper] {
+            for measurement in profile.measurements(&Code::ALL) {
+                assert!(!measurement.cases.is_empty(), "{:?}", measurement.stack);
+                for case in &measurement.cases {
+                    case.validate().unwrap();
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_paper_profile_has_one_literal_point_for_every_external_code() {
+        let measurements = Profile::Paper.measurements(&Code::ALL);
+        let literal = |code| {
+            let own = measurements.iter().filter(move |row| row.code == code);
+            own.filter(|row| row.method == Method::Literal).count()
+        };
+        assert_eq!(literal(Code::Native), 75);
+        assert_eq!(literal(Code::Lammps), 1);
+        assert_eq!(measurements.len(), 75 + Code::ALL.len() - 1);
+    }
+}

@@ -1,0 +1,57 @@
+//! Round-off, measured: the same runs by a twin of the code that computes with more digits.
+
+use super::extrapolate::extrapolate;
+use super::plan::Measurement;
+use crate::runs::{Progress, RunError, SelectedCode, Settings, run_all};
+use crate::series::YieldEstimates;
+
+/// A yield force computed with more digits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TwinForce {
+    /// Version of the twin.
+    pub version: String,
+    /// F by slip onset at vanishing wall speed.
+    pub force: f64,
+}
+
+/// Repeats `measurement` with the twin of its code; `None` if there is no such twin here.
+///
+/// # Errors
+/// If one of its runs fails.
+pub fn measure_with_twin(
+    measurement: &Measurement,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Option<Result<TwinForce, RunError>> {
+    let code = measurement.code.find_precise()?;
+    let version = code.identity().version.clone();
+    let package = code.identity().package.clone();
+    let twin = SelectedCode {
+        name: measurement.code,
+        code: Some(code),
+    };
+    let stack = measurement.stack;
+    let results = run_all(
+        std::slice::from_ref(measurement),
+        &[twin],
+        settings,
+        progress,
+        |run| YieldEstimates::read(&run.series, &stack),
+    );
+    let estimates: Result<Vec<YieldEstimates>, RunError> = results.into_iter().flatten().collect();
+    let estimates = match estimates {
+        Ok(estimates) => estimates,
+        Err(error) => return Some(Err(error)),
+    };
+    let steps: Vec<u64> = measurement
+        .cases
+        .iter()
+        .map(crate::model::Case::total_steps)
+        .collect();
+    let slip = extrapolate(&estimates, &steps, stack.stiffness, |run| run.slip)?;
+    let version = package.map_or(version, |package| format!("long double, {package}"));
+    Some(Ok(TwinForce {
+        version,
+        force: slip.force,
+    }))
+}

@@ -281,16 +281,16 @@ fn crosscheck(mutation: Mutation) -> Judgement {
 
 /// What the crosscheck would say if nobody had probed: the row still has its numbers.
 fn crosscheck_alone(judgement: &Judgement) -> &'static str {
-    let row = &judgement.row;
+    let row = judgement;
     let (Some(force), Some(reference), Some(uncertainty)) =
-        (row.yield_force, row.reference_force, row.uncertainty)
+        (row.yield_force(), row.reference_force(), row.uncertainty())
     else {
         // Runs without a yield; a failed one leaves none.
         let without_yield = judgement.contradicted && !judgement.runs.is_empty();
         return if without_yield {
             Verdict::NoYield.as_str()
         } else {
-            row.verdict.as_str()
+            row.verdict().as_str()
         };
     };
     let allowed = uncertainty.max(MIN_TOLERANCE * (reference + 3.0));
@@ -310,7 +310,7 @@ fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
     assert_eq!(series, compress_stack(&case, || true).expect("a series"));
     assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());
-    assert_eq!(crosscheck(Mutation::None).row.verdict, Verdict::Agrees);
+    assert_eq!(crosscheck(Mutation::None).row.verdict(), Verdict::Agrees);
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn every_changed_line_is_noticed() {
             !properties.is_empty() || alone != "agrees",
             "nobody noticed {mutation:?}"
         );
-        assert_ne!(judgement.row.verdict, Verdict::Agrees, "{mutation:?}");
+        assert_ne!(judgement.verdict(), Verdict::Agrees, "{mutation:?}");
         let seen = match properties.len() {
             0 => "-".to_owned(),
             1..=3 => properties.join(", "),

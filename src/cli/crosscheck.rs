@@ -11,9 +11,9 @@ use crate::output::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
 use crate::runs::SelectedCode;
-use crate::study::Source;
-use crate::study::Verdict;
-use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
+
+use crate::study::yield_force::{Judgement, Measurement, Profile};
+use crate::study::{Campaign, Source, Verdict};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -70,7 +70,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let judgements = measure(&measurements, &codes, &settings, &reporter);
+    let planned = measurements.len();
+    let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(measurements);
     drop(reporter);
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, &command_line(arguments))?;
@@ -81,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Format::Json => crosscheck_json(&judgements).into_bytes(),
         Format::Csv => crosscheck_csv(&judgements),
     })?;
-    Ok(conclude(&judgements, measurements.len(), &codes))
+    Ok(conclude(&judgements, planned, &codes))
 }
 
 fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), FileError> {
@@ -117,14 +118,14 @@ pub(super) fn conclude(
     codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
-        let row = &judgement.row;
-        for note in &judgement.notes {
+        let stack = &judgement.study.stack;
+        for note in judgement.notes() {
             tell!(
                 "{}: {} mu={} stiffness={}: {note}",
-                row.verdict,
-                row.code,
-                friction(row.mu),
-                row.stiffness
+                judgement.verdict(),
+                judgement.code,
+                friction(stack.floor_friction),
+                stack.stiffness
             );
         }
     }
@@ -149,8 +150,8 @@ pub(super) fn conclude(
 
 fn summary(judgements: &[Judgement]) -> String {
     let count = |verdict: Verdict| {
-        let rows = judgements.iter().map(|judgement| &judgement.row);
-        rows.filter(|row| row.verdict == verdict).count()
+        let alike = judgements.iter().filter(|row| row.verdict() == verdict);
+        alike.count()
     };
     let others = [
         Verdict::Differs,
@@ -169,7 +170,7 @@ fn summary(judgements: &[Judgement]) -> String {
     }
     let recorded = judgements
         .iter()
-        .filter(|judgement| judgement.row.source == Source::Recorded);
+        .filter(|judgement| judgement.source == Source::Recorded);
     match recorded.count() {
         0 => text,
         count => format!("{text}; {count} rows are recorded, not live"),

@@ -172,11 +172,6 @@ pub fn reference_directory() -> PathBuf {
         .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"))
 }
 
-/// The recorded trajectories, apart from the runs of the crosscheck.
-pub fn recorded_trajectories() -> Recorded {
-    Recorded::new(&reference_directory().join("trajectories"))
-}
-
 /// The directory that an environment variable names; an empty one names none.
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());

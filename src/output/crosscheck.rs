@@ -2,8 +2,9 @@
 
 use super::number::{friction, optional, relative, significant};
 use super::table::Table;
-use crate::study::yield_force::{ConvergenceOrder, Evidence, Judgement, Row};
-use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
+use crate::code::Code;
+use crate::study::yield_force::{ConvergenceOrder, Evidence, Judgement};
+use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict};
 use serde::Serialize;
 
 /// The rows with every digit.
@@ -11,10 +12,53 @@ pub fn crosscheck_csv(judgements: &[Judgement]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for judgement in judgements {
         writer
-            .serialize(&judgement.row)
+            .serialize(Row::new(judgement))
             .expect("plain rows are written to memory");
     }
     writer.into_inner().expect("memory is flushed")
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    code: Code,
+    version: &'a str,
+    source: Source,
+    mu: f64,
+    stiffness: f64,
+    kappa: f64,
+    pair_arm: f64,
+    floor_arm: f64,
+    yield_force: Option<f64>,
+    uncertainty: Option<f64>,
+    reference: &'static str,
+    reference_force: Option<f64>,
+    error: Option<f64>,
+    tolerance: Option<f64>,
+    model_form: Option<f64>,
+    verdict: Verdict,
+}
+
+impl<'a> Row<'a> {
+    fn new(judgement: &'a Judgement) -> Self {
+        Self {
+            code: judgement.code,
+            version: &judgement.version,
+            source: judgement.source,
+            mu: judgement.mu(),
+            stiffness: judgement.stiffness(),
+            kappa: judgement.study.stack.stiffness_ratio,
+            pair_arm: judgement.study.convention.pair_arm,
+            floor_arm: judgement.study.convention.floor_arm,
+            yield_force: judgement.yield_force(),
+            uncertainty: judgement.uncertainty(),
+            reference: "quasistatic",
+            reference_force: judgement.reference_force(),
+            error: judgement.error(),
+            tolerance: judgement.tolerance(),
+            model_form: judgement.model_form(),
+            verdict: judgement.verdict(),
+        }
+    }
 }
 
 /// What the uncertainty of a row consists of, in m g, and how its runs converge.
@@ -38,14 +82,14 @@ struct BudgetRow<'a> {
 
 impl<'a> BudgetRow<'a> {
     fn new(judgement: &'a Judgement) -> Option<Self> {
-        let slip = judgement.slip.as_ref()?;
+        let slip = judgement.slip()?;
         let budget = &slip.budget;
-        let row = &judgement.row;
+        let row = judgement;
         Some(Self {
             code: row.code.as_str(),
-            mu: row.mu,
-            stiffness: row.stiffness,
-            model_form: row.model_form,
+            mu: row.mu(),
+            stiffness: row.stiffness(),
+            model_form: row.model_form(),
             wall_speed: budget.wall_speed,
             time_step: budget.time_step,
             preparation: budget.preparation,
@@ -118,7 +162,7 @@ fn evidence() -> String {
 
 /// The rows as a list of objects.
 pub fn crosscheck_json(judgements: &[Judgement]) -> String {
-    let rows: Vec<&Row> = judgements.iter().map(|judgement| &judgement.row).collect();
+    let rows: Vec<Row> = judgements.iter().map(Row::new).collect();
     serde_json::to_string_pretty(&rows).expect("plain rows have a JSON form") + "\n"
 }
 
@@ -148,7 +192,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     page += &evidence();
     let explained = judgements
         .iter()
-        .filter(|judgement| !judgement.notes.is_empty());
+        .filter(|judgement| !judgement.notes().is_empty());
     for (index, judgement) in explained.enumerate() {
         if index == 0 {
             page += "\n## Remarks\n\n";
@@ -159,15 +203,15 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
 }
 
 fn remark(judgement: &Judgement) -> String {
-    let row = &judgement.row;
+    let row = judgement;
     let subject = format!(
         "{}, mu = {}, stiffness = {}: {}",
         row.code,
-        friction(row.mu),
-        row.stiffness,
-        row.verdict
+        friction(row.mu()),
+        row.stiffness(),
+        row.verdict()
     );
-    let notes = judgement.notes.join("\n").replace('\n', "\n  ");
+    let notes = judgement.notes().join("\n").replace('\n', "\n  ");
     format!("- **{subject}**\n\n  {notes}\n")
 }
 
@@ -182,7 +226,7 @@ fn codes(judgements: &[Judgement]) -> Table {
         "evidence",
     ]);
     let mut seen = Vec::new();
-    for Judgement { row, .. } in judgements {
+    for row in judgements {
         let version = if row.version.is_empty() {
             "-"
         } else {
@@ -192,8 +236,8 @@ fn codes(judgements: &[Judgement]) -> Table {
             row.code.to_string(),
             version.to_owned(),
             row.source.as_str().to_owned(),
-            row.pair_arm.to_string(),
-            row.floor_arm.to_string(),
+            row.study.convention.pair_arm.to_string(),
+            row.study.convention.floor_arm.to_string(),
             Evidence::of(row).as_str().to_owned(),
         ];
         if !seen.contains(&cells) {
@@ -219,19 +263,21 @@ pub fn crosscheck_rows(judgements: &[Judgement]) -> Table {
         "model form>",
         "verdict",
     ]);
-    for Judgement { row, .. } in judgements {
+    for row in judgements {
         table.push(vec![
-            row.stiffness.to_string(),
-            friction(row.mu),
+            row.stiffness().to_string(),
+            friction(row.mu()),
             row.code.to_string(),
             row.source.as_str().to_owned(),
-            optional(row.yield_force, |force| significant(force, 9)),
-            optional(row.uncertainty, |uncertainty| format!("{uncertainty:.0e}")),
-            optional(row.reference_force, |force| significant(force, 9)),
-            optional(row.error, relative),
-            optional(row.tolerance, |tolerance| format!("{tolerance:.1e}")),
-            optional(row.model_form, relative),
-            row.verdict.to_string(),
+            optional(row.yield_force(), |force| significant(force, 9)),
+            optional(row.uncertainty(), |uncertainty| {
+                format!("{uncertainty:.0e}")
+            }),
+            optional(row.reference_force(), |force| significant(force, 9)),
+            optional(row.error(), relative),
+            optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),
+            optional(row.model_form(), relative),
+            row.verdict().to_string(),
         ]);
     }
     table

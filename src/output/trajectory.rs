@@ -91,7 +91,7 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
     let mut seen = Vec::new();
     for comparison in judgements
         .iter()
-        .flat_map(|judgement| &judgement.comparisons)
+        .flat_map(|judgement| judgement.comparisons())
     {
         let documented = comparison.documented;
         if !seen.contains(&documented) {
@@ -109,16 +109,17 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
 fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     let mut lines = String::new();
     for judgement in judgements {
-        let notes = judgement.notes.join("\n").replace('\n', "\n  ");
+        let notes = judgement.notes().join("\n").replace('\n', "\n  ");
         if !notes.is_empty() {
             lines += &format!(
                 "- **{}: {}**\n\n  {notes}\n",
-                judgement.code, judgement.verdict
+                judgement.code,
+                judgement.verdict()
             );
         }
-        for comparison in &judgement.comparisons {
-            if let Some(note) = &comparison.note {
-                let (subject, verdict) = (subject(judgement, comparison), comparison.verdict);
+        for comparison in judgement.comparisons() {
+            for note in comparison.grounds.notes() {
+                let (subject, verdict) = (subject(judgement, comparison), comparison.verdict());
                 lines += &format!("- **{subject}: {verdict}**: {note}\n");
             }
         }
@@ -151,7 +152,7 @@ fn codes(judgements: &[TrajectoryJudgement]) -> Table {
     ]);
     for judgement in judgements {
         let time = |index: usize| {
-            let time = judgement.times.map(|times| times[index]);
+            let time = judgement.times().map(|times| times[index]);
             optional(time, |time| format!("{time:.0}"))
         };
         let version = if judgement.version.is_empty() {
@@ -174,15 +175,15 @@ fn codes(judgements: &[TrajectoryJudgement]) -> Table {
 
 /// The verdict that stands in place of comparisons, or how many of them agree.
 fn tally(judgement: &TrajectoryJudgement) -> String {
-    if judgement.comparisons.is_empty() {
-        return judgement.verdict.to_string();
+    if judgement.comparisons().is_empty() {
+        return judgement.verdict().to_string();
     }
-    let agreeing = judgement.comparisons.iter();
-    let agreeing = agreeing.filter(|comparison| comparison.verdict.as_str() == "agrees");
+    let agreeing = judgement.comparisons().iter();
+    let agreeing = agreeing.filter(|comparison| comparison.verdict().as_str() == "agrees");
     format!(
         "{} of {} agree",
         agreeing.count(),
-        judgement.comparisons.len()
+        judgement.comparisons().len()
     )
 }
 
@@ -202,7 +203,7 @@ fn comparisons(judgements: &[TrajectoryJudgement]) -> Table {
         "verdict",
     ]);
     for judgement in judgements {
-        for comparison in &judgement.comparisons {
+        for comparison in judgement.comparisons() {
             table.push(cells(judgement, comparison));
         }
     }
@@ -232,6 +233,6 @@ fn cells(judgement: &TrajectoryJudgement, comparison: &Comparison) -> Vec<String
         comparison.documented.order.as_str().to_owned(),
         optional(round_off, small),
         small(comparison.step_error),
-        comparison.verdict.to_string(),
+        comparison.verdict().to_string(),
     ]
 }

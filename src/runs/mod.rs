@@ -11,7 +11,7 @@ mod summary;
 
 pub use entry::Archive;
 pub use probe_record::{Answer, ProbeRecord};
-pub use read_all::{Load, read_all};
+pub use read_all::{Reading, read_all};
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 pub use store::{LockOwner, Store, StoreError};

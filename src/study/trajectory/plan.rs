@@ -4,7 +4,6 @@ use crate::code::Code;
 use crate::model::{
     Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack,
 };
-use crate::runs::Workload;
 use crate::theory::quasistatic_limit;
 use serde::{Deserialize, Serialize};
 
@@ -83,16 +82,6 @@ pub struct Trajectory {
     pub cases: Vec<Case>,
     /// Its twins.
     pub twins: Vec<TwinRuns>,
-}
-
-impl Workload for Trajectory {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
 }
 
 /// Plans the trajectories of `stack` by `code` and by native twins that take on the convention `declared`

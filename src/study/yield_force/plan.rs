@@ -4,7 +4,6 @@ use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
-use crate::runs::Workload;
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -85,16 +84,6 @@ pub struct Measurement {
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
     /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
-}
-
-impl Workload for Measurement {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.

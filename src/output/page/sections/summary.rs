@@ -151,12 +151,9 @@ fn points(reproduction: &Reproduction) -> DataTable {
     let mut table = Table::new(&columns);
     for stiffness in PAPER_STIFFNESSES {
         for mu in [0.2, CRITICAL_FRICTION, 0.3, 0.4] {
-            let rows = reproduction
-                .yield_curves
-                .iter()
-                .map(|judgement| &judgement.row);
+            let rows = reproduction.yield_curves.iter();
             let rows: Vec<_> = rows
-                .filter(|row| row.mu == mu && row.stiffness == stiffness)
+                .filter(|row| row.mu() == mu && row.stiffness() == stiffness)
                 .collect();
             let stack = crate::model::Stack::paper(mu, stiffness);
             let theory = crate::theory::Predictions::new(&stack, 0.0, 0.0);
@@ -168,7 +165,7 @@ fn points(reproduction: &Reproduction) -> DataTable {
             ];
             cells.extend(codes.iter().map(|&code| {
                 let own = rows.iter().find(|row| row.code == code);
-                force(own.and_then(|row| row.yield_force))
+                force(own.and_then(|row| row.yield_force()))
             }));
             table.push(cells);
         }

@@ -11,10 +11,11 @@ use tristack::model::{Case, ContactConvention, ContactTest, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, Series};
+use tristack::study::Campaign;
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::Verdict;
 use tristack::study::convention::probe_all;
-use tristack::study::yield_force::{Judgement, measure, plan};
+use tristack::study::yield_force::{Judgement, plan};
 
 /// The line that is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -275,7 +276,9 @@ fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
     let measurements = [plan(Code::Native, &stack, ContactConvention::PAPER)];
     let codes = [TwinEngine::selected(mutation)];
-    let judgements = with_settings(|settings| measure(&measurements, &codes, settings, &Silent));
+    let judgements = with_settings(|settings| {
+        Campaign::new(&codes, settings, &Silent).carry_out(measurements.to_vec())
+    });
     judgements.into_iter().next().expect("a row")
 }
 
@@ -286,7 +289,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
         (row.yield_force(), row.reference_force(), row.uncertainty())
     else {
         // Runs without a yield; a failed one leaves none.
-        let without_yield = judgement.contradicted && !judgement.runs.is_empty();
+        let without_yield = judgement.grounds.is_contradicted() && !judgement.runs().is_empty();
         return if without_yield {
             Verdict::NoYield.as_str()
         } else {
@@ -310,7 +313,7 @@ fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
     assert_eq!(series, compress_stack(&case, || true).expect("a series"));
     assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());
-    assert_eq!(crosscheck(Mutation::None).row.verdict(), Verdict::Agrees);
+    assert_eq!(crosscheck(Mutation::None).verdict(), Verdict::Agrees);
 }
 
 #[test]

@@ -8,11 +8,10 @@ use tristack::model::{
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
-use tristack::study::Verdict;
 use tristack::study::trajectory::{
-    Branch, TIME_STEPS, TrajectoryJudgement, Twin, measure_trajectories, plan_trajectory,
-    trajectory_stack,
+    Branch, TIME_STEPS, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
 };
+use tristack::study::{Campaign, Verdict};
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -28,7 +27,7 @@ impl Progress for Silence {
 /// The recorded runs of `code` beside twins with the convention `declared`.
 fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
-    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
     let settings = Settings {
         store: Store::open(store.path()).expect("a store"),
         recorded: Recorded::new(&reference),
@@ -45,7 +44,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
         SelectedCode::find(Code::Native),
     ];
     let plan = plan_trajectory(code, &trajectory_stack(), declared);
-    let mut judgements = measure_trajectories(&[plan], &codes, &settings, &Silence);
+    let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }
 
@@ -90,7 +89,7 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
     for code in [Code::Liggghts, Code::Yade, Code::Lammps] {
         let own = judged(code, code.convention());
-        assert_eq!(count(&own, Verdict::Agrees), own.comparisons.len());
+        assert_eq!(count(&own, Verdict::Agrees), own.comparisons().len());
         for (what, convention) in wrong(code.convention()) {
             let judgement = judged(code, convention);
             let differing = count(&judgement, Verdict::Differs);
@@ -110,11 +109,11 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
             .find(|(name, _)| *name == what)
             .expect("its name");
         let judgement = judged(code, convention);
-        let full = judgement.comparisons.iter().filter(|comparison| {
+        let full = judgement.comparisons().iter().filter(|comparison| {
             comparison.branch == Branch::Collapse && comparison.twin == Twin::Full
         });
         for comparison in full {
-            assert_eq!(comparison.verdict, Verdict::Differs);
+            assert_eq!(comparison.verdict(), Verdict::Differs);
             let finest = comparison.distances[TIME_STEPS.len() - 1].largest;
             assert!(
                 finest > 10.0 * comparison.step_error,

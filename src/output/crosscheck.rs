@@ -192,8 +192,8 @@ fn codes(judgements: &[Judgement]) -> Table {
             row.code.to_string(),
             version.to_owned(),
             row.source.as_str().to_owned(),
-            row.pair_arm.to_string(),
-            row.floor_arm.to_string(),
+            row.arms().pair.to_string(),
+            row.arms().floor.to_string(),
             Evidence::of(row).as_str().to_owned(),
         ];
         if !seen.contains(&cells) {

@@ -40,8 +40,8 @@ fn question(judgement: &Judgement, measurement: &Measurement) -> String {
         row.stiffness,
         row.kappa,
         measurement.stack.cylinder_friction,
-        convention.pair_arm,
-        convention.floor_arm,
+        convention.arms.pair,
+        convention.arms.floor,
         if judgement.arms_are_measured {
             "measured: tristack probe"
         } else {

@@ -4,7 +4,7 @@ use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
 use super::plan::{Measurement, Method};
 use super::row::Row;
 use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
-use crate::model::Case;
+use crate::model::{Arms, Case};
 use crate::runs::RunSummary;
 use crate::runs::read_all;
 use crate::runs::{Progress, RunError, SelectedCode, Settings};
@@ -123,6 +123,7 @@ fn judge_measurement(
 }
 
 fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row {
+    let Arms { pair, floor } = measurement.convention.arms;
     Row {
         code: measurement.code,
         version,
@@ -130,8 +131,10 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
         mu: measurement.stack.floor_friction,
         stiffness: measurement.stack.stiffness,
         kappa: measurement.stack.stiffness_ratio,
-        pair_arm: measurement.convention.pair_arm,
-        floor_arm: measurement.convention.floor_arm,
+        pair_torque_arm: pair.torque,
+        pair_kinematic_arm: pair.kinematic,
+        floor_torque_arm: floor.torque,
+        floor_kinematic_arm: floor.kinematic,
         yield_force: None,
         uncertainty: None,
         reference: "quasistatic".to_owned(),

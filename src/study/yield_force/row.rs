@@ -1,6 +1,7 @@
 //! One row of a crosscheck.
 
 use crate::code::Code;
+use crate::model::{Arms, ContactArms};
 use crate::study::{Source, Verdict};
 use serde::{Deserialize, Serialize};
 
@@ -19,10 +20,14 @@ pub struct Row {
     pub stiffness: f64,
     /// Stiffness ratio κ.
     pub kappa: f64,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of floor contacts.
-    pub floor_arm: f64,
+    /// Arm coefficient r₁ of the torque, cylinder–cylinder contacts.
+    pub pair_torque_arm: f64,
+    /// Arm coefficient r₁ of the surface velocity, cylinder–cylinder contacts.
+    pub pair_kinematic_arm: f64,
+    /// Arm coefficient r₁ of the torque, floor contacts.
+    pub floor_torque_arm: f64,
+    /// Arm coefficient r₁ of the surface velocity, floor contacts.
+    pub floor_kinematic_arm: f64,
     /// F at vanishing wall speed, by slip onset.
     pub yield_force: Option<f64>,
     /// Its uncertainty.
@@ -39,4 +44,20 @@ pub struct Row {
     pub model_form: Option<f64>,
     /// What follows.
     pub verdict: Verdict,
+}
+
+impl Row {
+    /// The arms of its contacts.
+    pub fn arms(&self) -> Arms {
+        Arms {
+            pair: ContactArms {
+                torque: self.pair_torque_arm,
+                kinematic: self.pair_kinematic_arm,
+            },
+            floor: ContactArms {
+                torque: self.floor_torque_arm,
+                kinematic: self.floor_kinematic_arm,
+            },
+        }
+    }
 }

@@ -7,7 +7,7 @@ use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
     run_contact_test_with,
 };
-use tristack::model::{Case, ContactConvention, ContactTest, Stack};
+use tristack::model::{Arms, Case, ContactConvention, ContactTest, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, Series};
@@ -110,15 +110,16 @@ impl ContactModel<f64> for Twin {
     fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
         let [nx, ny] = contact.normal;
         let is_pair = nx != 0.0;
-        let arm = match self.mutation {
-            Mutation::PairArmOffBy001 if is_pair => contact.arm + 0.01,
-            Mutation::FloorArmOffBy001 if !is_pair => contact.arm + 0.01,
-            _ => contact.arm,
+        // The paper's law is reciprocal: one arm for torque and surface velocity.
+        let coefficient = match self.mutation {
+            Mutation::PairArmOffBy001 if is_pair => contact.arms.torque + 0.01,
+            Mutation::FloorArmOffBy001 if !is_pair => contact.arms.torque + 0.01,
+            _ => contact.arms.torque,
         };
-        let radius = 1.0 + arm * contact.overlap;
+        let arm = 1.0 + coefficient * contact.overlap;
         let rolling = match self.mutation {
-            Mutation::SignOfSpin => -(radius * contact.spin),
-            _ => radius * contact.spin,
+            Mutation::SignOfSpin => -(arm * contact.spin),
+            _ => arm * contact.spin,
         };
         let velocity = contact.sliding_speed - rolling;
         let elastic = contact.overlap;
@@ -151,9 +152,9 @@ impl ContactModel<f64> for Twin {
                 (false, true) => -limit,
                 (false, false) => limit,
             },
-            radius: match self.mutation {
-                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * radius,
-                _ => radius,
+            arm: match self.mutation {
+                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * arm,
+                _ => arm,
             },
         }
     }
@@ -342,7 +343,7 @@ fn every_changed_line_is_noticed() {
 #[test]
 fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     let wrong = ContactConvention {
-        floor_arm: -0.01,
+        arms: Arms::reciprocal(0.0, -0.01),
         ..ContactConvention::PAPER
     };
     let declared = tristack::code::Declaration {
@@ -354,7 +355,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
             .iter()
             .map(|test| ContactTest {
                 convention: ContactConvention {
-                    floor_arm: 0.0,
+                    arms: Arms::PAPER,
                     ..test.convention
                 },
                 ..*test

@@ -27,8 +27,7 @@ fn twins<const N: usize, const W: usize>(
     let material = Material::new(&stack, convention);
     let mut scene = Scene::new(cylinders, walls, material.law, time_step);
     scene.cylinder_friction = material.cylinder_friction;
-    scene.pair_arm = material.pair_arm;
-    scene.wall_arm = material.wall_arm;
+    scene.arms = material.arms;
     scene.moment_of_inertia = material.moment_of_inertia;
     let packing = Packing::new(cylinders.to_vec(), walls.to_vec(), material, time_step);
     (scene, packing)

@@ -51,8 +51,10 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
 /// `convention` with one thing changed, each named.
 fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)> {
     let mut all = vec![
-        ("pair arm", convention),
-        ("floor arm", convention),
+        ("pair torque arm", convention),
+        ("pair kinematic arm", convention),
+        ("floor torque arm", convention),
+        ("floor kinematic arm", convention),
         ("restitution", convention),
         ("inertia", convention),
         ("operand", convention),
@@ -60,20 +62,22 @@ fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)
         ("transport", convention),
         ("separating force", convention),
     ];
-    all[0].1.pair_arm += 1e-3;
-    all[1].1.floor_arm += 1e-3;
-    all[2].1.restitution = 0.701;
-    all[3].1.moment_of_inertia = 0.9 - convention.moment_of_inertia;
-    all[4].1.coulomb_operand = match convention.coulomb_operand {
+    all[0].1.arms.pair.torque += 1e-3;
+    all[1].1.arms.pair.kinematic += 1e-3;
+    all[2].1.arms.floor.torque += 1e-3;
+    all[3].1.arms.floor.kinematic += 1e-3;
+    all[4].1.restitution = 0.701;
+    all[5].1.moment_of_inertia = 0.9 - convention.moment_of_inertia;
+    all[6].1.coulomb_operand = match convention.coulomb_operand {
         CoulombOperand::Spring => CoulombOperand::SpringAndDamping,
         CoulombOperand::SpringAndDamping => CoulombOperand::Spring,
     };
-    all[5].1.sliding_spring = SlidingSpring::Frozen;
-    all[6].1.history_update = match convention.history_update {
+    all[7].1.sliding_spring = SlidingSpring::Frozen;
+    all[8].1.history_update = match convention.history_update {
         HistoryUpdate::Linearised => HistoryUpdate::Projected,
         _ => HistoryUpdate::Linearised,
     };
-    all[7].1.tensile_force = match convention.tensile_force {
+    all[9].1.tensile_force = match convention.tensile_force {
         TensileForce::MayPull => TensileForce::NeverPulls,
         TensileForce::NeverPulls => TensileForce::MayPull,
     };

@@ -34,8 +34,8 @@ fn question(judgement: &Judgement) -> String {
         row.stiffness(),
         row.study.stack.stiffness_ratio,
         judgement.study.stack.cylinder_friction,
-        convention.pair_arm,
-        convention.floor_arm,
+        convention.arms.pair,
+        convention.arms.floor,
         if judgement.arms_are_measured {
             "measured: tristack probe"
         } else {

@@ -2,6 +2,7 @@
 
 use super::table::Table;
 use crate::code::Code;
+use crate::model::{Arms, ContactArms};
 use serde::Serialize;
 
 /// One code.
@@ -15,10 +16,9 @@ pub struct Inventory {
     pub version: Option<String>,
     /// Distribution package and version.
     pub package: Option<String>,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts; a default that a case may change for `native`.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of floor contacts.
-    pub floor_arm: f64,
+    /// Arm coefficients of its contacts; a default that a case may change for `native`.
+    #[serde(flatten, serialize_with = "Arms::serialize_flat")]
+    pub arms: Arms,
     /// SHA-256 of the deck.
     pub deck_hash: String,
     /// How to install it.
@@ -35,8 +35,7 @@ impl Inventory {
             installed: identity.is_some(),
             version: identity.map(|identity| identity.version.clone()),
             package: identity.and_then(|identity| identity.package.clone()),
-            pair_arm: code.convention().pair_arm,
-            floor_arm: code.convention().floor_arm,
+            arms: code.convention().arms,
             deck_hash: code.static_deck_hash(),
             install: code.installation_hint(),
         }
@@ -71,20 +70,20 @@ pub fn inventory_table(inventory: &[Inventory]) -> String {
     ]);
     for code in inventory {
         let absent = format!("not installed ({})", code.install);
-        let arms = |arm: f64| {
+        let shown = |arms: ContactArms| {
             let free = code.code.accepts_any_convention();
             if free {
-                format!("{arm} (any)")
+                format!("{arms} (any)")
             } else {
-                arm.to_string()
+                arms.to_string()
             }
         };
         table.push(vec![
             code.code.to_string(),
             code.version.clone().unwrap_or(absent),
             code.package.clone().unwrap_or_else(|| "-".to_owned()),
-            arms(code.pair_arm),
-            arms(code.floor_arm),
+            shown(code.arms.pair),
+            shown(code.arms.floor),
             code.deck_hash[..12].to_owned(),
         ]);
     }

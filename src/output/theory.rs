@@ -32,8 +32,10 @@ struct FlatRow {
     quasistatic: Option<f64>,
     event: String,
     floor_slip_force: Option<f64>,
-    pair_arm: f64,
-    floor_arm: f64,
+    pair_torque_arm: f64,
+    pair_kinematic_arm: f64,
+    floor_torque_arm: f64,
+    floor_kinematic_arm: f64,
     #[serde(rename = "T")]
     tangent: Option<f64>,
     y: Option<f64>,
@@ -60,8 +62,10 @@ pub fn theory_csv(predictions: &[Predictions]) -> Vec<u8> {
             quasistatic: case.quasistatic.yield_force,
             event: case.quasistatic.event.to_string(),
             floor_slip_force: case.quasistatic.floor_slip_force,
-            pair_arm: case.quasistatic.pair_arm,
-            floor_arm: case.quasistatic.floor_arm,
+            pair_torque_arm: case.quasistatic.arms.pair.torque,
+            pair_kinematic_arm: case.quasistatic.arms.pair.kinematic,
+            floor_torque_arm: case.quasistatic.arms.floor.torque,
+            floor_kinematic_arm: case.quasistatic.arms.floor.kinematic,
             tangent: case.quasistatic.tangent,
             y: case.quasistatic.y,
         };
@@ -81,8 +85,8 @@ pub fn theory_table(predictions: &[Predictions]) -> String {
             case.stiffness,
             case.kappa,
             case.mu_d,
-            case.quasistatic.pair_arm,
-            case.quasistatic.floor_arm
+            case.quasistatic.arms.pair,
+            case.quasistatic.arms.floor
         );
         heading + &one_case(case).terminal()
     });

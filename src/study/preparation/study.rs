@@ -4,7 +4,7 @@ use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::code::Code;
 use crate::code::Provenance;
-use crate::model::{CRITICAL_FRICTION, Case, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Case, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{
@@ -169,7 +169,7 @@ pub fn study_preparation(
     Ok(studies
         .map(|((stack, found), count)| PreparationStudy {
             stack: *stack,
-            exact_force: quasistatic_limit(stack, 0.0, 0.0).yield_force,
+            exact_force: quasistatic_limit(stack, &Arms::PAPER).yield_force,
             predicted_critical_push: critical_push(stack),
             critical_push: found,
             rows: rows.by_ref().take(count).collect(),
@@ -211,10 +211,11 @@ fn plans_of(
 
 fn limit_force(plan: &PreparationPlan) -> Option<f64> {
     let convention = plan.convention_of.convention();
-    let arms = (convention.pair_arm, convention.floor_arm);
     match plan.push {
         None => plan.measurement.limit.yield_force,
-        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.measurement.stack, push),
+        Some(push) if convention.arms == Arms::PAPER => {
+            pushed_slip_force(&plan.measurement.stack, push)
+        }
         Some(_) => None,
     }
 }

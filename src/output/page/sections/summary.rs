@@ -3,7 +3,7 @@
 use super::super::document::{Block, DataTable, Section};
 use super::tolerances::{Agreement, force};
 use crate::code::Code;
-use crate::model::CRITICAL_FRICTION;
+use crate::model::{Arms, CRITICAL_FRICTION};
 use crate::output::Table;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
@@ -156,7 +156,7 @@ fn points(reproduction: &Reproduction) -> DataTable {
                 .filter(|row| row.mu() == mu && row.stiffness() == stiffness)
                 .collect();
             let stack = crate::model::Stack::paper(mu, stiffness);
-            let theory = crate::theory::Predictions::new(&stack, 0.0, 0.0);
+            let theory = crate::theory::Predictions::new(&stack, &Arms::PAPER);
             let mut cells = vec![
                 stiffness.to_string(),
                 crate::output::friction(mu),

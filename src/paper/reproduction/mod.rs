@@ -25,7 +25,7 @@ use crate::runs::{Progress, Recorded, RunError, SelectedCode, Settings};
 use crate::series::SeriesError;
 use crate::study::convention::{Probed, probe_all};
 use crate::study::preparation::{PreparationStudy, preparation_cases, preparation_studies};
-use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use crate::study::trajectory::{
     Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory, trajectory_stack,
 };
@@ -91,15 +91,13 @@ pub struct Scope<'a> {
     pub literal: bool,
 }
 
-/// Carries out everything; `None` after an interrupt. `examined` is told how many more points of the regime
-/// maps, of `Scope::points`, are done.
+/// Carries out everything; `None` after an interrupt.
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
 pub fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
-    examined: &(dyn Fn(usize) + Sync),
 ) -> Result<Option<Reproduction>, ReproductionError> {
     let Scope {
         codes, settings, ..
@@ -132,8 +130,8 @@ pub fn reproduce(
     let preparation = preparation?;
     let trajectories = run_trajectories(scope, &probes, progress);
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
-    let points = boundary_points(&maps);
-    let survey = survey(&points, settings.threads, settings.interrupt, examined);
+    let plan = SurveyPlan::new(&boundary_points(&maps), &examined_stacks());
+    let survey = survey(&plan, settings, progress);
     if interrupted() {
         return Ok(None);
     }
@@ -161,11 +159,6 @@ pub fn reproduce(
         survey,
         curves: curves(),
     }))
-}
-
-/// How many points of the regime maps are examined.
-pub fn examined_points() -> usize {
-    boundary_points(&RegimeMap::standard(PAPER_STIFFNESS_RATIO)).len() + examined_stacks().len()
 }
 
 fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {

@@ -1,7 +1,9 @@
 //! A table of wrong codes: twins of the native DEM with one line changed, and who notices.
 
 use std::path::Path;
-use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
+use tristack::code::{
+    Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext, Tasks,
+};
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
@@ -210,7 +212,17 @@ impl InstalledCode for TwinEngine {
         Batching::OneCallACase
     }
 
-    fn run(&self, cases: &[Case], _: &RunContext, finished: Finished<Run>) {
+    fn carry_out(&self, tasks: Tasks, _: &RunContext) {
+        match tasks {
+            Tasks::Cases(cases, finished) => self.run_cases(cases, finished),
+            Tasks::ContactTests(tests, finished) => self.probe_all(tests, finished),
+            Tasks::Pyramids(..) => unreachable!("a twin is asked for no pyramids"),
+        }
+    }
+}
+
+impl TwinEngine {
+    fn run_cases(&self, cases: &[Case], finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
             let run = self.compress(case).map(|series| Run {
                 case: *case,
@@ -227,13 +239,13 @@ impl InstalledCode for TwinEngine {
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
-        let motions = tests.iter().map(|test| {
+    fn probe_all(&self, tests: &[ContactTest], finished: Finished<Motion>) {
+        for (index, test) in tests.iter().enumerate() {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);
-            run_contact_test_with(test, twin).expect("a finite motion")
-        });
-        Ok(motions.collect())
+            let motion = run_contact_test_with(test, twin).expect("a finite motion");
+            finished(index, Ok(motion));
+        }
     }
 }
 

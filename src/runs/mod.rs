@@ -2,6 +2,8 @@
 //! schedule that makes what is in neither.
 
 mod entry;
+mod observations;
+mod parallel;
 mod probe_record;
 mod read_all;
 mod recorded;
@@ -10,6 +12,8 @@ mod store;
 mod summary;
 
 pub use entry::Archive;
+pub(crate) use observations::observe_all;
+pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
 pub use read_all::{Reading, read_all};
 pub use recorded::{Recorded, RecordedError};

@@ -26,7 +26,7 @@ use crate::series::SeriesError;
 use crate::study::Campaign;
 use crate::study::convention::Probed;
 use crate::study::preparation::{PreparationStudy, preparation_cases, preparation_studies};
-use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use crate::study::trajectory::{
     Trajectory, TrajectoryJudgement, plan_trajectory, trajectory_stack,
 };
@@ -90,15 +90,13 @@ pub struct Scope<'a> {
     pub literal: bool,
 }
 
-/// Carries out everything; `None` after an interrupt. `examined` is told how many more points of the regime
-/// maps, of `Scope::points`, are done.
+/// Carries out everything; `None` after an interrupt.
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
 pub fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
-    examined: &(dyn Fn(usize) + Sync),
 ) -> Result<Option<Reproduction>, ReproductionError> {
     let settings = scope.settings;
     let interrupted = || settings.interrupt.requested();
@@ -124,8 +122,8 @@ pub fn reproduce(
     let preparation = preparation?;
     let trajectories = campaign.carry_out(trajectories(scope.codes));
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
-    let points = boundary_points(&maps);
-    let survey = survey(&points, settings.threads, settings.interrupt, examined);
+    let plan = SurveyPlan::new(&boundary_points(&maps), &examined_stacks());
+    let survey = survey(&plan, settings, progress);
     if interrupted() {
         return Ok(None);
     }
@@ -157,11 +155,6 @@ pub fn reproduce(
         survey,
         curves: curves(),
     }))
-}
-
-/// How many points of the regime maps are examined.
-pub fn examined_points() -> usize {
-    boundary_points(&RegimeMap::standard(PAPER_STIFFNESS_RATIO)).len() + examined_stacks().len()
 }
 
 fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {

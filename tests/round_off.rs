@@ -57,7 +57,7 @@ fn native_is_within_its_round_off_of_a_double_double_twin() {
         Stack::paper(0.2, 1e4),
         Stack::paper(CRITICAL_FRICTION, 1e4),
     ];
-    assert_fair(Code::Native, &stacks);
+    assert_fair(Code::NATIVE, &stacks);
 }
 
 #[test]

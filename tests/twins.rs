@@ -42,7 +42,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
             name: code,
             code: None,
         },
-        SelectedCode::find(Code::Native),
+        SelectedCode::find(Code::NATIVE),
     ];
     let plan = plan_trajectory(code, &trajectory_stack(), declared);
     let mut judgements = measure_trajectories(&[plan], &codes, &settings, &Silence);

@@ -1,7 +1,7 @@
 //! The codes that tristack knows, as they are installed here.
 
 use super::table::Table;
-use crate::code::Code;
+use crate::code::{Code, TaskKind};
 use serde::Serialize;
 
 /// One code.
@@ -37,7 +37,7 @@ impl Inventory {
             package: identity.and_then(|identity| identity.package.clone()),
             pair_arm: code.convention().pair_arm,
             floor_arm: code.convention().floor_arm,
-            deck_hash: code.static_deck_hash(),
+            deck_hash: code.files_hash(TaskKind::Stack),
             install: code.installation_hint(),
         }
     }

@@ -67,7 +67,7 @@ pub struct Convergence {
 /// The runs of one code: those over the wall speed first.
 fn load(code: Code) -> Load {
     let own = |count: usize| match code {
-        Code::Native => count,
+        Code::NATIVE => count,
         _ => count - 1,
     };
     let speeds = WALL_SPEEDS[..own(WALL_SPEEDS.len())]
@@ -162,8 +162,8 @@ mod tests {
 
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
-        for load in convergence_loads(&Code::ALL) {
-            let native = load.code == Code::Native;
+        for load in convergence_loads(&Code::all()) {
+            let native = load.code == Code::NATIVE;
             assert_eq!(load.cases.len(), if native { 11 } else { 9 });
             for case in &load.cases {
                 case.validate().unwrap();

@@ -41,7 +41,7 @@ pub fn force_series(
 ) -> Result<(ForceSeries, RunSummary), RunError> {
     let stack = force_series_stack();
     let limit = quasistatic_limit(&stack, 0.0, 0.0);
-    let convention = Code::Native.convention();
+    let convention = Code::NATIVE.convention();
     let protocol = protocol_at_speed(&limit, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let cases = protocol.map(|protocol| Case {
         stack,
@@ -49,7 +49,7 @@ pub fn force_series(
         protocol,
     });
     let load = Load {
-        code: Code::Native,
+        code: Code::NATIVE,
         cases: cases.into_iter().collect(),
     };
     let keep = |run: crate::code::Run| {

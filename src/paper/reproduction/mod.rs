@@ -9,7 +9,7 @@ mod snapshots;
 pub use convergence::{
     Convergence, ConvergencePoint, FAST_WALL, converge, convergence_loads, convergence_stack,
 };
-pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, codes_by_arms, curves};
 pub use force_series::{ForceSeries, force_series, force_series_stack};
 pub use scaling::{
     Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
@@ -118,7 +118,7 @@ pub fn reproduce(
     let (yield_curves, scaling) = (of(&plan.yield_curves), of(&plan.scaling));
     let literal = of(&plan.literal);
     let (convergence, mut summaries) = converge(codes, settings, progress);
-    let native = SelectedCode::find(Code::Native);
+    let native = SelectedCode::find(Code::NATIVE);
     if interrupted() {
         return Ok(None);
     }

@@ -87,7 +87,7 @@ fn touching(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<bool>, RunError> {
-    let name = Code::Native;
+    let name = Code::NATIVE;
     let plans = pushed.iter().map(|(stack, push)| {
         let mut plan = plan_preparation(name, name, stack, Some(*push));
         let middle = plan.measurement.cases.get(MIDDLE_RUN).copied();

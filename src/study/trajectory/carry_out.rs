@@ -48,7 +48,7 @@ pub fn measure_trajectories(
         })
         .collect();
     loads.push(Load {
-        code: Code::Native,
+        code: Code::NATIVE,
         cases: twin_cases(plans),
     });
     let keep = |run: Run| {

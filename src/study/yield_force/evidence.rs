@@ -23,7 +23,7 @@ impl Evidence {
     pub fn of(row: &Row) -> Self {
         match (row.source, row.code) {
             (Source::Recorded, _) => Self::RecordedRun,
-            (Source::Live, Code::Native) => Self::ClosedForm,
+            (Source::Live, Code::NATIVE) => Self::ClosedForm,
             (Source::Live, _) => Self::IndependentCode,
         }
     }

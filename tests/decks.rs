@@ -90,7 +90,7 @@ fn cases() -> impl Strategy<Value = Case> {
         },
     );
     let speeds = (-9.0..-2.0, 1e-3..1.0, 0.0..1.0, prop::option::of(0.0..0.5));
-    (stack, speeds, 1e-3..1.0, select(&Code::ALL[..])).prop_map(
+    (stack, speeds, 1e-3..1.0, select(&Code::all()[..])).prop_map(
         |(stack, (speed, step, fine, push), restitution, code)| {
             let wall_travel: f64 = 0.5;
             let wall_speed = 10f64.powf(speed);

@@ -34,7 +34,7 @@ const NAMES: [&[u8]; 13] = [
     b"not-utf-8-\xe9\xff",
 ];
 
-const LIVE: [Code; 4] = [Code::Native, Code::Liggghts, Code::Yade, Code::Lammps];
+const LIVE: [Code; 4] = [Code::NATIVE, Code::Liggghts, Code::Yade, Code::Lammps];
 
 /// The start-up script of YADE fails where its home directory, a part of the run directory, is not text.
 fn names(code: Code) -> impl Iterator<Item = &'static [u8]> {
@@ -158,7 +158,7 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let [here, store, temporary] =
-        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), Code::Native));
+        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), Code::NATIVE));
     for directory in [&here, &temporary] {
         fs::create_dir_all(directory).expect("a directory");
     }
@@ -186,7 +186,7 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
 #[test]
 fn the_environment_may_name_the_store_in_any_bytes() {
     let bench = Bench::without_codes();
-    let store = nested(&bench.path("store-"), Code::Native);
+    let store = nested(&bench.path("store-"), Code::NATIVE);
     let mut command = bench.process("crosscheck --explain native/0.3/100");
     succeed(&bench, command.env("TRISTACK_STORE", &store));
     assert!(store.join("runs").is_dir());

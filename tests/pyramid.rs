@@ -66,7 +66,7 @@ fn three_cylinders_have_the_same_bits_as_in_the_small_scene() {
         speed: 1e-3,
         friction: 0.0,
     };
-    for code in [Code::Native, Code::Liggghts, Code::Lammps] {
+    for code in [Code::NATIVE, Code::Liggghts, Code::Lammps] {
         let convention = code.convention();
         let (mut scene, mut packing) = twins(stack, [MIN_TOLERANCE, lid], &convention);
         assert_same_bits(&mut scene, &mut packing, 1e-3, 8000);
@@ -241,7 +241,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
         assert!(matches!(kind, FailureKind::Unsupported(_)));
     }
     let none = Pyramid::touching(0, 1e3, ContactConvention::PAPER);
-    let native = Code::Native.find().expect("always there");
+    let native = Code::NATIVE.find().expect("always there");
     let failure = native.build(&[none], &context).expect_err("no rows");
     assert!(
         failure.to_string().contains("`pyramid.rows` is 0"),
@@ -253,7 +253,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
 fn the_cost_of_a_step_is_measured_for_every_code_and_pyramid() {
     let interrupt = Interrupt::new();
     let directory = tempfile::tempdir().expect("a directory");
-    let mut codes = vec![Code::Native];
+    let mut codes = vec![Code::NATIVE];
     codes.extend(installed(&BUILDERS));
     let bench = PyramidBench {
         rows: vec![3, 5],

@@ -41,7 +41,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
             name: code,
             code: None,
         },
-        SelectedCode::find(Code::Native),
+        SelectedCode::find(Code::NATIVE),
     ];
     let plan = plan_trajectory(code, &trajectory_stack(), declared);
     let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);

@@ -17,7 +17,8 @@ pub struct Arguments {
 
 /// Prints every code that tristack knows.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let inventory = Code::ALL.map(Inventory::take);
+    let inventory = Code::all().into_iter().map(Inventory::take);
+    let inventory: Vec<Inventory> = inventory.collect();
     super::print(&match arguments.format {
         Format::Table => inventory_table(&inventory).into_bytes(),
         Format::Json => inventory_json(&inventory).into_bytes(),

@@ -1,7 +1,7 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{Format, RunOptions, selected_codes, writable};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, writable};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -32,12 +32,12 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     profile: Profile,
     /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Explain one row, ENGINE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
+    /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
     #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile"])]
     explain: Option<RowName>,
     /// Let native walls approach the yield up to ten times faster and stop after it; a run without, for each

@@ -168,7 +168,7 @@ pub fn pyramid_rows(costs: &[PyramidCost]) -> Vec<PyramidRow> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {
         let mut all = costs.iter();
-        let native = all.find(|cost| cost.code == Code::Native);
+        let native = all.find(|cost| cost.code == Code::NATIVE);
         costs.iter().map(move |cost| PyramidRow {
             code: cost.code,
             version: cost.version.clone(),
@@ -223,7 +223,7 @@ mod tests {
 
     #[test]
     fn ratios_are_to_native_lanes() {
-        let liggghts = BenchTarget::External(Code::Liggghts);
+        let liggghts = BenchTarget::External(Code::named("liggghts").unwrap());
         let rows = bench_rows(&[cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)]);
         assert_eq!([rows[0].ratio, rows[1].ratio], [Some(1.0), Some(250.0)]);
         assert_eq!(rows[1].yield_force_ratio, Some(250.0));

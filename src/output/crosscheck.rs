@@ -191,7 +191,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     page += &crosscheck_rows(judgements).markdown();
     page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
              the order with which the runs converge in the wall speed. How each part is computed, and all \
-             runs behind a row: `tristack crosscheck --explain ENGINE/MU/STIFFNESS`.\n\n";
+             runs behind a row: `tristack crosscheck --explain CODE/MU/STIFFNESS`.\n\n";
     page += &budgets(judgements).markdown();
     page += &evidence();
     let explained = judgements

@@ -1,7 +1,7 @@
 //! The codes that tristack knows, as they are installed here.
 
 use super::table::Table;
-use crate::code::Code;
+use crate::code::{Code, TaskKind};
 use crate::model::{Arms, ContactArms};
 use serde::Serialize;
 
@@ -36,7 +36,7 @@ impl Inventory {
             version: identity.map(|identity| identity.version.clone()),
             package: identity.and_then(|identity| identity.package.clone()),
             arms: code.convention().arms,
-            deck_hash: code.static_deck_hash(),
+            deck_hash: code.files_hash(TaskKind::Stack),
             install: code.installation_hint(),
         }
     }

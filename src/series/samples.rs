@@ -191,6 +191,9 @@ pub struct Series {
 }
 
 impl Series {
+    /// Names of its columns, in order.
+    pub const COLUMNS: [&'static str; 16] = COLUMNS;
+
     /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
     pub fn new(
         samples: Vec<Sample>,

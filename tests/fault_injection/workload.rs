@@ -37,7 +37,7 @@ impl Workloads {
         install(&place, &shared.path("replay"));
         let replayed = Workload::new(&place, Code::Yade, &[0.2, 0.3], 100.0);
         let codes = [Code::Liggghts, Code::Lammps, Code::Yade];
-        let mut real = vec![(Code::Native, 1e4)];
+        let mut real = vec![(Code::NATIVE, 1e4)];
         let installed = codes.iter().filter(|code| code.find().is_some());
         real.extend(installed.map(|&code| (code, 100.0)));
         let real = real.into_iter().map(|(code, stiffness)| {

@@ -2,8 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, draw};
-use super::style::{EXACT, GUIDE, INK, Mark, Stroke};
-use crate::code::Code;
+use super::style::{EXACT, GUIDE, INK, POINT, Stroke};
 use crate::output::BenchRow;
 use crate::output::number::plain;
 use crate::study::cost::{Scaling, ScalingRow};
@@ -47,7 +46,7 @@ fn speedups(rows: &[ScalingRow]) -> Panel {
         EXACT,
         points().map(|(cases, speedup)| (cases, Some(speedup))),
     );
-    panel.marks(Mark::of(Code::Liggghts), points());
+    panel.marks(POINT, points());
     panel
 }
 

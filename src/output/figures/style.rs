@@ -1,6 +1,8 @@
 //! What lines and marks mean, the same in every figure, and told apart without colour.
 
-use crate::code::Code;
+use crate::code::{Code, Colour};
+
+pub(super) use crate::code::Shape;
 
 /// Black enough for print.
 pub(super) const INK: &str = "#1a1a1a";
@@ -63,15 +65,33 @@ pub(super) struct Mark {
     pub size: f64,
 }
 
-/// Outlines, so that marks at the same place do not hide each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
-    Dot,
-    Circle,
-    Square,
-    Diamond,
-    Cross,
-    Plus,
+/// Marks of codes whose manifests choose none, in turn.
+const UNCHOSEN: [(Shape, Colour); 3] = [
+    (Shape::Square, Colour::Green),
+    (Shape::Diamond, Colour::Blue),
+    (Shape::Plus, Colour::Vermilion),
+];
+
+/// Half the width of a mark: from inside to outside dot, cross, circle, square, diamond and plus.
+const fn size(shape: Shape) -> f64 {
+    match shape {
+        Shape::Dot => 1.7,
+        Shape::Cross => 3.0,
+        Shape::Circle => 3.6,
+        Shape::Square => 4.4,
+        Shape::Diamond | Shape::Plus => 5.0,
+    }
+}
+
+const fn colour(colour: Colour) -> &'static str {
+    match colour {
+        Colour::Ink => INK,
+        Colour::Blue => BLUE,
+        Colour::Vermilion => VERMILION,
+        Colour::Purple => PURPLE,
+        Colour::Orange => ORANGE,
+        Colour::Green => GREEN,
+    }
 }
 
 impl Mark {
@@ -91,31 +111,22 @@ impl Mark {
         }
     }
 
-    /// The mark of an code: from inside to outside dot, cross, circle, plus, square, diamond.
-    pub const fn of(code: Code) -> Self {
-        match code {
-            Code::Native => Self::new(Shape::Dot, INK, 1.7),
-            Code::Liggghts => Self::new(Shape::Circle, BLUE, 3.6),
-            Code::Yade => Self::new(Shape::Cross, VERMILION, 3.0),
-            Code::YadeFacet => Self::new(Shape::Square, PURPLE, 4.4),
-            Code::YadeWall => Self::new(Shape::Diamond, ORANGE, 5.0),
-            Code::Lammps => Self::new(Shape::Plus, GREEN, 5.0),
-        }
+    /// The mark of a code: that of its manifest, or the next of those that are left.
+    pub fn of(code: Code) -> Self {
+        let (shape, own) = code.mark().map_or_else(
+            || {
+                let others = Code::all().into_iter().filter(|other| *other < code);
+                let unchosen = others.filter(|other| other.mark().is_none()).count();
+                UNCHOSEN[unchosen % UNCHOSEN.len()]
+            },
+            |mark| (mark.shape, mark.colour),
+        );
+        Self::new(shape, colour(own), size(shape))
     }
 }
 
-/// The name of an code in a figure.
-pub(super) const fn code_label(code: Code) -> &'static str {
-    match code {
-        Code::Native => "native",
-        Code::Liggghts => "LIGGGHTS",
-        Code::Yade => "YADE, box",
-        Code::YadeFacet => "YADE, facet",
-        Code::YadeWall => "YADE, wall",
-        Code::Lammps => "LAMMPS",
-    }
-}
-
+/// A measured point that belongs to no code.
+pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle));
 /// The onset of slip and the peak on a curve.
 pub(super) const ONSET: Mark = Mark::new(Shape::Circle, BLUE, 4.5);
 pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);

@@ -42,8 +42,8 @@ fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
 /// LIGGGHTS at two pushes, of which one has failed.
 fn preparation() -> PreparationStudy {
     let row = |push: f64, force: Option<f64>| PreparationRow {
-        code: Code::Liggghts,
-        convention_of: Code::Liggghts,
+        code: Code::named("liggghts").unwrap(),
+        convention_of: Code::named("liggghts").unwrap(),
         push: Some(push),
         limit_force: None,
         contact_force: force.map(|_| 0.1),
@@ -65,9 +65,9 @@ fn preparation() -> PreparationStudy {
 
 /// Every code at every friction, with LAMMPS having failed.
 fn judgements() -> Vec<Judgement> {
-    let codes = Code::ALL.into_iter();
+    let codes = Code::all().into_iter();
     let rows = codes.flat_map(|code| {
-        let force = (code != Code::Lammps).then_some(4.0);
+        let force = (code != Code::named("lammps").unwrap()).then_some(4.0);
         FRICTIONS.map(|mu| judgement(code, mu, force))
     });
     rows.collect()
@@ -75,7 +75,7 @@ fn judgements() -> Vec<Judgement> {
 
 fn study(force: Option<f64>) -> Convergence {
     let point = |wall_speed, time_step| ConvergencePoint {
-        code: Code::Liggghts,
+        code: Code::named("liggghts").unwrap(),
         wall_speed,
         time_step,
         slip_force: force.map(|force| force + time_step),
@@ -120,7 +120,7 @@ fn curves() -> Curves {
 
 fn exponent() -> Exponent {
     Exponent {
-        code: Code::Native,
+        code: Code::NATIVE,
         mu: 0.3,
         exponent: 0.989_588,
         uncertainty: 2.5e-6,
@@ -168,7 +168,7 @@ fn circles(svg: &str, size: f64) -> usize {
 
 #[test]
 fn every_point_is_marked() {
-    let mark = Mark::of(Code::Liggghts);
+    let mark = Mark::of(Code::named("liggghts").unwrap());
     let (large, small) = (mark.size, mark.small().size);
     for name in ["yield-curves", "scaling"] {
         let svg = figure(name).svg;

@@ -44,11 +44,12 @@ pub struct PyramidCost {
 }
 
 impl Default for PyramidBench {
-    /// About 1, 2, 5 and 10 thousand cylinders, native, LAMMPS and LIGGGHTS; some minutes.
+    /// About 1, 2, 5 and 10 thousand cylinders, with every code that builds pyramids; some minutes.
     fn default() -> Self {
+        let codes = Code::all().into_iter();
         Self {
             rows: vec![44, 62, 99, 140],
-            codes: vec![Code::Native, Code::Lammps, Code::Liggghts],
+            codes: codes.filter(|code| code.builds_pyramids()).collect(),
             cylinder_steps: 10_000_000,
             repeats: 5,
         }
@@ -57,7 +58,7 @@ impl Default for PyramidBench {
 
 impl PyramidBench {
     /// Measures, in directories of their own in that of `context`. Only the last steps of a run are timed, by
-    /// the code itself (the loop time in the log of LAMMPS and LIGGGHTS): start-up, neighbour lists of the
+    /// the code itself (the loop time in its log): start-up, neighbour lists of the
     /// beginning and the rise of gravity do not count.
     ///
     /// # Errors
@@ -83,8 +84,8 @@ impl PyramidBench {
         Ok(costs)
     }
 
-    /// The pyramid of so many rows as `code` builds it. Native takes the convention of LAMMPS, so that the two
-    /// compute the same thing.
+    /// The pyramid of so many rows as `code` builds it. Native takes the convention of an external code with
+    /// the paper's arms, so that the two compute the same thing.
     pub fn pyramid(&self, code: Code, rows: u32) -> Pyramid {
         let pyramid = Pyramid::touching(rows, STIFFNESS, convention(code));
         let cylinders = pyramid.cylinder_count().max(1) as u64;
@@ -145,7 +146,7 @@ mod tests {
 
     fn cost(nanoseconds: &[f64]) -> PyramidCost {
         PyramidCost {
-            code: Code::Native,
+            code: Code::NATIVE,
             version: String::new(),
             rows: 2,
             cylinders: 3,

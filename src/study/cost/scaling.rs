@@ -114,7 +114,7 @@ impl ScalingBench {
             stacks: self.stacks,
             ..StackBench::default()
         };
-        let plans = bench.plans(Code::Native).into_iter();
+        let plans = bench.plans(Code::NATIVE).into_iter();
         plans.flat_map(|plan| plan.cases).collect()
     }
 
@@ -125,7 +125,7 @@ impl ScalingBench {
         count: usize,
         context: &RunContext,
     ) -> Result<f64, BenchError> {
-        let cases = timed_cases(Code::Native, count, self.steps, LENGTHS);
+        let cases = timed_cases(Code::NATIVE, count, self.steps, LENGTHS);
         let steps: u64 = cases.iter().map(Case::total_steps).sum();
         let calls = self.least_cases.div_ceil(count.max(1));
         let mut seconds = 0.0;

@@ -79,10 +79,10 @@ impl Default for StackBench {
 }
 
 impl StackBench {
-    /// Those of native, LIGGGHTS, YADE on its box, and LAMMPS that are installed.
+    /// The codes that are installed, of each the first variant.
     pub fn installed() -> Vec<Code> {
-        let codes = [Code::Native, Code::Liggghts, Code::Yade, Code::Lammps];
-        let installed = codes.into_iter().filter(|name| name.find().is_some());
+        let codes = Code::all().into_iter();
+        let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
         installed.collect()
     }
 
@@ -116,7 +116,7 @@ impl StackBench {
     ) -> Result<(), BenchError> {
         let code = target.code.name();
         let count = match code {
-            Code::Native => self.native_cases,
+            Code::NATIVE => self.native_cases,
             _ => 1,
         };
         let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, self.steps, part));
@@ -253,7 +253,8 @@ mod tests {
 
     #[test]
     fn short_and_long_runs_are_valid_and_differ_in_their_steps_alone() {
-        let [short, long] = [1, LENGTHS].map(|part| timed_cases(Code::Yade, 2, 8000, part));
+        let [short, long] =
+            [1, LENGTHS].map(|part| timed_cases(Code::named("yade").unwrap(), 2, 8000, part));
         for (short, long) in short.iter().zip(&long) {
             assert_eq!([short.validate(), long.validate()], [Ok(()), Ok(())]);
             assert_eq!(long.total_steps() - short.total_steps(), 7000);

@@ -40,7 +40,7 @@ impl BenchTarget {
     /// The targets of `code`.
     pub fn of(code: Code) -> Vec<Self> {
         match code {
-            Code::Native => vec![Self::NativeScalar, Self::NativeLanes],
+            Code::NATIVE => vec![Self::NativeScalar, Self::NativeLanes],
             external => vec![Self::External(external)],
         }
     }
@@ -57,7 +57,7 @@ impl BenchTarget {
     /// Whose runs they are.
     pub fn code(self) -> Code {
         match self {
-            Self::NativeScalar | Self::NativeLanes => Code::Native,
+            Self::NativeScalar | Self::NativeLanes => Code::NATIVE,
             Self::External(code) => code,
         }
     }
@@ -134,10 +134,14 @@ impl InstalledTarget {
     }
 }
 
-/// What a contact is to `code`. Native takes the convention of LAMMPS, so that the two compute the same thing.
+/// What a contact is to `code`. Native takes the convention of the first external code with the paper's arms, so that
+/// the two compute the same thing.
 pub(super) fn convention(code: Code) -> ContactConvention {
-    match code {
-        Code::Native => Code::Lammps.convention(),
-        other => other.convention(),
+    let own = code.convention();
+    if code != Code::NATIVE {
+        return own;
     }
+    let others = Code::all().into_iter().skip(1).map(Code::convention);
+    let mut others = others.filter(|other| other.arms == own.arms);
+    others.next().unwrap_or(own)
 }

@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, DataTable, Section};
 use super::Origin;
-use crate::code::Code;
+use crate::code::{Code, TaskKind};
 use crate::code::{Identity, Provenance};
 use crate::model::sha256_hex;
 use crate::output::Table;
@@ -127,11 +127,11 @@ fn decks() -> DataTable {
         "SHA-256 of the deck of a stack",
         "of the micro-tests",
     ]);
-    for code in Code::ALL {
+    for code in Code::all() {
         table.push(vec![
             code.to_string(),
-            short(&code.static_deck_hash()),
-            short(&code.static_probe_hash()),
+            short(&code.files_hash(TaskKind::Stack)),
+            short(&code.files_hash(TaskKind::Motion)),
         ]);
     }
     DataTable {

@@ -71,7 +71,7 @@ fn of_codes(reproduction: &Reproduction) -> String {
 fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     let of = |mu: f64| {
         let mut all = reproduction.exponents.iter();
-        all.find(|exponent| exponent.code == Code::Native && exponent.mu == mu)
+        all.find(|exponent| exponent.code == Code::NATIVE && exponent.mu == mu)
     };
     let (at, above) = (of(CRITICAL_FRICTION)?, of(0.3)?);
     let agreeing = reproduction.exponents.iter();
@@ -90,7 +90,7 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
 fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let mut points = reproduction.convergence.wall_speeds.iter();
     let paper = points.find(|point| {
-        point.code == Code::Native
+        point.code == Code::NATIVE
             && point.wall_speed == crate::study::yield_force::PAPER_WALL_SPEED
     })?;
     Some(format!(
@@ -146,7 +146,7 @@ fn theories(reproduction: &Reproduction) -> DataTable {
 /// Some points of Fig. 2(a), theory and codes side by side.
 fn points(reproduction: &Reproduction) -> DataTable {
     let mut columns = vec!["stiffness>", "μ>", "perturbation>", "exact limit>"];
-    let codes: Vec<Code> = Code::ALL.into_iter().collect();
+    let codes = Code::all();
     columns.extend(codes.iter().map(|code| code.as_str()));
     let mut table = Table::new(&columns);
     for stiffness in PAPER_STIFFNESSES {
@@ -172,8 +172,8 @@ fn points(reproduction: &Reproduction) -> DataTable {
     }
     DataTable {
         name: "points",
-        caption: "Yield force F = f/(m g) at some points of Fig. 2(a). LIGGGHTS and YADE differ from the \
-                  paper’s model by their torque arms, not by an error."
+        caption: "Yield force F = f/(m g) at some points of Fig. 2(a). Codes whose limit is \
+                  another one have other torque arms than the paper’s model; that is no error."
             .to_owned(),
         csv: table.csv(),
         table,

@@ -1,5 +1,7 @@
 //! The conventions of the codes, measured before anything is judged by them.
 
+use super::finding::Finding;
+use super::probe::probe;
 use crate::code::{Code, Failure, InstalledCode, RunContext, TaskKind, keep_evidence};
 use crate::code::{Identity, Provenance};
 use crate::files::FileError;
@@ -7,7 +9,6 @@ use crate::model::{ContactTest, sha256_hex, shown};
 use crate::runs::{Answer, ProbeRecord, in_parallel};
 use crate::runs::{Progress, RecordedError, SelectedCode, Settings};
 use crate::study::Verdict;
-use crate::study::convention::{Finding, probe};
 use std::time::Instant;
 use thiserror::Error;
 

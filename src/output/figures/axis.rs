@@ -1,11 +1,5 @@
 //! An axis: what it measures, from where to where.
 
-use kuva::render::layout::TickFormat;
-use std::sync::Arc;
-
-/// Lowest value on a logarithmic axis of kuva.
-const LOWEST: f64 = 1e-10;
-
 /// What an axis measures, and from where to where.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
@@ -24,6 +18,8 @@ pub(super) enum Scale {
     Linear(f64, usize),
     /// At powers of ten.
     Log,
+    /// At 1, 2 and 5 times powers of ten, logarithmic too.
+    LogOneTwoFive,
     /// Nowhere.
     Bare,
 }
@@ -50,12 +46,20 @@ impl Axis {
         Self::linear(label, range, step, decimals as usize)
     }
 
-    /// An axis with a tick at every power of ten. It begins at 1e-10 at the lowest, as those of kuva do.
-    pub fn log(label: &str, (low, high): (f64, f64)) -> Self {
+    /// An axis with a tick at every power of ten.
+    pub fn log(label: &str, range: (f64, f64)) -> Self {
         Self {
             label: label.to_owned(),
-            range: (low.max(LOWEST), high),
+            range,
             scale: Scale::Log,
+        }
+    }
+
+    /// A logarithmic axis over few powers of ten, with ticks at 1, 2 and 5 times each.
+    pub fn log_one_two_five(label: &str, range: (f64, f64)) -> Self {
+        Self {
+            scale: Scale::LogOneTwoFive,
+            ..Self::log(label, range)
         }
     }
 
@@ -78,7 +82,7 @@ impl Axis {
         let (low, high) = self.range;
         match self.scale {
             Scale::Linear(..) | Scale::Bare => (value - low) / (high - low),
-            Scale::Log => libm::log(value / low) / libm::log(high / low),
+            Scale::Log | Scale::LogOneTwoFive => libm::log(value / low) / libm::log(high / low),
         }
     }
 
@@ -87,7 +91,7 @@ impl Axis {
         let (low, high) = self.range;
         match self.scale {
             Scale::Linear(..) | Scale::Bare => low + part * (high - low),
-            Scale::Log => low * libm::exp(part * libm::log(high / low)),
+            Scale::Log | Scale::LogOneTwoFive => low * libm::exp(part * libm::log(high / low)),
         }
     }
 
@@ -96,16 +100,69 @@ impl Axis {
         (self.range.0..=self.range.1).contains(&value)
     }
 
-    /// How its ticks are printed.
-    pub fn ticks(&self) -> TickFormat {
-        match self.scale {
-            Scale::Linear(_, decimals) => {
-                let print = move |value: f64| format!("{value:.decimals$}").replace('-', "−");
-                TickFormat::Custom(Arc::new(print))
+    /// `value`, or the end of the axis that it is beyond.
+    pub fn clamp(&self, value: f64) -> f64 {
+        value.clamp(self.range.0, self.range.1)
+    }
+
+    /// Whether it is logarithmic, and has no place for zero.
+    pub fn is_logarithmic(&self) -> bool {
+        matches!(self.scale, Scale::Log | Scale::LogOneTwoFive)
+    }
+
+    /// Its ticks and what is printed there.
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        let ticks: Vec<(f64, String)> = match self.scale {
+            Scale::Linear(step, decimals) => {
+                let ticks = multiples(self.range, step).map(|index| index as f64 * step);
+                ticks.map(|tick| (tick, printed(tick, decimals))).collect()
             }
-            Scale::Log => TickFormat::Custom(Arc::new(power_of_ten)),
-            Scale::Bare => TickFormat::Custom(Arc::new(|_| String::new())),
-        }
+            Scale::Log => self
+                .powers()
+                .map(|tick| (tick, power_of_ten(tick)))
+                .collect(),
+            Scale::LogOneTwoFive => {
+                let ticks = self
+                    .powers()
+                    .flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * power));
+                ticks.map(|tick| (tick, tick.to_string())).collect()
+            }
+            Scale::Bare => Vec::new(),
+        };
+        let on_axis = |tick: &(f64, String)| (-SLACK..=1.0 + SLACK).contains(&self.part(tick.0));
+        ticks.into_iter().filter(on_axis).collect()
+    }
+
+    /// The powers of ten on a logarithmic axis, and the one below it.
+    fn powers(&self) -> impl Iterator<Item = f64> {
+        let (low, high) = self.range;
+        multiples((libm::log10(low).floor(), libm::log10(high)), 1.0).map(power)
+    }
+}
+
+/// How far a tick may be beyond an end of its axis, in parts of the axis: as far as round-off moves it.
+const SLACK: f64 = 1e-9;
+
+/// The multiples of `step` in `range`.
+fn multiples((low, high): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
+    let slack = SLACK * (high - low).abs();
+    let first = ((low - slack) / step).ceil() as i64;
+    let last = ((high + slack) / step).floor() as i64;
+    first..=last
+}
+
+/// The power of ten that is nearest to it as a number.
+fn power(exponent: i64) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+/// `value` with `decimals` digits after the point and a true minus.
+fn printed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().any(|digit| ('1'..='9').contains(&digit)) => format!("−{rest}"),
+        Some(rest) => rest.to_owned(),
+        None => text,
     }
 }
 
@@ -135,6 +192,25 @@ mod tests {
         assert_eq!(power_of_ten(1e-10), "10⁻¹⁰");
         assert_eq!(power_of_ten(200.0), "");
         assert_eq!(power_of_ten(0.0), "");
+    }
+
+    #[test]
+    fn ticks_are_on_the_axis_and_printed() {
+        let printed = |axis: Axis| -> Vec<String> {
+            axis.ticks().into_iter().map(|(_, text)| text).collect()
+        };
+        let linear = Axis::linear("x", (-0.2, 0.3), 0.1, 1);
+        assert_eq!(
+            printed(linear),
+            ["−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
+        );
+        assert_eq!(
+            printed(Axis::log("x", (1e-2, 3e1))),
+            ["10⁻²", "10⁻¹", "10⁰", "10¹"]
+        );
+        let few = Axis::log_one_two_five("x", (0.2, 20.0));
+        assert_eq!(printed(few), ["0.2", "0.5", "1", "2", "5", "10", "20"]);
+        assert!(printed(Axis::bare((0.0, 3.0))).is_empty());
     }
 
     #[test]

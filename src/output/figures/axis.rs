@@ -16,10 +16,8 @@ pub(super) struct Axis {
 pub(super) enum Scale {
     /// At multiples of a step, printed with so many decimals.
     Linear(f64, usize),
-    /// At powers of ten.
+    /// At powers of ten or, on short axes, also at 2 and 5 times these.
     Log,
-    /// At 1, 2 and 5 times powers of ten, logarithmic too.
-    LogOneTwoFive,
     /// Nowhere.
     Bare,
 }
@@ -46,20 +44,12 @@ impl Axis {
         Self::linear(label, range, step, decimals as usize)
     }
 
-    /// An axis with a tick at every power of ten.
+    /// A logarithmic axis.
     pub fn log(label: &str, range: (f64, f64)) -> Self {
         Self {
             label: label.to_owned(),
             range,
             scale: Scale::Log,
-        }
-    }
-
-    /// A logarithmic axis over few powers of ten, with ticks at 1, 2 and 5 times each.
-    pub fn log_one_two_five(label: &str, range: (f64, f64)) -> Self {
-        Self {
-            scale: Scale::LogOneTwoFive,
-            ..Self::log(label, range)
         }
     }
 
@@ -82,7 +72,7 @@ impl Axis {
         let (low, high) = self.range;
         match self.scale {
             Scale::Linear(..) | Scale::Bare => (value - low) / (high - low),
-            Scale::Log | Scale::LogOneTwoFive => libm::log(value / low) / libm::log(high / low),
+            Scale::Log => libm::log(value / low) / libm::log(high / low),
         }
     }
 
@@ -91,7 +81,7 @@ impl Axis {
         let (low, high) = self.range;
         match self.scale {
             Scale::Linear(..) | Scale::Bare => low + part * (high - low),
-            Scale::Log | Scale::LogOneTwoFive => low * libm::exp(part * libm::log(high / low)),
+            Scale::Log => low * libm::exp(part * libm::log(high / low)),
         }
     }
 
@@ -105,65 +95,45 @@ impl Axis {
         value.clamp(self.range.0, self.range.1)
     }
 
-    /// Whether it is logarithmic, and has no place for zero.
-    pub fn is_logarithmic(&self) -> bool {
-        matches!(self.scale, Scale::Log | Scale::LogOneTwoFive)
-    }
-
     /// Its ticks and what is printed there.
     pub fn ticks(&self) -> Vec<(f64, String)> {
+        let (low, high) = self.range;
+        let log_range = (libm::log10(low).floor(), libm::log10(high));
         let ticks: Vec<(f64, String)> = match self.scale {
-            Scale::Linear(step, decimals) => {
-                let ticks = multiples(self.range, step).map(|index| index as f64 * step);
-                ticks.map(|tick| (tick, printed(tick, decimals))).collect()
-            }
-            Scale::Log => self
-                .powers()
+            Scale::Linear(step, decimals) => multiples(self.range, step)
+                .map(|index| index as f64 * step)
+                .map(|tick| (tick, format!("{tick:.decimals$}").replace('-', "−")))
+                .collect(),
+            Scale::Log if high / low > SHORT => multiples(log_range, 1.0)
+                .map(|exponent| scientific(1, exponent))
                 .map(|tick| (tick, power_of_ten(tick)))
                 .collect(),
-            Scale::LogOneTwoFive => {
-                let ticks = self
-                    .powers()
-                    .flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * power));
-                ticks.map(|tick| (tick, tick.to_string())).collect()
-            }
+            Scale::Log => multiples(log_range, 1.0)
+                .flat_map(|exponent| [1, 2, 5].map(|digit| scientific(digit, exponent)))
+                .map(|tick| (tick, tick.to_string()))
+                .collect(),
             Scale::Bare => Vec::new(),
         };
         let on_axis = |tick: &(f64, String)| (-SLACK..=1.0 + SLACK).contains(&self.part(tick.0));
         ticks.into_iter().filter(on_axis).collect()
     }
-
-    /// The powers of ten on a logarithmic axis, and the one below it.
-    fn powers(&self) -> impl Iterator<Item = f64> {
-        let (low, high) = self.range;
-        multiples((libm::log10(low).floor(), libm::log10(high)), 1.0).map(power)
-    }
 }
 
-/// How far a tick may be beyond an end of its axis, in parts of the axis: as far as round-off moves it.
+/// A logarithmic axis whose ends differ by less than this factor is short.
+const SHORT: f64 = 1e3;
+/// How far round-off may move a tick beyond an end of its axis, in parts of the axis.
 const SLACK: f64 = 1e-9;
 
 /// The multiples of `step` in `range`.
 fn multiples((low, high): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
     let slack = SLACK * (high - low).abs();
     let first = ((low - slack) / step).ceil() as i64;
-    let last = ((high + slack) / step).floor() as i64;
-    first..=last
+    first..=((high + slack) / step).floor() as i64
 }
 
-/// The power of ten that is nearest to it as a number.
-fn power(exponent: i64) -> f64 {
-    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
-}
-
-/// `value` with `decimals` digits after the point and a true minus.
-fn printed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.chars().any(|digit| ('1'..='9').contains(&digit)) => format!("−{rest}"),
-        Some(rest) => rest.to_owned(),
-        None => text,
-    }
+/// The number that is printed so, which is not always the product.
+fn scientific(digit: u8, exponent: i64) -> f64 {
+    format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
 /// `value` as a power of ten with the exponent raised; nothing for the values between.
@@ -205,10 +175,10 @@ mod tests {
             ["−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
         );
         assert_eq!(
-            printed(Axis::log("x", (1e-2, 3e1))),
-            ["10⁻²", "10⁻¹", "10⁰", "10¹"]
+            printed(Axis::log("x", (1e-2, 3e2))),
+            ["10⁻²", "10⁻¹", "10⁰", "10¹", "10²"]
         );
-        let few = Axis::log_one_two_five("x", (0.2, 20.0));
+        let few = Axis::log("x", (0.2, 20.0));
         assert_eq!(printed(few), ["0.2", "0.5", "1", "2", "5", "10", "20"]);
         assert!(printed(Axis::bare((0.0, 3.0))).is_empty());
     }

@@ -1,7 +1,7 @@
 //! A panel: axes, and what is drawn between them.
 
-use super::axis::Axis;
-use super::drawing::{Colour, Drawing, Paint, Place, Text};
+use super::axis::{Axis, Scale};
+use super::drawing::{Drawing, Paint, Place};
 use super::style::{
     FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark, PADDING,
     SPACING, Shape, TEXT_SIZE, TICK,
@@ -16,7 +16,7 @@ pub(super) type Point = (f64, f64);
 pub(super) struct Panel {
     x: Axis,
     y: Axis,
-    areas: Vec<(Colour, Vec<Point>)>,
+    areas: Vec<(&'static str, Vec<Point>)>,
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
     words: Vec<Words>,
@@ -57,7 +57,7 @@ impl Panel {
     pub fn line(&mut self, stroke: Stroke, points: impl IntoIterator<Item = (f64, Option<f64>)>) {
         let mut part = Vec::new();
         for (x, y) in points {
-            match y.filter(|&y| !self.y.is_logarithmic() || y > 0.0) {
+            match y.filter(|&y| self.y.scale != Scale::Log || y > 0.0) {
                 Some(y) => part.push((x, y)),
                 None => self.lines.push((stroke, std::mem::take(&mut part))),
             }
@@ -67,7 +67,7 @@ impl Panel {
     }
 
     /// A coloured area with its corners at `points`, behind everything else; what is beyond the axes is cut off.
-    pub fn area(&mut self, colour: Colour, points: impl IntoIterator<Item = Point>) {
+    pub fn area(&mut self, colour: &'static str, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
         let points = points.map(|(x, y)| (self.x.clamp(x), self.y.clamp(y)));
         self.areas.push((colour, points.collect()));
@@ -155,7 +155,7 @@ impl View<'_> {
     fn draw(&self, drawing: &mut Drawing, letter: char) {
         let panel = self.panel;
         for (colour, points) in &panel.areas {
-            drawing.polygon(self.places(points), Paint::filled(*colour));
+            drawing.polygon(self.places(points), Paint::Filled(colour));
         }
         let corners = [self.at((0.0, 0.0)), self.at((1.0, 1.0))];
         for (stroke, points) in &panel.lines {
@@ -168,8 +168,7 @@ impl View<'_> {
             draw_mark(drawing, mark, self.place(point));
         }
         for words in &panel.words {
-            let place = self.at(words.place);
-            drawing.text(Text::new(&words.text, place, TEXT_SIZE).at(words.anchor));
+            drawing.text(&words.text, self.at(words.place), TEXT_SIZE, words.anchor);
         }
         self.key(drawing);
     }
@@ -178,26 +177,25 @@ impl View<'_> {
     fn axes(&self, drawing: &mut Drawing, letter: char) {
         let ([left, top], [right, bottom]) = (self.at((0.0, 0.0)), self.at((1.0, 1.0)));
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        drawing.polygon(corners, Paint::outlined(FRAME));
+        drawing.polygon(corners, Paint::Outlined(FRAME));
         for (value, printed) in self.panel.x.ticks() {
             let x = left + self.panel.x.part(value) * self.width;
             drawing.line([[x, bottom], [x, bottom + TICK]], FRAME);
             let below = [x, bottom + TICK + 10.2];
-            drawing.text(Text::new(printed, below, TEXT_SIZE).at(Anchor::Middle));
+            drawing.text(printed, below, TEXT_SIZE, Anchor::Middle);
         }
         for (value, printed) in self.panel.y.ticks() {
             let y = bottom - self.panel.y.part(value) * self.height;
             drawing.line([[left - TICK, y], [left, y]], FRAME);
             let beside = [left - TICK - 3.0, y + HALF_LETTER];
-            drawing.text(Text::new(printed, beside, TEXT_SIZE).at(Anchor::End));
+            drawing.text(printed, beside, TEXT_SIZE, Anchor::End);
         }
         let below = [0.5 * (left + right), bottom + MARGINS.3 - 6.5];
-        drawing.text(Text::new(&self.panel.x.label, below, LABEL_SIZE).at(Anchor::Middle));
+        drawing.text(&self.panel.x.label, below, LABEL_SIZE, Anchor::Middle);
         let beside = [left - MARGINS.0 + 15.8, 0.5 * (top + bottom)];
-        let label = Text::new(&self.panel.y.label, beside, LABEL_SIZE);
-        drawing.text(label.at(Anchor::Middle).upwards());
+        drawing.upward_text(&self.panel.y.label, beside, LABEL_SIZE);
         let corner = [left - MARGINS.0 + 8.0, top - 7.0];
-        drawing.text(Text::new(letter, corner, LETTER_SIZE).bold());
+        drawing.bold_text(letter, corner, LETTER_SIZE);
     }
 
     fn key(&self, drawing: &mut Drawing) {
@@ -210,7 +208,8 @@ impl View<'_> {
                 Sample::Mark(mark) => draw_mark(drawing, *mark, [x + 0.5 * KEY_SAMPLE, y]),
                 Sample::Heading => indent = 0.0,
             }
-            drawing.text(Text::new(words, [x + indent, y + HALF_LETTER], TEXT_SIZE));
+            let beside = [x + indent, y + HALF_LETTER];
+            drawing.text(words, beside, TEXT_SIZE, Anchor::Start);
         }
     }
 
@@ -234,9 +233,9 @@ impl View<'_> {
 fn draw_mark(drawing: &mut Drawing, mark: Mark, [x, y]: Place) {
     let stroke = Stroke::new(mark.colour, 1.0, &[]);
     let (left, right, top, bottom) = (x - mark.size, x + mark.size, y - mark.size, y + mark.size);
-    let outline = Paint::outlined(stroke);
+    let outline = Paint::Outlined(stroke);
     match mark.shape {
-        Shape::Dot => drawing.circle([x, y], mark.size, Paint::filled(stroke.colour)),
+        Shape::Dot => drawing.circle([x, y], mark.size, Paint::Filled(mark.colour)),
         Shape::Circle => drawing.circle([x, y], mark.size, outline),
         Shape::Square => {
             let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];

@@ -1,7 +1,7 @@
 //! The three maps as a figure: how a stack ends, over floor friction and one more property.
 
 use super::axis::Axis as Ruler;
-use super::drawing::{Colour, Drawing};
+use super::drawing::Drawing;
 use super::panel::{Anchor, Panel, Point, Stroke, draw};
 use super::style::{
     BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NO_PEAK_TOUCHING, NOT_CONFIRMED,
@@ -84,7 +84,7 @@ fn ruler(map: &RegimeMap) -> Ruler {
     match map.axis {
         Axis::Stiffness => Ruler::log("stiffness kₙ r/(m g)", map.range),
         Axis::CylinderFriction => Ruler::linear("cylinder friction μ_{d}", map.range, 0.2, 1),
-        Axis::StiffnessRatio => Ruler::log_one_two_five("stiffness ratio κ = kₙ/kₜ", map.range),
+        Axis::StiffnessRatio => Ruler::log("stiffness ratio κ = kₙ/kₜ", map.range),
     }
 }
 
@@ -226,7 +226,7 @@ fn region(stack: &Stack) -> Option<Region> {
     Some((ending, shares))
 }
 
-fn colour((ending, shares): Region) -> Colour {
+fn colour((ending, shares): Region) -> &'static str {
     match (ending, shares) {
         (Ending::Falls, _) => FALLS,
         (Ending::Yields, false) => YIELDS,

@@ -1,8 +1,7 @@
 //! The stack drawn to scale, with its contact forces as arrows.
 
 use super::Figure;
-use super::drawing::{Anchor, Drawing, Paint, Place, Text};
-use super::panel::Stroke;
+use super::drawing::{Anchor, Drawing, Paint, Place, Stroke};
 use super::style::{
     BODY, BODY_OUTLINE, HATCH, NORMAL_FORCE, ORIENTATION, ORIENTATION_AT_START, PLANE,
     TANGENTIAL_FORCE,
@@ -145,7 +144,7 @@ fn drawn(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> Drawing {
     legend(&mut drawing, line);
     for text in caption {
         line += CAPTION_LINE;
-        drawing.text(Text::new(text, [12.0, line], SMALL));
+        drawing.text(text, [12.0, line], SMALL, Anchor::Start);
     }
     drawing
 }
@@ -168,14 +167,14 @@ fn top(frame: &Frame) -> f64 {
 fn legend(drawing: &mut Drawing, y: f64) {
     let middle = y - 3.5;
     arrow(drawing, [[12.0, middle], [40.0, middle]], Kind::Normal);
-    drawing.text(Text::new("normal force", [46.0, y], SMALL));
+    drawing.text("normal force", [46.0, y], SMALL, Anchor::Start);
     arrow(
         drawing,
         [[130.0, middle], [158.0, middle]],
         Kind::Tangential,
     );
     let words = "tangential force on each cylinder, from the contact inwards; numbers in _m_ _g_";
-    drawing.text(Text::new(words, [164.0, y], SMALL));
+    drawing.text(words, [164.0, y], SMALL, Anchor::Start);
 }
 
 /// Where a panel is on the drawing.
@@ -218,7 +217,7 @@ impl View {
     }
 
     fn centred(&self, drawing: &mut Drawing, words: String, y: f64, size: f64) {
-        drawing.text(Text::new(words, [self.middle, y], size).at(Anchor::Middle));
+        drawing.text(words, [self.middle, y], size, Anchor::Middle);
     }
 
     /// Floor and top wall, hatched on their far side.
@@ -241,8 +240,7 @@ impl View {
     /// The undeformed circle, its number, and its orientation now and at the start.
     fn cylinder(&self, drawing: &mut Drawing, index: usize, cylinder: &PlacedCylinder) {
         let [x, y] = cylinder.position;
-        let body = Paint::outlined(BODY_OUTLINE).with_tint(BODY, 0.22);
-        drawing.circle(self.at([x, y]), SCALE, body);
+        drawing.circle(self.at([x, y]), SCALE, Paint::Tinted(BODY_OUTLINE, BODY));
         // Where no contact is at rest.
         let rest = [0.0, 0.8, std::f64::consts::PI - 0.8][index % 3];
         for (angle, stroke) in [
@@ -256,8 +254,7 @@ impl View {
         }
         let mut place = self.at([x + [-0.5, 0.45, -0.45][index % 3], y]);
         place[1] += 5.0;
-        let number = (index + 1).to_string();
-        drawing.text(Text::new(number, place, LARGE).at(Anchor::Middle));
+        drawing.text(index + 1, place, LARGE, Anchor::Middle);
     }
 
     /// The values of the forces, with the letters of the paper's figure.
@@ -347,8 +344,8 @@ impl Arrows<'_> {
         if !letter.is_empty() {
             let beyond = shifted(end, force, LETTER_DISTANCE / size);
             let [x, y] = self.view.at(beyond);
-            let letter = Text::new(format!("_{letter}_"), [x, y + 4.0], MEDIUM);
-            drawing.text(letter.at(Anchor::Middle));
+            let letter = format!("_{letter}_");
+            drawing.text(letter, [x, y + 4.0], MEDIUM, Anchor::Middle);
         }
     }
 
@@ -366,7 +363,7 @@ impl Arrows<'_> {
             drawing.line([[end, y - 3.5], [end, y + 3.5]], PLANE);
         }
         let text = format!("{round} _m_ _g_");
-        drawing.text(Text::new(text, [to + 7.0, y + 4.0], SMALL));
+        drawing.text(text, [to + 7.0, y + 4.0], SMALL, Anchor::Start);
     }
 }
 
@@ -394,7 +391,7 @@ fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], kind: Kind) {
     match kind {
         Kind::Normal => {
             drawing.line([from, foot], NORMAL_FORCE);
-            drawing.polygon([left, to, right], Paint::filled(NORMAL_FORCE.colour));
+            drawing.polygon([left, to, right], Paint::Filled(NORMAL_FORCE.colour));
         }
         Kind::Tangential => {
             let thinner = Stroke {

@@ -1,6 +1,6 @@
 //! The look of every figure: fonts, axes, colours, lines and marks, told apart without colour.
 
-use super::drawing::{Colour, Stroke};
+use super::drawing::Stroke;
 use crate::code::Code;
 
 /// Fonts of an SVG, the first that a viewer has. A PDF carries DejaVu Sans.
@@ -67,16 +67,16 @@ pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
 pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
 pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
 /// The regions of a regime map, light enough for black print and of different lightness.
-pub(super) const FALLS: Colour = Colour::new("#bdbdbd");
-pub(super) const YIELDS: Colour = Colour::new("#fdf6dc");
-pub(super) const YIELDS_TOUCHING: Colour = Colour::new("#e3f1dc");
-pub(super) const SATURATES: Colour = Colour::new("#d3e3f3");
-pub(super) const SATURATES_TOUCHING: Colour = Colour::new("#c3d9df");
-pub(super) const NO_PEAK: Colour = Colour::new("#f0cdb4");
-pub(super) const NO_PEAK_TOUCHING: Colour = Colour::new("#bfd9b4");
+pub(super) const FALLS: &str = "#bdbdbd";
+pub(super) const YIELDS: &str = "#fdf6dc";
+pub(super) const YIELDS_TOUCHING: &str = "#e3f1dc";
+pub(super) const SATURATES: &str = "#d3e3f3";
+pub(super) const SATURATES_TOUCHING: &str = "#c3d9df";
+pub(super) const NO_PEAK: &str = "#f0cdb4";
+pub(super) const NO_PEAK_TOUCHING: &str = "#bfd9b4";
 
 /// The stack drawn to scale: cylinders, walls, orientations at the start and now.
-pub(super) const BODY: Colour = Colour::new("#5b7fa6");
+pub(super) const BODY: &str = "#5b7fa6";
 pub(super) const BODY_OUTLINE: Stroke = Stroke::new(INK, 1.1, &[]);
 pub(super) const PLANE: Stroke = Stroke::new(INK, 1.6, &[]);
 pub(super) const HATCH: Stroke = Stroke::new(GREY, 0.8, &[]);

@@ -3,10 +3,9 @@
 use super::markup::Style;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use subsetter::GlyphRemapper;
-use ttf_parser::Face;
+use ttf_parser::{Face, GlyphId};
 
 const IDENTITY: SystemInfo = SystemInfo {
     registry: Str(b"Adobe"),
@@ -20,6 +19,7 @@ const STEM: f32 = 90.0;
 
 /// One face of the font, and which of its glyphs are used.
 pub(super) struct Font {
+    /// Its name in the PDF, with the six letters before it that say it is a part of the font.
     name: &'static str,
     data: &'static [u8],
     face: Face<'static>,
@@ -34,9 +34,9 @@ pub(super) struct Fonts([Font; 3]);
 impl Fonts {
     pub fn new() -> Self {
         Self([
-            Font::new("DejaVuSans", dejavu::sans::regular()),
-            Font::new("DejaVuSans-Oblique", dejavu::sans::oblique()),
-            Font::new("DejaVuSans-Bold", dejavu::sans::bold()),
+            Font::new("GLYPHS+DejaVuSans", dejavu::sans::regular()),
+            Font::new("GLYPHS+DejaVuSans-Oblique", dejavu::sans::oblique()),
+            Font::new("GLYPHS+DejaVuSans-Bold", dejavu::sans::bold()),
         ])
     }
 
@@ -71,32 +71,25 @@ impl Font {
         }
     }
 
-    /// `text` as numbers of glyphs in the embedded font. A character that the font lacks becomes its empty box.
-    pub fn encode(&mut self, text: &str) -> Vec<u8> {
-        let glyphs = text.chars().flat_map(|character| {
+    /// `text` as numbers of glyphs in the embedded font, and its width in multiples of its size. A character that
+    /// the font lacks becomes its empty box.
+    pub fn encode(&mut self, text: &str) -> (Vec<u8>, f64) {
+        let (mut numbers, mut width) = (Vec::new(), 0.0);
+        for character in text.chars() {
             let glyph = self.face.glyph_index(character).unwrap_or_default();
             let number = self.glyphs.remap(glyph.0);
             self.used.entry(number).or_insert(character);
-            number.to_be_bytes()
-        });
-        glyphs.collect()
-    }
-
-    /// The width of `text` in multiples of its size.
-    pub fn width(&self, text: &str) -> f64 {
-        let advances = text.chars().map(|character| {
-            let glyph = self.face.glyph_index(character).unwrap_or_default();
-            f64::from(self.face.glyph_hor_advance(glyph).unwrap_or(0))
-        });
-        advances.sum::<f64>() / f64::from(self.face.units_per_em())
+            numbers.extend(number.to_be_bytes());
+            width += f64::from(self.advance(glyph.0)) / 1000.0;
+        }
+        (numbers, width)
     }
 
     /// Writes the font as the objects from `first` on, of which the first is the one that a page refers to.
     pub fn write(&self, pdf: &mut Pdf, first: i32) {
         let objects: [Ref; OBJECTS] = std::array::from_fn(|index| Ref::new(first + index as i32));
         let [composite, glyphs, descriptor, file, unicode] = objects;
-        let name = format!("{}+{}", self.tag(), self.name);
-        let name = Name(name.as_bytes());
+        let name = Name(self.name.as_bytes());
         pdf.type0_font(composite)
             .base_font(name)
             .encoding_predefined(Name(b"Identity-H"))
@@ -128,9 +121,10 @@ impl Font {
 
     fn describe(&self, pdf: &mut Pdf, place: Ref, name: Name, file: Ref) {
         let face = &self.face;
+        let part = |length: i16| f32::from(length) * 1000.0 / f32::from(face.units_per_em());
         let bounds = face.global_bounding_box();
-        let [left, bottom, right, top] =
-            [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(|side| self.part(side));
+        let (left, bottom) = (part(bounds.x_min), part(bounds.y_min));
+        let (right, top) = (part(bounds.x_max), part(bounds.y_max));
         let mut flags = FontFlags::SYMBOLIC;
         flags.set(FontFlags::ITALIC, face.is_oblique());
         pdf.font_descriptor(place)
@@ -138,29 +132,17 @@ impl Font {
             .flags(flags)
             .bbox(Rect::new(left, bottom, right, top))
             .italic_angle(face.italic_angle())
-            .ascent(self.part(face.ascender()))
-            .descent(self.part(face.descender()))
-            .cap_height(self.part(face.capital_height().unwrap_or(face.ascender())))
+            .ascent(part(face.ascender()))
+            .descent(part(face.descender()))
+            .cap_height(part(face.capital_height().unwrap_or(face.ascender())))
             .stem_v(STEM)
             .font_file2(file);
     }
 
-    /// Six letters that differ between fonts with different glyphs, as PDF asks for.
-    fn tag(&self) -> String {
-        let characters: String = self.used.values().collect();
-        let digest = Sha256::digest(characters.as_bytes());
-        let letters = digest.iter().take(6);
-        letters.map(|byte| char::from(b'A' + byte % 26)).collect()
-    }
-
+    /// The width of a glyph in thousandths of the size of the font.
     fn advance(&self, glyph: u16) -> f32 {
-        let advance = self.face.glyph_hor_advance(ttf_parser::GlyphId(glyph));
-        f32::from(advance.unwrap_or(0)) * 1000.0 / f32::from(self.face.units_per_em())
-    }
-
-    /// A length of the font in thousandths of its size.
-    fn part(&self, length: i16) -> f32 {
-        f32::from(length) * 1000.0 / f32::from(self.face.units_per_em())
+        let advance = self.face.glyph_hor_advance(GlyphId(glyph)).unwrap_or(0);
+        f32::from(advance) * 1000.0 / f32::from(self.face.units_per_em())
     }
 }
 

@@ -2,11 +2,10 @@
 
 use super::font::{Fonts, OBJECTS, compressed};
 use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
-use super::{Anchor, Colour, Drawing, Element, Paint, Place, Stroke, Text};
+use super::{Anchor, Drawing, Element, Paint, Place, Setting, Stroke, TINT, Text};
 use crate::output::figures::style::INK;
 use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
-use std::collections::BTreeSet;
 
 /// Points in a pixel: an SVG has 96 pixels to the inch, a PDF 72 points.
 const POINTS: f32 = 0.75;
@@ -17,6 +16,8 @@ const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 const FIRST_FONT: i32 = 5;
+/// The state in which what is filled is a tint.
+const TINTED: Name = Name(b"Tinted");
 
 impl Drawing {
     /// The drawing as a PDF: the same bytes for the same drawing on every machine.
@@ -25,7 +26,6 @@ impl Drawing {
         let mut page = Page {
             content: Content::new(),
             fonts: Fonts::new(),
-            opacities: BTreeSet::new(),
         };
         page.content
             .transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
@@ -36,81 +36,68 @@ impl Drawing {
     }
 }
 
-/// An opacity in percent.
-type Opacity = u8;
-
 struct Page {
     content: Content,
     fonts: Fonts,
-    /// The opacities in use: a PDF sets them by name.
-    opacities: BTreeSet<Opacity>,
 }
 
 impl Page {
     fn element(&mut self, element: &Element) {
         match element {
-            Element::Path {
-                points,
-                closed,
-                paint,
-            } => self.paint(paint, |content| trace(content, points, *closed)),
-            Element::Circle {
-                centre,
-                radius,
-                paint,
-            } => self.paint(paint, |content| trace_circle(content, *centre, *radius)),
+            Element::Path(points, closed, paint) => {
+                self.paint(*paint, |content| trace(content, points, *closed));
+            }
+            Element::Circle(centre, radius, paint) => {
+                self.paint(*paint, |content| trace_circle(content, *centre, *radius));
+            }
             Element::Text(text) => self.text(text),
         }
     }
 
-    fn paint(&mut self, paint: &Paint, trace: impl Fn(&mut Content)) {
-        self.content.save_state();
-        if let Some((colour, opacity)) = paint.fill {
+    fn paint(&mut self, paint: Paint, trace: impl Fn(&mut Content)) {
+        let content = &mut self.content;
+        content.save_state();
+        if let Some((colour, opacity)) = paint.fill() {
             if opacity < 1.0 {
-                let opacity = (100.0 * opacity).round() as Opacity;
-                self.opacities.insert(opacity);
-                let name = opacity_name(opacity);
-                self.content.set_parameters(Name(name.as_bytes()));
+                content.set_parameters(TINTED);
             }
             let [red, green, blue] = parts(colour);
-            self.content.set_fill_rgb(red, green, blue);
-            trace(&mut self.content);
-            self.content.fill_nonzero();
+            content.set_fill_rgb(red, green, blue);
+            trace(content);
+            content.fill_nonzero();
         }
-        if let Some(stroke) = paint.stroke {
-            set_stroke(&mut self.content, stroke);
-            trace(&mut self.content);
-            self.content.stroke();
+        if let Some(stroke) = paint.stroke() {
+            set_stroke(content, stroke);
+            trace(content);
+            content.stroke();
         }
-        self.content.restore_state();
+        content.restore_state();
     }
 
     fn text(&mut self, text: &Text) {
-        let parts: Vec<Part> = spans(&text.words)
-            .into_iter()
-            .map(|(style, words)| Part::new(text, style, words, &mut self.fonts))
-            .collect();
-        let width: f64 = parts.iter().map(|part| part.width).sum();
-        let before = match text.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::End => width,
-        };
-        let [x, y] = text.place;
-        let [red, green, blue] = self::parts(Colour::new(INK));
-        self.content.begin_text().set_fill_rgb(red, green, blue);
-        self.content.set_text_matrix(if text.upwards {
-            [0.0, -1.0, -1.0, 0.0, x as f32, (y + before) as f32]
-        } else {
-            [1.0, 0.0, 0.0, -1.0, (x - before) as f32, y as f32]
-        });
-        for part in &parts {
-            self.content
-                .set_font(Name(font_name(part.font).as_bytes()), part.size as f32)
-                .set_rise(-part.drop as f32)
-                .show(Str(&part.glyphs));
+        let mut width = 0.0;
+        let mut words = Vec::new();
+        for (style, part) in spans(&text.words) {
+            let (scale, drop) = match style {
+                Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
+                Style::Plain | Style::Italic => (1.0, 0.0),
+            };
+            let font = Fonts::index(style, text.setting == Setting::Bold);
+            let (glyphs, part_width) = self.fonts.get(font).encode(part);
+            width += scale * text.size * part_width;
+            words.push((font, scale * text.size, drop, glyphs));
         }
-        self.content.end_text();
+        let content = &mut self.content;
+        let [red, green, blue] = parts(INK);
+        content.begin_text().set_fill_rgb(red, green, blue);
+        content.set_text_matrix(matrix(text, width));
+        for (font, size, drop, glyphs) in words {
+            content
+                .set_font(Name(font_name(font).as_bytes()), size as f32)
+                .set_rise(-drop as f32)
+                .show(Str(&glyphs));
+        }
+        content.end_text();
     }
 
     fn finish(self, size: Rect) -> Vec<u8> {
@@ -131,13 +118,9 @@ impl Page {
         }
         names.finish();
         let mut states = resources.ext_g_states();
-        for &opacity in &self.opacities {
-            let name = opacity_name(opacity);
-            let mut state = states
-                .insert(Name(name.as_bytes()))
-                .start::<ExtGraphicsState>();
-            state.non_stroking_alpha(f32::from(opacity) / 100.0);
-        }
+        let mut tinted = states.insert(TINTED).start::<ExtGraphicsState>();
+        tinted.non_stroking_alpha(TINT as f32);
+        tinted.finish();
         states.finish();
         resources.finish();
         page.finish();
@@ -150,31 +133,17 @@ impl Page {
     }
 }
 
-/// A part of a text in one style.
-struct Part {
-    font: usize,
-    size: f64,
-    drop: f64,
-    width: f64,
-    glyphs: Vec<u8>,
-}
-
-impl Part {
-    fn new(text: &Text, style: Style, words: &str, fonts: &mut Fonts) -> Self {
-        let (scale, drop) = match style {
-            Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
-            Style::Plain | Style::Italic => (1.0, 0.0),
-        };
-        let index = Fonts::index(style, text.bold);
-        let font = fonts.get(index);
-        let size = scale * text.size;
-        Self {
-            font: index,
-            size,
-            drop,
-            width: size * font.width(words),
-            glyphs: font.encode(words),
-        }
+/// Where a text of some width begins, and its directions along and up, in pixels to the right and down.
+fn matrix(text: &Text, width: f64) -> [f32; 6] {
+    let before = match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    };
+    let [x, y] = text.place;
+    match text.setting {
+        Setting::Upwards => [0.0, -1.0, -1.0, 0.0, x as f32, (y + before) as f32],
+        Setting::Normal | Setting::Bold => [1.0, 0.0, 0.0, -1.0, (x - before) as f32, y as f32],
     }
 }
 
@@ -215,15 +184,12 @@ fn set_stroke(content: &mut Content, stroke: Stroke) {
         .set_dash_pattern(dashes, 0.0);
 }
 
-/// Red, green and blue as parts of one.
-fn parts(Colour(parts): Colour) -> [f32; 3] {
-    parts.map(|part| f32::from(part) / 255.0)
+/// Red, green and blue of `#rrggbb` as parts of one.
+fn parts(colour: &str) -> [f32; 3] {
+    let part = |at: usize| u8::from_str_radix(colour.get(at..at + 2).unwrap_or("00"), 16);
+    [1, 3, 5].map(|at| f32::from(part(at).unwrap_or(0)) / 255.0)
 }
 
 fn font_name(index: usize) -> String {
     format!("F{index}")
-}
-
-fn opacity_name(opacity: Opacity) -> String {
-    format!("O{opacity}")
 }

@@ -1,7 +1,7 @@
 //! A drawing as SVG, with numbers rounded to hundredths of a pixel.
 
 use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
-use super::{Anchor, Colour, Drawing, Element, Paint, Place, Text};
+use super::{Anchor, Drawing, Element, Paint, Place, Setting, Text};
 use crate::output::figures::style::{FONT_FAMILY, INK};
 
 impl Drawing {
@@ -20,24 +20,14 @@ impl Drawing {
 
 fn element(element: &Element) -> String {
     match element {
-        Element::Path {
-            points,
-            closed,
-            paint,
-        } => {
+        Element::Path(points, closed, paint) => {
             let name = if *closed { "polygon" } else { "polyline" };
-            format!("<{name} points=\"{}\"{}/>", path(points), painted(paint))
+            format!("<{name} points=\"{}\"{}/>", path(points), painted(*paint))
         }
-        Element::Circle {
-            centre: [x, y],
-            radius,
-            paint,
-        } => {
+        Element::Circle([x, y], radius, paint) => {
             let (x, y, radius) = (px(*x), px(*y), px(*radius));
-            format!(
-                "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}/>",
-                painted(paint)
-            )
+            let painted = painted(*paint);
+            format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{painted}/>")
         }
         Element::Text(text) => text_element(text),
     }
@@ -49,20 +39,15 @@ fn path(points: &[Place]) -> String {
 }
 
 /// The attributes of fill and stroke.
-fn painted(paint: &Paint) -> String {
-    let mut attributes = match paint.fill {
+fn painted(paint: Paint) -> String {
+    let mut attributes = match paint.fill() {
         None => " fill=\"none\"".to_owned(),
-        Some((colour, opacity)) if opacity < 1.0 => {
-            format!(" fill=\"{}\" fill-opacity=\"{opacity}\"", hex(colour))
-        }
-        Some((colour, _)) => format!(" fill=\"{}\"", hex(colour)),
+        Some((colour, 1.0)) => format!(" fill=\"{colour}\""),
+        Some((colour, opacity)) => format!(" fill=\"{colour}\" fill-opacity=\"{opacity}\""),
     };
-    if let Some(stroke) = paint.stroke {
-        attributes += &format!(
-            " stroke=\"{}\" stroke-width=\"{}\"",
-            hex(stroke.colour),
-            stroke.width
-        );
+    if let Some(stroke) = paint.stroke() {
+        let (colour, width) = (stroke.colour, stroke.width);
+        attributes += &format!(" stroke=\"{colour}\" stroke-width=\"{width}\"");
         if !stroke.dashes.is_empty() {
             let dashes: Vec<String> = stroke.dashes.iter().map(f64::to_string).collect();
             attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
@@ -78,19 +63,14 @@ fn text_element(text: &Text) -> String {
         Anchor::End => "end",
     };
     let (x, y, size) = (px(text.place[0]), px(text.place[1]), text.size);
-    let bold = if text.bold {
-        " font-weight=\"bold\""
-    } else {
-        ""
+    let setting = match text.setting {
+        Setting::Normal => String::new(),
+        Setting::Bold => " font-weight=\"bold\"".to_owned(),
+        Setting::Upwards => format!(" transform=\"rotate(-90,{x},{y})\""),
     };
-    let turned = if text.upwards {
-        format!(" transform=\"rotate(-90,{x},{y})\"")
-    } else {
-        String::new()
-    };
+    let content = content(&text.words);
     format!(
-        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{bold}{turned}>{}</text>",
-        content(&text.words)
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{setting}>{content}</text>"
     )
 }
 
@@ -126,10 +106,6 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
-}
-
-fn hex(Colour([red, green, blue]): Colour) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Hundredths of a pixel, without a trailing zero or a negative one.

@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     };
     let claims = judge(&register, &PaperTheory::printed(), &reproduced);
     let origin = origin(arguments, &codes);
-    let files = report_files(&reproduced, &claims, &origin)?;
+    let files = report_files(&reproduced, &claims, &origin);
     write(&arguments.out, &files)?;
     Ok(conclude(&arguments.out, &reproduced, &claims))
 }

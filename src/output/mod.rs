@@ -11,8 +11,6 @@ mod page;
 mod probe;
 mod regimes;
 mod simulation;
-mod stack_figure;
-mod svg;
 mod table;
 mod theory;
 mod trajectory;
@@ -27,7 +25,9 @@ pub use crosscheck::{
     crosscheck_table,
 };
 pub use explain::explanation;
-pub use figures::{Figure, PdfError, figures, performance_svg, regimes_svg};
+pub use figures::{
+    Figure, StackPanel, figures, performance_svg, regimes_svg, representative_panels, run_svg,
+};
 pub use forecast::{forecast_csv, forecast_json, forecast_table};
 pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
 pub use number::{friction, significant};
@@ -37,7 +37,6 @@ pub use regimes::{
     boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
 };
 pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
-pub use stack_figure::{StackPanel, representative_panels, run_svg, stack_svg};
 pub use table::Table;
 pub use theory::{theory_csv, theory_json, theory_table};
 pub use trajectory::{

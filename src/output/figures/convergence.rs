@@ -2,8 +2,8 @@
 
 use super::Figure;
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Point, Sample, draw};
-use super::style::{GUIDE, Mark, Stroke, THIN, THIN_DASHED};
+use super::panel::{Anchor, Panel, Point, Sample, Stroke, draw};
+use super::style::{GUIDE, Mark, THIN, THIN_DASHED};
 use crate::code::Code;
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};

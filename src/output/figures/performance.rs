@@ -2,19 +2,18 @@
 
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, draw};
-use super::style::{EXACT, GUIDE, INK, POINT, Stroke};
+use super::style::{BAR, EXACT, GUIDE, POINT};
 use crate::output::BenchRow;
 use crate::output::number::plain;
 use crate::study::cost::{Scaling, ScalingRow};
 
-const MAX_TOLERANCE: Stroke = Stroke::new(INK, 9.0, "");
 /// Distance of the words of a bar from the bar, in bars.
 const ABOVE: f64 = 0.27;
 
 /// Time per step and case of each of `rows` as bars, and the speed-up of native lanes over the number of cases.
 pub fn performance_svg(rows: &[BenchRow], scaling: &Scaling) -> String {
     let panels = [costs(rows), speedups(&scaling.cases)];
-    draw(&panels, 2, super::HALF_PAGE)
+    draw(&panels, 2, super::HALF_PAGE).svg()
 }
 
 fn costs(rows: &[BenchRow]) -> Panel {
@@ -23,7 +22,7 @@ fn costs(rows: &[BenchRow]) -> Panel {
     let mut panel = Panel::new(time, Axis::bare((0.4, rows.len() as f64 + 0.8)));
     for (place, row) in rows.iter().rev().enumerate() {
         let y = place as f64 + 1.0;
-        panel.line(MAX_TOLERANCE, [(1.0, Some(y)), (row.ns_per_step, Some(y))]);
+        panel.line(BAR, [(1.0, Some(y)), (row.ns_per_step, Some(y))]);
         let ratio = row.ratio.map_or_else(String::new, |ratio| {
             format!(", {} times native-lanes", plain(ratio))
         });

@@ -3,7 +3,7 @@
 use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
-use crate::study::Verdict;
+use crate::study::{Ground, Grounds, Verdict};
 use crate::theory::{BoundaryPoint, Event, Outcome, Regime};
 
 /// Wall speed in units of the predicted displacement. It keeps the forces at the events within 3e-5 of those of
@@ -41,15 +41,11 @@ pub struct Confirmation {
 impl Confirmation {
     /// The worse of the two sides. A boundary with the same regime on both sides is none.
     pub fn verdict(&self) -> Verdict {
-        let verdicts = self.sides.map(|side| side.verdict);
         let [below, above] = self.point.sides.map(|outcome| outcome.regime());
-        if below == above || verdicts.contains(&Verdict::Differs) {
-            Verdict::Differs
-        } else if verdicts == [Verdict::Agrees; 2] {
-            Verdict::Agrees
-        } else {
-            Verdict::Inconclusive
-        }
+        let mut grounds = Grounds::new();
+        grounds.hold(below != above, "both sides have the same regime");
+        let sides = self.sides.iter().map(|side| side.verdict);
+        sides.fold(grounds.verdict(), Verdict::max)
     }
 }
 
@@ -98,18 +94,21 @@ impl SidePlan {
     /// contradiction counts if the slower run shows it again; if it shows anything else, even what was claimed,
     /// nothing is decided.
     pub(super) fn evaluate(&self, first: &Observation, repeat: Option<&Observation>) -> Side {
-        let verdict = match repeat {
-            None if first.complete => Verdict::Agrees,
-            Some(second) if shows_again(first, second) => Verdict::Differs,
-            _ => Verdict::Inconclusive,
-        };
+        let mut grounds = Grounds::new();
+        match repeat {
+            None if first.complete => grounds.hold(true, ""),
+            Some(second) if shows_again(first, second) => {
+                grounds.hold(false, "a slower run shows the contradiction again");
+            }
+            _ => grounds.add(Ground::Undecidable("the runs do not decide".to_owned())),
+        }
         let last = repeat.unwrap_or(first);
         Side {
             stack: self.run.stack,
             claimed: self.claimed,
             observed: regime(last),
             observed_force: last.force,
-            verdict,
+            verdict: grounds.verdict(),
         }
     }
 }

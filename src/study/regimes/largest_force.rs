@@ -4,8 +4,7 @@ use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
 use crate::series::{Estimate, YieldEstimates};
-use crate::study::MAX_TOLERANCE;
-use crate::study::Verdict;
+use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
 use crate::theory::{FailureMode, Outcome};
@@ -90,17 +89,23 @@ impl PeakPlan {
         let complete = observations.iter().all(|observation| observation.complete);
         let falls = self.claimed.failure_mode == FailureMode::Collapses;
         let as_claimed = observations.iter().all(|run| run.stands != falls);
+        let mut grounds = Grounds::new();
+        if !complete {
+            grounds.add(Ground::Undecidable("a run was given up".to_owned()));
+        }
+        grounds.hold(as_claimed, "the stack falls, or stands, against the claim");
         match (error, uncertainty, self.claimed.largest_force) {
-            _ if !complete => Verdict::Inconclusive,
-            _ if !as_claimed => Verdict::Differs,
             // Contacts that open and slide on the way make the approach to the peak irregular: the uncertainty is
             // too large to be a tolerance.
             (Some(error), Some(uncertainty), Some(force)) => {
-                Verdict::of(error, uncertainty / (force + 3.0), MAX_TOLERANCE)
+                grounds.compare(error, uncertainty / (force + 3.0), MAX_TOLERANCE, None);
             }
-            (None, None, None) => Verdict::Agrees,
-            _ => Verdict::Differs,
+            (error, uncertainty, force) => grounds.hold(
+                error.or(uncertainty).or(force).is_none(),
+                "a peak is there or absent against the claim",
+            ),
         }
+        grounds.verdict()
     }
 }
 

@@ -8,9 +8,9 @@ use crate::model::{
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::runs::Store;
-use crate::runs::{Recorded, SelectedCode, Settings};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
+use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
 use clap::{Args, ValueEnum};
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
@@ -244,19 +244,21 @@ fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
 /// The codes named, each of which must be installed; all codes if none is named.
 pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(Code::all().into_iter().map(SelectedCode::find).collect());
+        return Ok(find_all(&Code::all()));
     }
     let mut names = named.to_vec();
     names.sort();
     names.dedup();
-    let found = names.into_iter().map(|name| {
-        let selected = SelectedCode::find(name);
-        let installed = selected.code.is_some();
-        installed
-            .then_some(selected)
-            .ok_or(CliError::MissingEngine(name))
+    let found = find_all(&names).into_iter().map(|selected| {
+        let missing = CliError::MissingEngine(selected.name);
+        selected.code.is_some().then_some(selected).ok_or(missing)
     });
     found.collect()
+}
+
+/// The codes named, as they are installed here. All programs are asked for their versions at the same time.
+fn find_all(names: &[Code]) -> Vec<SelectedCode> {
+    in_parallel(names, names.len(), |name| SelectedCode::find(*name))
 }
 
 /// Creates `directory` and makes sure that files can be written there.

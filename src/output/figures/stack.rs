@@ -83,7 +83,7 @@ pub fn representative_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
 pub fn run_svg(code: &str, case: &Case, frames: &Frames) -> String {
     let stack = &case.stack;
     let mut caption = vec![format!(
-        "{code}: _μ_ = {}, _k_ₙ _r_/(_m_ _g_) = {}, _κ_ = {}, _μ_{{d}} = {}. Circles: undeformed cylinders, so that overlaps show compression; ticks: orientation now and (light) at the start.",
+        "{code}: _μ_ = {}, _k_ₙ _r_/(_m_ _g_) = {}, _κ_ = {}, _μ__{{d}} = {}. Circles: undeformed cylinders, so that overlaps show compression; ticks: orientation now and (light) at the start.",
         friction(stack.floor_friction),
         stack.stiffness,
         stack.stiffness_ratio,

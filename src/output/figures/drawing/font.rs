@@ -150,3 +150,26 @@ impl Font {
 pub(super) fn compressed(data: &[u8]) -> Vec<u8> {
     miniz_oxide::deflate::compress_to_vec_zlib(data, 6)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_letters_of_the_figures_are_in_the_font() {
+        let [mut regular, ..] = Fonts::new().0;
+        regular.encode("aµμκεβθΔℓ₀ₙₜ₁₂⁰¹²³⁴⁵⁶⁷⁸⁹⁻−–√→½∝·’…|*");
+        assert!(!regular.used.contains_key(&0));
+        let (lacking, _) = regular.encode("\u{10ffff}");
+        assert_eq!(lacking, [0, 0]);
+    }
+
+    #[test]
+    fn widths_are_those_of_the_font() {
+        let [mut regular, ..] = Fonts::new().0;
+        let (numbers, width) = regular.encode("if");
+        assert_eq!(numbers, [0, 1, 0, 2]);
+        // Of 2048 units, i is 569 wide and f 721.
+        assert!((width - (569.0 + 721.0) / 2048.0).abs() < 1e-6);
+    }
+}

@@ -49,14 +49,15 @@ mod tests {
     #[test]
     fn letters_are_slanted_and_subscripts_lowered() {
         assert_eq!(
-            spans("|F_{limit}| = _m_ _g_"),
+            spans("|F_{limit}| = _m_ _μ__{d}"),
             [
                 (Style::Plain, "|F"),
                 (Style::Subscript, "limit"),
                 (Style::Plain, "| = "),
                 (Style::Italic, "m"),
                 (Style::Plain, " "),
-                (Style::Italic, "g"),
+                (Style::Italic, "μ"),
+                (Style::Subscript, "d"),
             ]
         );
     }

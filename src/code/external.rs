@@ -6,7 +6,7 @@ use super::installation::InstalledProgram;
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
-use super::task::{ReadTask, Task};
+use super::task::Task;
 use crate::model::{Case, ContactTest, InvalidValue, Pyramid};
 use crate::series::{Motion, PyramidRun, Series};
 use std::ops::Range;
@@ -39,7 +39,7 @@ impl ExternalCode {
 
     /// Carries out those of `tasks` in `range`, all of one kind, in order, as many at once as the code can; if
     /// `all_or_nothing`, only up to the first failure.
-    fn carry_out<T: ReadTask>(
+    fn carry_out<T: Task>(
         &self,
         tasks: &[T],
         range: Range<usize>,
@@ -73,7 +73,7 @@ impl ExternalCode {
     }
 
     /// The outcomes of `tasks`, in order, or the first failure.
-    fn outcomes<T: ReadTask>(
+    fn outcomes<T: Task>(
         &self,
         tasks: &[T],
         context: &RunContext,

@@ -186,7 +186,7 @@ fn what_cannot_be_prepared_is_refused_with_what_can() {
 #[test]
 fn a_case_file_with_side_walls_is_refused_where_they_are_not_offered() {
     let bench = Bench::without_codes();
-    let name = Code::Lammps;
+    let name = Code::named("lammps").expect("it is built in");
     let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
     assert!(matches!(
         case.protocol.preparation,

@@ -8,9 +8,9 @@ use crate::model::{
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::runs::Store;
+use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
 use clap::{Args, ValueEnum};
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;

@@ -1,12 +1,12 @@
 //! Tasks for one process of an external code: run directories, the runner, blame, outcomes read back.
 
-use super::definition::{Definition, ResultFile};
 use super::failure::{Failure, FailureKind};
 use super::installation::InstalledProgram;
 use super::installed::{Finished, RunContext};
+use super::manifest::{Definition, ResultFile};
 use super::parameters::only_numbers;
 use super::process::{Ending, Environment, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
-use super::task::{ReadTask, Task};
+use super::task::Task;
 use crate::files::{FileError, remove_abandoned};
 use std::ffi::OsString;
 use std::fs;
@@ -19,7 +19,7 @@ const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
 
 /// Some tasks of one kind for one process.
-pub struct Batch<'a, T: ReadTask> {
+pub struct Batch<'a, T: Task> {
     program: &'a InstalledProgram,
     definition: &'static Definition,
     result: ResultFile,
@@ -35,7 +35,7 @@ pub struct Batch<'a, T: ReadTask> {
 /// Receives the outcome of a task and the seconds that it took.
 type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 
-impl<'a, T: ReadTask> Batch<'a, T> {
+impl<'a, T: Task> Batch<'a, T> {
     /// `tasks`, at least one, for one process of `program`, in `directory`.
     pub fn new(program: &'a InstalledProgram, tasks: &'a [T], directory: PathBuf) -> Self {
         let definition = program.code.definition();
@@ -195,7 +195,7 @@ impl<'a, T: ReadTask> Batch<'a, T> {
 
     fn read(&mut self, index: usize, report: Report<T>) {
         let directory = self.task_directory(index);
-        let outcome = self.tasks[index].read(&directory, &self.result);
+        let outcome = self.tasks[index].read_outcome(&directory, &self.result);
         let outcome = outcome.map_err(FailureKind::Series);
         // A program that was replaced meanwhile may not be the one that answered.
         let unchanged = self.program.installation.check_unchanged();

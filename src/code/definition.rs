@@ -1,10 +1,9 @@
 //! A code as its folder describes it: the manifest `code.toml` with its defaults and variants, and the files of its
 //! tasks.
 
-use super::format::{ParameterFormat, ResultFormat};
-use crate::model::{ContactConvention, InvalidValue, Preparation, sha256_hex, shown};
-use serde::Deserialize;
-use std::collections::BTreeMap;
+use super::format::ResultFormat;
+use super::manifest::{Definition, RefusedValues, ResultFile, TaskKind};
+use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
@@ -35,19 +34,6 @@ impl ManifestError {
     }
 }
 
-/// What a code can be asked to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TaskKind {
-    /// Compress a stack after a gravity ramp.
-    Stack,
-    /// Compress a stack that was prepared between side walls.
-    SideWalls,
-    /// Move two cylinders for a few steps.
-    Motion,
-    /// Carry a pyramid.
-    Pyramid,
-}
-
 impl TaskKind {
     /// The task that compresses a stack after `preparation`.
     pub(super) fn of(preparation: &Preparation) -> Self {
@@ -55,249 +41,6 @@ impl TaskKind {
             Preparation::GravityRamp { .. } => Self::Stack,
             Preparation::SideWalls(_) => Self::SideWalls,
         }
-    }
-}
-
-/// One code.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Definition {
-    schema: i64,
-    pub(super) name: String,
-    /// Name in prose and figures; the variants of a folder share it.
-    #[serde(default)]
-    pub(super) title: String,
-    /// What tells the variant from others in figures.
-    pub(super) label: Option<String>,
-    /// How to install the program.
-    #[serde(default)]
-    pub(super) install: String,
-    pub(super) mark: Option<Mark>,
-    #[serde(default)]
-    pub(super) seconds: Seconds,
-    /// Absent for the native code alone.
-    pub(super) program: Option<Program>,
-    #[serde(default)]
-    pub(super) parameters: ParameterFile,
-    #[serde(default)]
-    result: ResultFile,
-    #[serde(default)]
-    tasks: Tasks,
-    #[serde(default)]
-    pub(super) convention: ContactConvention,
-    #[serde(default)]
-    pub(super) integration: Integration,
-    #[serde(default)]
-    refused: Refused,
-    /// Placeholders of the command.
-    #[serde(default)]
-    set: BTreeMap<String, String>,
-    #[serde(default)]
-    variants: BTreeMap<String, Table>,
-    /// Name of the folder's manifest.
-    #[serde(skip)]
-    pub(super) family: String,
-}
-
-/// Mark of a code in figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mark {
-    /// Its shape.
-    pub shape: Shape,
-    /// Its colour.
-    pub colour: Colour,
-}
-
-/// Outlines, so that marks at the same place do not hide each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
-pub enum Shape {
-    Dot,
-    Circle,
-    Square,
-    Diamond,
-    Cross,
-    Plus,
-}
-
-/// Colours that the colour-blind tell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
-pub enum Colour {
-    Ink,
-    Blue,
-    Vermilion,
-    Purple,
-    Orange,
-    Green,
-}
-
-/// Durations for forecasts; a multiple is the time limit.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct Seconds {
-    start: f64,
-    pub(super) step: f64,
-}
-
-impl Default for Seconds {
-    fn default() -> Self {
-        Self {
-            start: 1.0,
-            step: 5e-6,
-        }
-    }
-}
-
-/// How a code is started.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Program {
-    command: Vec<String>,
-    /// A build of the program that computes with more digits.
-    pub(super) higher_precision: Option<String>,
-    #[serde(default)]
-    pub(super) version: VersionQuestion,
-    #[serde(default)]
-    pub(super) environment: BTreeMap<String, String>,
-    /// Files in the working directory that say why a run failed.
-    #[serde(default)]
-    pub(super) logs: Vec<String>,
-}
-
-/// How a program says its version.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct VersionQuestion {
-    /// Whether the version of its package, which is quicker to know, is as good.
-    pub(super) package: bool,
-    /// Arguments that make it print the version; it is not asked if there are none.
-    pub(super) arguments: Vec<String>,
-    /// Text before the version in the first line it prints.
-    pub(super) before: String,
-}
-
-/// The file that holds the parameters of a task.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct ParameterFile {
-    pub(super) file: String,
-    pub(super) format: ParameterFormat,
-}
-
-impl Default for ParameterFile {
-    fn default() -> Self {
-        Self {
-            file: "task.json".to_owned(),
-            format: ParameterFormat::Json,
-        }
-    }
-}
-
-/// The file that holds the result of a task.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct ResultFile {
-    pub(super) file: String,
-    pub(super) format: ResultFormat,
-}
-
-impl Default for ResultFile {
-    fn default() -> Self {
-        Self {
-            file: "result.csv".to_owned(),
-            format: ResultFormat::Csv,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Tasks {
-    stack: Option<TaskFiles>,
-    side_walls: Option<TaskFiles>,
-    motion: Option<TaskFiles>,
-    pyramid: Option<TaskFiles>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TaskFiles {
-    /// The first one is the deck.
-    files: Vec<String>,
-    result: Option<String>,
-    #[serde(skip)]
-    contents: Vec<Vec<u8>>,
-}
-
-/// How a code steps through time, as far as it can be seen beside a native twin.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Integration {
-    /// Steps by which reported velocities lag behind reported positions.
-    pub velocity_lag: f64,
-    /// Where its angles come from.
-    pub angle: Angle,
-    /// Whether two surfaces that just touch are a contact.
-    pub touches_at_zero_overlap: bool,
-}
-
-impl Default for Integration {
-    fn default() -> Self {
-        Self {
-            velocity_lag: 0.5,
-            angle: Angle::Exact,
-            touches_at_zero_overlap: false,
-        }
-    }
-}
-
-/// Where the angles of a code come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Angle {
-    /// The integrator turns the body by spin × time step.
-    Exact,
-    /// The deck sums the spin by the trapezoidal rule.
-    SummedSpin,
-    /// The integrator turns a dipole by arctan(spin × time step).
-    Dipole,
-}
-
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Refused {
-    restitution: Option<RefusedValues>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RefusedValues {
-    values: Vec<f64>,
-    because: String,
-}
-
-impl Tasks {
-    fn get(&self, kind: TaskKind) -> Option<&TaskFiles> {
-        match kind {
-            TaskKind::Stack => self.stack.as_ref(),
-            TaskKind::SideWalls => self.side_walls.as_ref(),
-            TaskKind::Motion => self.motion.as_ref(),
-            TaskKind::Pyramid => self.pyramid.as_ref(),
-        }
-    }
-
-    fn all_mut(&mut self) -> impl Iterator<Item = &mut TaskFiles> {
-        let all = [
-            &mut self.stack,
-            &mut self.side_walls,
-            &mut self.motion,
-            &mut self.pyramid,
-        ];
-        all.into_iter().flatten()
     }
 }
 
@@ -367,7 +110,7 @@ impl Definition {
         if self.title.is_empty() {
             self.title.clone_from(&self.family);
         }
-        for task in self.tasks.all_mut() {
+        for task in self.tasks.values_mut() {
             let contents = task.files.iter().map(|name| {
                 read(name).map_err(|error| format!("tasks: cannot read `{name}`: {error}"))
             });
@@ -395,12 +138,15 @@ impl Definition {
         let logs = self.program.iter().flat_map(|program| &program.logs);
         let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
         written.extend(logs.cloned());
-        let results = self.tasks.all_mut().filter_map(|task| task.result.clone());
+        let results = self
+            .tasks
+            .values_mut()
+            .filter_map(|task| task.result.clone());
         written.extend(results);
         if let Some(name) = written.iter().find(|name| !stays_inside(name)) {
             return Err(refused("file", name, "a path inside the run directory"));
         }
-        for task in self.tasks.all_mut() {
+        for task in self.tasks.values_mut() {
             if task.files.is_empty() {
                 return Err(refused("files", "[]", "the deck and what it needs"));
             }
@@ -412,7 +158,9 @@ impl Definition {
                 return Err(refused("files", name, accepted));
             }
         }
-        if self.tasks.pyramid.is_some() && self.result.format != ResultFormat::LammpsThermo {
+        if self.tasks.contains_key(&TaskKind::Pyramid)
+            && self.result.format != ResultFormat::LammpsThermo
+        {
             let accepted = "lammps-thermo where there is a task `pyramid`";
             return Err(refused("result.format", "csv", accepted));
         }
@@ -424,7 +172,7 @@ impl Definition {
         let Some(program) = &self.program else {
             return Ok(());
         };
-        if self.tasks.stack.is_none() {
+        if !self.tasks.contains_key(&TaskKind::Stack) {
             return Err(refused("tasks.stack", "absent", "a table with `files`"));
         }
         if program.command.is_empty() {
@@ -454,7 +202,7 @@ impl Definition {
 
     /// Whether it runs a task of this kind.
     pub(super) fn runs(&self, kind: TaskKind) -> bool {
-        self.program.is_none() || self.tasks.get(kind).is_some()
+        self.program.is_none() || self.tasks.get(&kind).is_some()
     }
 
     /// Whether one process carries out many tasks.
@@ -465,7 +213,7 @@ impl Definition {
 
     /// Program and arguments that carry out the tasks in `directories`.
     pub(super) fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
-        let task = self.tasks.get(kind);
+        let task = self.tasks.get(&kind);
         let deck = task.and_then(|task| task.files.first());
         let deck = deck.map_or("", String::as_str);
         let words = self.program.iter().flat_map(|program| &program.command);
@@ -479,7 +227,7 @@ impl Definition {
 
     /// Files of a task, by name and content.
     pub(super) fn files(&self, kind: TaskKind) -> impl Iterator<Item = (&str, &[u8])> {
-        let task = self.tasks.get(kind).into_iter();
+        let task = self.tasks.get(&kind).into_iter();
         task.flat_map(|task| {
             let names = task.files.iter().map(String::as_str);
             names.zip(task.contents.iter().map(Vec::as_slice))
@@ -499,7 +247,7 @@ impl Definition {
 
     /// Where the result of a task is found.
     pub(super) fn result(&self, kind: TaskKind) -> ResultFile {
-        let own = self.tasks.get(kind).and_then(|task| task.result.clone());
+        let own = self.tasks.get(&kind).and_then(|task| task.result.clone());
         ResultFile {
             file: own.unwrap_or_else(|| self.result.file.clone()),
             format: self.result.format,

@@ -6,7 +6,7 @@ use super::installation::InstalledProgram;
 use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
-use super::task::{ReadTask, Task};
+use super::task::Task;
 use crate::model::{Case, InvalidValue};
 use crate::series::Series;
 use std::ops::Range;
@@ -39,7 +39,7 @@ impl ExternalCode {
 
     /// Carries out those of `tasks` in `range`, all of one kind, in order, as many at once as the code can; if
     /// `all_or_nothing`, only up to the first failure.
-    fn carry_out_range<T: ReadTask>(
+    fn carry_out_range<T: Task>(
         &self,
         tasks: &[T],
         range: Range<usize>,
@@ -73,7 +73,7 @@ impl ExternalCode {
     }
 
     /// Carries out `tasks` up to the first failure.
-    fn up_to_failure<T: ReadTask>(
+    fn up_to_failure<T: Task>(
         &self,
         tasks: &[T],
         context: &RunContext,

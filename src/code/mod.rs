@@ -10,6 +10,7 @@ mod format;
 mod guard;
 mod installation;
 mod installed;
+mod manifest;
 mod native;
 mod parameters;
 mod process;
@@ -18,48 +19,20 @@ mod registry;
 mod task;
 mod written;
 
-pub use definition::{
-    Angle, Colour, Definition, Integration, ManifestError, Mark, Shape, TaskKind,
-};
+pub use definition::ManifestError;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
 pub use installation::version_in_answer;
 pub use installed::{Advanced, Batching, Finished, InstalledCode, RunContext, Tasks};
-pub use parameters::{
-    DeckParameters, PreparationParameters, ProbeParameters, PyramidParameters, placed_cylinders,
-};
+pub use manifest::{Angle, Colour, Definition, Integration, Mark, Shape, TaskKind};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
 pub use task::Task;
 pub use written::keep_evidence;
 
-use crate::model::sha256_hex;
-
 impl Code {
-    /// Hash of everything that this version of tristack would give the code for `task`: files, parameters, command
-    /// and environment. For the native code its sources take the place of the files.
-    pub fn deck_hash<T: Task>(self, task: &T) -> String {
-        let definition = self.definition();
-        let kind = task.kind();
-        let file = &definition.parameters;
-        let content = file.format.content(&task.parameters());
-        let command = definition.command(kind, &[".".to_owned()]);
-        let program = definition.program.as_ref();
-        let environment = program.map(|program| &program.environment);
-        let given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
-        sha256_hex(format!("{}\n{given}", self.files_hash(kind)).as_bytes())
-    }
-
-    /// Hash of the files for a task of this kind, or of the sources of the native code.
-    pub fn files_hash(self, kind: TaskKind) -> String {
-        match self {
-            Self::NATIVE => crate::dem::SOURCE_DIGEST.clone(),
-            _ => self.definition().files_hash(kind),
-        }
-    }
-
     /// The code as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {

@@ -1,6 +1,7 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
-use super::definition::{Definition, Integration, ManifestError, Mark, TaskKind};
+use super::definition::ManifestError;
+use super::manifest::{Definition, Integration, Mark, TaskKind};
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -256,6 +257,14 @@ impl Code {
             value: "given".to_owned(),
             accepted: format!("none for {self}; native takes them"),
         })
+    }
+
+    /// Hash of the files for a task of this kind, or of the sources of the native code.
+    pub fn files_hash(self, kind: TaskKind) -> String {
+        match self {
+            Self::NATIVE => crate::dem::SOURCE_DIGEST.clone(),
+            _ => self.definition().files_hash(kind),
+        }
     }
 
     /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.

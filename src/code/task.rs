@@ -1,10 +1,11 @@
 //! Tasks: what a code turns into an outcome.
 
-use super::definition::{ResultFile, TaskKind};
 use super::format::pyramid_in_log;
+use super::manifest::{ResultFile, TaskKind};
 use super::parameters::{DeckParameters, ProbeParameters, PyramidParameters, placed_cylinders};
+use super::registry::Code;
 use super::written::read;
-use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid};
+use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use serde::Serialize;
 use std::path::Path;
@@ -38,11 +39,16 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     fn files(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
-}
 
-/// A task whose outcome a program writes into its directory.
-pub(super) trait ReadTask: Task {
-    fn read(&self, directory: &Path, result: &ResultFile) -> Result<Self::Outcome, SeriesError>;
+    /// Reads the outcome that a program has written into `directory`.
+    ///
+    /// # Errors
+    /// If it is not there, or is not that of the task.
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<Self::Outcome, SeriesError>;
 }
 
 impl Task for Case {
@@ -63,10 +69,8 @@ impl Task for Case {
     fn parameters(&self) -> serde_json::Value {
         named(&DeckParameters::new(self))
     }
-}
 
-impl ReadTask for Case {
-    fn read(&self, directory: &Path, result: &ResultFile) -> Result<Series, SeriesError> {
+    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Series, SeriesError> {
         result.format.series(&read(directory, &result.file)?, self)
     }
 }
@@ -89,10 +93,8 @@ impl Task for ContactTest {
     fn parameters(&self) -> serde_json::Value {
         named(&ProbeParameters::new(self))
     }
-}
 
-impl ReadTask for ContactTest {
-    fn read(&self, directory: &Path, result: &ResultFile) -> Result<Motion, SeriesError> {
+    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Motion, SeriesError> {
         result.format.motion(&read(directory, &result.file)?, self)
     }
 }
@@ -125,12 +127,30 @@ impl Task for Pyramid {
     fn files(&self) -> Vec<(&'static str, String)> {
         vec![placed_cylinders(self)]
     }
-}
 
-impl ReadTask for Pyramid {
-    fn read(&self, directory: &Path, result: &ResultFile) -> Result<PyramidRun, SeriesError> {
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<PyramidRun, SeriesError> {
         let [log, dump] = [result.file.as_str(), CENTRES].map(|name| read(directory, name));
         pyramid_in_log(&log?, &dump?, self)
+    }
+}
+
+impl Code {
+    /// Hash of everything that this version of tristack would give the code for `task`: files, parameters, command
+    /// and environment. For the native code its sources take the place of the files.
+    pub fn deck_hash<T: Task>(self, task: &T) -> String {
+        let definition = self.definition();
+        let kind = task.kind();
+        let file = &definition.parameters;
+        let content = file.format.content(&task.parameters());
+        let command = definition.command(kind, &[".".to_owned()]);
+        let program = definition.program.as_ref();
+        let environment = program.map(|program| &program.environment);
+        let given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
+        sha256_hex(format!("{}\n{given}", self.files_hash(kind)).as_bytes())
     }
 }
 

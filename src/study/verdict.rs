@@ -224,9 +224,8 @@ impl Grounds {
         let blur = blurs.fold(0.0, f64::max);
         let each = self.0.iter().filter_map(|ground| ground.verdict(blur));
         let worst = each.max().unwrap_or(Verdict::Inconclusive);
-        let is_open = |ground: &Ground| {
-            matches!(ground, Ground::Undecidable(_) | Ground::NotJudged { .. })
-        };
+        let is_open =
+            |ground: &Ground| matches!(ground, Ground::Undecidable(_) | Ground::NotJudged { .. });
         match worst {
             Verdict::Missing | Verdict::Failed => worst,
             _ if self.0.iter().any(is_open) => Verdict::Inconclusive,

@@ -4,9 +4,9 @@ use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
 use crate::series::{Estimate, YieldEstimates};
-use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
+use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
 use crate::theory::{FailureMode, Outcome};
 
 /// Travel of the wall in units of the predicted travel to the end of the path: far enough beyond it for a force with a

@@ -17,11 +17,11 @@ pub struct RowName {
     stack: Stack,
 }
 
-/// Reads ENGINE/MU/STIFFNESS.
+/// Reads CODE/MU/STIFFNESS.
 pub fn row_name(text: &str) -> Result<RowName, String> {
     let parts: Vec<&str> = text.split('/').collect();
     let [code, mu, stiffness] = parts[..] else {
-        return Err("accepted is ENGINE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
+        return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
     };
     let code = Code::from_str(code, true).map_err(|_| {
         let names: Vec<&str> = Code::ALL.iter().map(|name| name.as_str()).collect();

@@ -3,7 +3,7 @@
 use super::options::{RunOptions, recorded_trajectories, reference_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
-use super::trajectories::trajectories;
+use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::code::Run;
@@ -86,7 +86,7 @@ fn record(
         worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Trajectories) {
-        let plans = trajectories(std::iter::once(name));
+        let plans = plans(std::iter::once(name));
         let place = (
             &recorded_trajectories(),
             reference_directory().join("trajectories"),

@@ -1,14 +1,13 @@
 //! `tristack regimes`.
 
-use super::options::{Format, as_flag, writable};
+use super::options::{Format, as_flag, writable, write_all};
 use super::progress::Counter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::files::{FileError, write_atomically};
+use crate::files::FileError;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
-    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, regimes_svg, survey_json,
-    survey_table,
+    boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
 use crate::study::Verdict;
 use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
@@ -48,7 +47,7 @@ pub struct Arguments {
 }
 
 /// Looks at every boundary, prints and writes what was found.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let maps = checked_maps(arguments)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
@@ -65,13 +64,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         return Ok(ExitStatus::Interrupted);
     }
     if let Some(directory) = &arguments.out {
-        write(directory, &maps, &survey, &command_line(arguments))?;
+        write(directory, &maps, &survey, command)?;
     }
-    super::print(&match arguments.format {
-        Format::Table => survey_table(&survey).into_bytes(),
-        Format::Json => survey_json(&survey).into_bytes(),
-        Format::Csv => boundaries_csv(&survey),
-    })?;
+    let tables = [boundaries(&survey), largest_forces(&survey)];
+    let people = || survey_text(&survey);
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&survey))
 }
 
@@ -103,25 +100,13 @@ fn write(
     command: &str,
 ) -> Result<(), FileError> {
     let files = [
-        ("regimes.csv", regimes_csv(maps, GRID.0, GRID.1)),
-        ("boundaries.csv", boundaries_csv(survey)),
-        ("largest_forces.csv", largest_forces_csv(survey)),
+        ("regimes.csv", regimes(maps, GRID.0, GRID.1).csv()),
+        ("boundaries.csv", boundaries(survey).csv()),
+        ("largest_forces.csv", largest_forces(survey).csv()),
         ("regimes.md", regimes_markdown(survey, command).into_bytes()),
         ("regimes.svg", regimes_svg(maps, survey).into_bytes()),
     ];
-    for (name, content) in files {
-        write_atomically(&directory.join(name), &content)?;
-    }
-    Ok(())
-}
-
-/// The command that gives the same rows again.
-fn command_line(arguments: &Arguments) -> String {
-    let mut line = "tristack regimes".to_owned();
-    if arguments.kappa != PAPER_STIFFNESS_RATIO {
-        line += &format!(" --kappa {}", arguments.kappa);
-    }
-    line + &format!(" --points {}", arguments.points)
+    write_all(directory, &files)
 }
 
 /// Says on standard error what it amounts to, and returns the exit status.

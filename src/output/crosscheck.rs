@@ -1,111 +1,161 @@
 //! The rows of a crosscheck in every format.
 
-use super::number::{friction, optional, relative, significant};
-use super::table::Table;
-use crate::study::yield_force::{ConvergenceOrder, Evidence, Judgement, Row};
+use super::number::{friction, or_dash, relative, significant};
+use super::table::{Columns, DataTable};
+use crate::model::{ContactConvention, Stack};
+use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Row};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
-use serde::Serialize;
 
-/// The rows with every digit.
-pub fn crosscheck_csv(judgements: &[Judgement]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for judgement in judgements {
-        writer
-            .serialize(&judgement.row)
-            .expect("plain rows are written to memory");
+fn stack_of(row: &Row) -> Stack {
+    Stack {
+        floor_friction: row.mu,
+        cylinder_friction: row.mu_d,
+        stiffness: row.stiffness,
+        stiffness_ratio: row.kappa,
     }
-    writer.into_inner().expect("memory is flushed")
 }
 
-/// What the uncertainty of a row consists of, in m g, and how its runs converge.
-#[derive(Serialize)]
-struct BudgetRow<'a> {
-    code: &'a str,
-    mu: f64,
-    stiffness: f64,
-    model_form: Option<f64>,
-    wall_speed: f64,
-    time_step: f64,
-    preparation: f64,
-    sampling: f64,
-    round_off: f64,
-    print_precision: f64,
-    shortcuts: f64,
-    uncertainty: f64,
-    observed_order: Option<f64>,
-    expected_order: f64,
+fn convention_of(row: &Row) -> ContactConvention {
+    ContactConvention {
+        pair_arm: row.pair_arm,
+        floor_arm: row.floor_arm,
+        ..ContactConvention::PAPER
+    }
 }
 
-impl<'a> BudgetRow<'a> {
-    fn new(judgement: &'a Judgement) -> Option<Self> {
+/// The rows.
+pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
+    Columns::<&Judgement>::new(
+        "crosscheck",
+        "A row is the yield force of one stack by one code at vanishing wall speed, and the verdict on it.",
+        "`tristack crosscheck` (crosscheck.csv, crosscheck.json), `tristack sweep` (sweep.csv, sweep.json), \
+         `tristack report` (tables/yield_curves.csv, tables/scaling.csv, tables/literal.csv)",
+    )
+    .stack(|judgement| stack_of(&judgement.row))
+    .text("code", "the code that was measured", |judgement| {
+        judgement.row.code.as_str()
+    })
+    .shown("code")
+    .text("version", "its version", |judgement| {
+        judgement.row.version.clone()
+    })
+    .text(
+        "source",
+        "`live` if it ran on this machine, `recorded` if recorded runs stand in for it",
+        |judgement| judgement.row.source.as_str(),
+    )
+    .shown("source")
+    .arms(|judgement| convention_of(&judgement.row))
+    .number(
+        "yield_force",
+        "m g",
+        "yield force F at vanishing wall speed, read at the onset of slip",
+        |judgement| judgement.row.yield_force,
+    )
+    .shown("yield force")
+    .digits(|force| significant(force, 9))
+    .number(
+        "uncertainty",
+        "m g",
+        "its numerical uncertainty, the sum of the parts of the error budget",
+        |judgement| judgement.row.uncertainty,
+    )
+    .shown("±")
+    .digits(|uncertainty| format!("{uncertainty:.0e}"))
+    .text("reference", "the theory that it is compared with", |judgement| {
+        judgement.row.reference.clone()
+    })
+    .number(
+        "reference_force",
+        "m g",
+        "F by that theory, under the contact convention of the code",
+        |judgement| judgement.row.reference_force,
+    )
+    .shown("exact limit")
+    .digits(|force| significant(force, 9))
+    .number(
+        "error",
+        "1",
+        "(yield_force − reference_force)/(reference_force + 3)",
+        |judgement| judgement.row.error,
+    )
+    .shown("error")
+    .digits(relative)
+    .number(
+        "tolerance",
+        "1",
+        "largest error that agrees, relative to reference_force + 3",
+        |judgement| judgement.row.tolerance,
+    )
+    .shown("tolerance")
+    .digits(|tolerance| format!("{tolerance:.1e}"))
+    .number(
+        "model_form",
+        "1",
+        "distance of the limit under the code's convention from the one under the paper's, relative to F + 3",
+        |judgement| judgement.row.model_form,
+    )
+    .shown("model form")
+    .digits(relative)
+    .text("verdict", "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`", |judgement| {
+        judgement.row.verdict.as_str()
+    })
+    .shown("verdict")
+    .rows(judgements)
+}
+
+fn part(value: f64) -> String {
+    format!("{value:.0e}")
+}
+
+/// What the uncertainty of every row that has one consists of, and how its runs converge.
+pub fn budget(judgements: &[Judgement]) -> DataTable<'_> {
+    let rows = judgements.iter().filter_map(|judgement| {
         let slip = judgement.slip.as_ref()?;
-        let budget = &slip.budget;
-        let row = &judgement.row;
-        Some(Self {
-            code: row.code.as_str(),
-            mu: row.mu,
-            stiffness: row.stiffness,
-            model_form: row.model_form,
-            wall_speed: budget.wall_speed,
-            time_step: budget.time_step,
-            preparation: budget.preparation,
-            sampling: budget.sampling,
-            round_off: budget.round_off,
-            print_precision: budget.print_precision,
-            shortcuts: budget.shortcuts,
-            uncertainty: budget.total(),
-            observed_order: slip.order.observed,
-            expected_order: ConvergenceOrder::EXPECTED,
+        Some((judgement, slip))
+    });
+    let mut columns = Columns::<(&Judgement, &Extrapolation)>::new(
+        "budget",
+        "A row says what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` consists of, and \
+         how its runs converge.",
+        "`tristack crosscheck` (budget.csv)",
+    )
+    .stack(|(judgement, _)| stack_of(&judgement.row))
+    .text("code", "the code that was measured", |(judgement, _)| {
+        judgement.row.code.as_str()
+    })
+    .shown("code")
+    .number(
+        "model_form",
+        "1",
+        "distance of the limit under the code's convention from the one under the paper's, relative to F + 3",
+        |(judgement, _)| judgement.row.model_form,
+    );
+    for own in Budget::PARTS {
+        columns = columns
+            .number(own.name, "m g", own.how, move |(_, slip)| (own.value)(&slip.budget))
+            .shown(own.heading)
+            .digits(part);
+    }
+    columns
+        .number("uncertainty", "m g", "sum of the parts", |(_, slip)| {
+            slip.budget.total()
         })
-    }
-}
-
-/// The error budget of every row that has one, with every digit.
-pub fn budget_csv(judgements: &[Judgement]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in judgements.iter().filter_map(BudgetRow::new) {
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
-}
-
-fn budgets(judgements: &[Judgement]) -> Table {
-    let mut table = Table::new(&[
-        "stiffness>",
-        "mu>",
-        "code",
-        "wall speed>",
-        "time step>",
-        "preparation>",
-        "sampling>",
-        "round-off>",
-        "print precision>",
-        "shortcuts>",
-        "total>",
-        "observed order>",
-        "expected>",
-    ]);
-    for row in judgements.iter().filter_map(BudgetRow::new) {
-        let part = |value: f64| format!("{value:.0e}");
-        table.push(vec![
-            row.stiffness.to_string(),
-            friction(row.mu),
-            row.code.to_owned(),
-            part(row.wall_speed),
-            part(row.time_step),
-            part(row.preparation),
-            part(row.sampling),
-            part(row.round_off),
-            part(row.print_precision),
-            part(row.shortcuts),
-            part(row.uncertainty),
-            optional(row.observed_order, |order| format!("{order:.3}")),
-            row.expected_order.to_string(),
-        ]);
-    }
-    table
+        .shown("total")
+        .digits(part)
+        .number(
+            "observed_order",
+            "1",
+            "order with which the runs converge in the wall speed; absent below the noise",
+            |(_, slip)| slip.order.observed,
+        )
+        .shown("observed order")
+        .digits(|order| format!("{order:.3}"))
+        .number("expected_order", "1", "order with which they must converge", |_| {
+            ConvergenceOrder::EXPECTED
+        })
+        .shown("expected")
+        .rows(rows)
 }
 
 fn evidence() -> String {
@@ -116,15 +166,9 @@ fn evidence() -> String {
     format!("\n## Evidence, strongest first\n\n{}", tiers.concat())
 }
 
-/// The rows as a list of objects.
-pub fn crosscheck_json(judgements: &[Judgement]) -> String {
-    let rows: Vec<&Row> = judgements.iter().map(|judgement| &judgement.row).collect();
-    serde_json::to_string_pretty(&rows).expect("plain rows have a JSON form") + "\n"
-}
-
 /// The codes and the rows for a terminal.
-pub fn crosscheck_table(judgements: &[Judgement]) -> String {
-    codes(judgements).terminal() + &crosscheck_rows(judgements).terminal()
+pub fn crosscheck_text(judgements: &[Judgement]) -> String {
+    codes(judgements).shown().terminal() + &crosscheck(judgements).shown().terminal()
 }
 
 /// A page with the rows, what they mean, and what explains every verdict that is not `agrees`.
@@ -138,13 +182,13 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
          limit under the code's convention from the one under the paper's.\n\n",
         env!("CARGO_PKG_VERSION")
     );
-    page += &codes(judgements).markdown();
+    page += &codes(judgements).shown().markdown();
     page += "\n";
-    page += &crosscheck_rows(judgements).markdown();
+    page += &crosscheck(judgements).shown().markdown();
     page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
              the order with which the runs converge in the wall speed. How each part is computed, and all \
-             runs behind a row: `tristack crosscheck --explain ENGINE/MU/STIFFNESS`.\n\n";
-    page += &budgets(judgements).markdown();
+             runs behind a row: `tristack crosscheck --explain CODE/MU/STIFFNESS`.\n\n";
+    page += &budget(judgements).shown().markdown();
     page += &evidence();
     let explained = judgements
         .iter()
@@ -172,67 +216,23 @@ fn remark(judgement: &Judgement) -> String {
 }
 
 /// The codes in the order of their first rows, with what all their rows share.
-fn codes(judgements: &[Judgement]) -> Table {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "source",
-        "pair arm>",
-        "floor arm>",
-        "evidence",
-    ]);
-    let mut seen = Vec::new();
+fn codes(judgements: &[Judgement]) -> DataTable<'_> {
+    let mut rows: Vec<&Row> = Vec::new();
     for Judgement { row, .. } in judgements {
-        let version = if row.version.is_empty() {
-            "-"
-        } else {
-            &row.version
+        let shared = |row: &Row| {
+            let arms = [row.pair_arm, row.floor_arm];
+            (row.code, row.version.clone(), row.source, arms)
         };
-        let cells = vec![
-            row.code.to_string(),
-            version.to_owned(),
-            row.source.as_str().to_owned(),
-            row.pair_arm.to_string(),
-            row.floor_arm.to_string(),
-            Evidence::of(row).as_str().to_owned(),
-        ];
-        if !seen.contains(&cells) {
-            table.push(cells.clone());
-            seen.push(cells);
+        if !rows.iter().any(|other| shared(other) == shared(row)) {
+            rows.push(row);
         }
     }
-    table
-}
-
-/// The rows, with the digits that people want.
-pub fn crosscheck_rows(judgements: &[Judgement]) -> Table {
-    let mut table = Table::new(&[
-        "stiffness>",
-        "mu>",
-        "code",
-        "source",
-        "yield force>",
-        "±>",
-        "exact limit>",
-        "error>",
-        "tolerance>",
-        "model form>",
-        "verdict",
-    ]);
-    for Judgement { row, .. } in judgements {
-        table.push(vec![
-            row.stiffness.to_string(),
-            friction(row.mu),
-            row.code.to_string(),
-            row.source.as_str().to_owned(),
-            optional(row.yield_force, |force| significant(force, 9)),
-            optional(row.uncertainty, |uncertainty| format!("{uncertainty:.0e}")),
-            optional(row.reference_force, |force| significant(force, 9)),
-            optional(row.error, relative),
-            optional(row.tolerance, |tolerance| format!("{tolerance:.1e}")),
-            optional(row.model_form, relative),
-            row.verdict.to_string(),
-        ]);
-    }
-    table
+    Columns::<&Row>::for_people()
+        .left("code", |row| row.code.to_string())
+        .left("version", |row| or_dash(&row.version))
+        .left("source", |row| row.source.as_str().to_owned())
+        .right("pair arm", |row| row.pair_arm.to_string())
+        .right("floor arm", |row| row.floor_arm.to_string())
+        .left("evidence", |row| Evidence::of(row).as_str().to_owned())
+        .rows(rows)
 }

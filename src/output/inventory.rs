@@ -1,92 +1,80 @@
 //! The codes that tristack knows, as they are installed here.
 
-use super::table::Table;
-use crate::code::Code;
-use serde::Serialize;
+use super::table::{Columns, DataTable};
+use crate::code::{Code, Identity};
 
-/// One code.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// One code, and its program where it is installed.
 pub struct Inventory {
-    /// Its name.
-    pub code: Code,
-    /// Whether it can run here.
-    pub installed: bool,
-    /// Its version.
-    pub version: Option<String>,
-    /// Distribution package and version.
-    pub package: Option<String>,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts; a default that a case may change for `native`.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of floor contacts.
-    pub floor_arm: f64,
-    /// SHA-256 of the deck.
-    pub deck_hash: String,
-    /// How to install it.
-    pub install: &'static str,
+    code: Code,
+    identity: Option<Identity>,
 }
 
 impl Inventory {
     /// Looks for `code` on this machine.
     pub fn take(code: Code) -> Self {
         let found = code.find();
-        let identity = found.as_ref().map(|found| found.identity());
         Self {
             code,
-            installed: identity.is_some(),
-            version: identity.map(|identity| identity.version.clone()),
-            package: identity.and_then(|identity| identity.package.clone()),
-            pair_arm: code.convention().pair_arm,
-            floor_arm: code.convention().floor_arm,
-            deck_hash: code.static_deck_hash(),
-            install: code.installation_hint(),
+            identity: found.map(|found| found.identity().clone()),
+        }
+    }
+
+    fn version(&self) -> Option<String> {
+        let identity = self.identity.as_ref();
+        identity.map(|identity| identity.version.clone())
+    }
+
+    fn package(&self) -> Option<String> {
+        let identity = self.identity.as_ref();
+        identity.and_then(|identity| identity.package.clone())
+    }
+
+    /// An arm for people: of the codes that a case may give any arm, it is a default.
+    fn arm(&self, arm: f64) -> String {
+        match self.code.accepts_any_convention() {
+            true => format!("{arm} (any)"),
+            false => arm.to_string(),
         }
     }
 }
 
-/// As a list of objects.
-pub fn inventory_json(inventory: &[Inventory]) -> String {
-    serde_json::to_string_pretty(inventory).expect("plain data has a JSON form") + "\n"
-}
-
-/// One line an code.
-pub fn inventory_csv(inventory: &[Inventory]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for code in inventory {
-        writer
-            .serialize(code)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
-}
-
-/// For people.
-pub fn inventory_table(inventory: &[Inventory]) -> String {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "package",
-        "pair arm>",
-        "floor arm>",
-        "deck",
-    ]);
-    for code in inventory {
-        let absent = format!("not installed ({})", code.install);
-        let arms = |arm: f64| {
-            let free = code.code.accepts_any_convention();
-            if free {
-                format!("{arm} (any)")
-            } else {
-                arm.to_string()
-            }
-        };
-        table.push(vec![
-            code.code.to_string(),
-            code.version.clone().unwrap_or(absent),
-            code.package.clone().unwrap_or_else(|| "-".to_owned()),
-            arms(code.pair_arm),
-            arms(code.floor_arm),
-            code.deck_hash[..12].to_owned(),
-        ]);
-    }
-    table.terminal()
+/// One row a code.
+pub fn inventory(codes: &[Inventory]) -> DataTable<'_> {
+    Columns::<&Inventory>::new(
+        "codes",
+        "A row is a code that tristack knows, as it is installed on this machine.",
+        "`tristack codes`",
+    )
+    .text("code", "name of the code", |own| own.code.as_str())
+    .shown("code")
+    .text("installed", "whether it can run here", |own| own.identity.is_some())
+    .text("version", "its version", |own| own.version())
+    .shown("version")
+    .cell(|own| {
+        let absent = || format!("not installed ({})", own.code.installation_hint());
+        own.version().unwrap_or_else(absent)
+    })
+    .text("package", "distribution package and its version", |own| own.package())
+    .shown("package")
+    .number(
+        "pair_arm",
+        "1",
+        "arm coefficient r₁ of cylinder–cylinder contacts; a default that a case may change for `native`",
+        |own| own.code.convention().pair_arm,
+    )
+    .shown("pair arm")
+    .cell(|own| own.arm(own.code.convention().pair_arm))
+    .number(
+        "floor_arm",
+        "1",
+        "arm coefficient r₁ of floor contacts",
+        |own| own.code.convention().floor_arm,
+    )
+    .shown("floor arm")
+    .cell(|own| own.arm(own.code.convention().floor_arm))
+    .text("deck_hash", "SHA-256 of the deck", |own| own.code.static_deck_hash())
+    .shown("deck")
+    .cell(|own| own.code.static_deck_hash()[..12].to_owned())
+    .text("install", "how to install it", |own| own.code.installation_hint())
+    .rows(codes)
 }

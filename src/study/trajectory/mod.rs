@@ -16,7 +16,7 @@ pub use carry_out::measure_trajectories;
 pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
 pub use documented::{Documented, DocumentedOrder, documented};
 pub use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
-pub use judgement::{Comparison, TrajectoryJudgement, TrajectoryRow};
+pub use judgement::{Comparison, TrajectoryJudgement};
 pub use plan::{
     TIME_STEPS, Trajectory, Twin, TwinRuns, WALL_SPEED, plan_trajectory, trajectory_stack,
 };

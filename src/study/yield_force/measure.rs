@@ -128,6 +128,7 @@ fn blank_row(measurement: &Measurement, source: Source, version: String) -> Row 
         version,
         source,
         mu: measurement.stack.floor_friction,
+        mu_d: measurement.stack.cylinder_friction,
         stiffness: measurement.stack.stiffness,
         kappa: measurement.stack.stiffness_ratio,
         pair_arm: measurement.convention.pair_arm,

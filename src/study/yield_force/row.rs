@@ -2,10 +2,9 @@
 
 use crate::code::Code;
 use crate::study::{Source, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// One row of a crosscheck. Forces in m g; `error`, `tolerance` and `model_form` relative to F + 3.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Who was measured.
     pub code: Code,
@@ -15,6 +14,8 @@ pub struct Row {
     pub source: Source,
     /// Floor friction μ.
     pub mu: f64,
+    /// Friction μ_d between the cylinders.
+    pub mu_d: f64,
     /// Stiffness 1/ε.
     pub stiffness: f64,
     /// Stiffness ratio κ.

@@ -9,6 +9,7 @@ mod summary;
 mod tolerances;
 mod untested;
 
+pub(crate) use claims::claims_table;
 pub use claims::verdict as in_words;
 
 use super::document::Document;

@@ -115,7 +115,10 @@ fn measure_scaling(
             ("bench.json", json(&[rows], command)),
             ("bench.md", bench_markdown(costs, &measured).into_bytes()),
             ("scaling.csv", scaling(all).csv()),
-            ("performance.svg", performance_svg(costs, &measured).into_bytes()),
+            (
+                "performance.svg",
+                performance_svg(costs, &measured).into_bytes(),
+            ),
         ];
         write_all(directory, &files)?;
     }

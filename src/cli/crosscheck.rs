@@ -7,9 +7,7 @@ use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::files::FileError;
-use crate::output::{
-    budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json,
-};
+use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
 use crate::study::Source;
 use crate::study::Verdict;

@@ -30,8 +30,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// `tables`, the results of `command`, in this format; `people` makes the one for people. CSV has the first
-    /// table alone.
+    /// `tables`, the results of `command`, in this format; `people` makes the one for people, which is empty if
+    /// the tables are. CSV has the first table alone.
     pub fn render(
         self,
         tables: &[DataTable],
@@ -39,6 +39,7 @@ impl Format {
         people: impl FnOnce() -> String,
     ) -> Vec<u8> {
         match self {
+            Self::Table if tables.iter().all(DataTable::is_empty) => Vec::new(),
             Self::Table => people().into_bytes(),
             Self::Json => json(tables, command),
             Self::Csv => tables.first().map_or_else(Vec::new, DataTable::csv),

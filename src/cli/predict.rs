@@ -5,7 +5,7 @@ use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
 };
-use crate::output::{forecast, forecast_text};
+use crate::output::{forecast_text, forecasts};
 use clap::{ArgGroup, Args};
 
 /// ε, regime and yield force of cylinders that one can hold, in SI units
@@ -91,7 +91,11 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
         mu_d: arguments.stack.mu_d,
         kappa: arguments.stack.kappa,
     };
-    let found = Forecast::new(&experiment, arguments.contact).map_err(as_flag)?;
-    let people = || forecast_text(&found);
-    super::print(&arguments.format.render(&[forecast(&found)], command, people))
+    let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
+    let people = || forecast_text(&found[0]);
+    super::print(
+        &arguments
+            .format
+            .render(&[forecasts(&found)], command, people),
+    )
 }

@@ -44,7 +44,11 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
         .flat_map(|probe| probe.findings.clone())
         .collect();
     let people = || probe_by_code(&findings).terminal();
-    super::print(&arguments.format.render(&[probe(&findings)], command, people))?;
+    super::print(
+        &arguments
+            .format
+            .render(&[probe(&findings)], command, people),
+    )?;
     Ok(conclude(&codes, &probed, &findings))
 }
 

@@ -66,7 +66,10 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     if let Some(directory) = &arguments.out {
         write(directory, &maps, &survey, command)?;
     }
-    let tables = [boundaries(&survey), largest_forces(&survey)];
+    let tables = [
+        boundaries(&survey.confirmations),
+        largest_forces(&survey.examinations),
+    ];
     let people = || survey_text(&survey);
     super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&survey))
@@ -101,8 +104,11 @@ fn write(
 ) -> Result<(), FileError> {
     let files = [
         ("regimes.csv", regimes(maps, GRID.0, GRID.1).csv()),
-        ("boundaries.csv", boundaries(survey).csv()),
-        ("largest_forces.csv", largest_forces(survey).csv()),
+        ("boundaries.csv", boundaries(&survey.confirmations).csv()),
+        (
+            "largest_forces.csv",
+            largest_forces(&survey.examinations).csv(),
+        ),
         ("regimes.md", regimes_markdown(survey, command).into_bytes()),
         ("regimes.svg", regimes_svg(maps, survey).into_bytes()),
     ];

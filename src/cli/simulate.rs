@@ -7,9 +7,7 @@ use crate::code::{Code, Failure, FailureKind, InstalledCode, RunContext, keep_ev
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
 use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
-use crate::output::{
-    Simulation, is_vtk_row, json, run_svg, vtk_series,
-};
+use crate::output::{Simulation, is_vtk_row, json, run_svg, simulations, vtk_series};
 use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
@@ -131,13 +129,13 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
             return Err(failure.into());
         }
     };
-    let simulation = Simulation::new(&run);
-    let tables = [simulation.table()];
+    let simulated = [Simulation::new(&run)];
+    let tables = [simulations(&simulated)];
     if let Some(directory) = &arguments.out {
         write(directory, &run, &json(&tables, command))?;
     }
     draw(arguments, &run)?;
-    let people = || simulation.shown();
+    let people = || tables[0].transposed(&["value"]).terminal();
     super::print(&arguments.format.render(&tables, command, people))
 }
 

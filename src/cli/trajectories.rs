@@ -1,6 +1,8 @@
 //! `tristack trajectories`.
 
-use super::options::{Format, RunOptions, recorded_trajectories, selected_codes, writable, write_all};
+use super::options::{
+    Format, RunOptions, recorded_trajectories, selected_codes, writable, write_all,
+};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};

@@ -32,33 +32,63 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "A row is the cost of a step and of a yield force by one code on one core.",
         "`tristack bench` (bench.csv, bench.json)",
     )
-    .text("code", "`native-scalar`, `native-lanes`, or the name of a code", |(cost, _)| {
-        cost.target.as_str()
-    })
+    .text(
+        "code",
+        "`native-scalar`, `native-lanes`, or the name of a code",
+        |(cost, _)| cost.target.as_str(),
+    )
     .shown("code")
     .text("version", "its version", |(cost, _)| cost.version.clone())
     .shown("version")
-    .number("ratio", "1", "`ns_per_step` over that of native lanes", times_lanes)
+    .number(
+        "ratio",
+        "1",
+        "`ns_per_step` over that of native lanes",
+        times_lanes,
+    )
     .shown("times native-lanes")
     .digits(plain)
-    .number("ns_per_step", "ns", "wall time per step and case, the median of the runs", |(cost, _)| {
-        cost.median()
-    })
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and case, the median of the runs",
+        |(cost, _)| cost.median(),
+    )
     .shown("ns per step and case")
     .digits(plain)
-    .number("steps", "1", "steps timed in each run, of all its cases together", |(cost, _)| cost.steps)
-    .number("runs", "1", "how often it was measured", |(cost, _)| cost.nanoseconds.len())
-    .number("start_up_seconds", "s", "start and end, the median of the runs", |(cost, _)| cost.start_up())
+    .number(
+        "steps",
+        "1",
+        "steps timed in each run, of all its cases together",
+        |(cost, _)| cost.steps,
+    )
+    .number("runs", "1", "how often it was measured", |(cost, _)| {
+        cost.nanoseconds.len()
+    })
+    .number(
+        "start_up_seconds",
+        "s",
+        "start and end, the median of the runs",
+        |(cost, _)| cost.start_up(),
+    )
     .shown("start s")
     .digits(plain)
-    .number("yield_forces_per_second", "1/s", "yield forces per second and core, start included", |(cost, _)| {
-        cost.yield_forces_per_second()
-    })
+    .number(
+        "yield_forces_per_second",
+        "1/s",
+        "yield forces per second and core, start included",
+        |(cost, _)| cost.yield_forces_per_second(),
+    )
     .shown("yield forces per s")
     .digits(plain)
-    .number("yield_force_ratio", "1", "how many times as many native lanes make", |(cost, lanes)| {
-        lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
-    })
+    .number(
+        "yield_force_ratio",
+        "1",
+        "how many times as many native lanes make",
+        |(cost, lanes)| {
+            lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
+        },
+    )
     .shown("times fewer")
     .digits(plain)
     .number(
@@ -73,7 +103,10 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "peak_megabytes",
         "MB",
         "largest resident memory; that of native is all of this process",
-        |(cost, _)| cost.peak_bytes.map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE),
+        |(cost, _)| {
+            cost.peak_bytes
+                .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
+        },
     )
     .shown("MB")
     .digits(|megabytes| format!("{megabytes:.0}"))
@@ -97,12 +130,20 @@ pub fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<
     .shown("cases")
     .number("cores", "1", "number of cores", |row| row.cores)
     .shown("cores")
-    .number("ns_per_step", "ns", "wall time per step and case, the median of the repeats", |row| {
-        row.ns_per_step
-    })
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and case, the median of the repeats",
+        |row| row.ns_per_step,
+    )
     .shown("ns per step and case")
     .digits(plain)
-    .number("speedup", "1", "how many times as fast as the first row", |row| row.speedup)
+    .number(
+        "speedup",
+        "1",
+        "how many times as fast as the first row",
+        |row| row.speedup,
+    )
     .shown("times as fast")
     .digits(plain)
     .rows(rows)
@@ -133,26 +174,43 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
         "A row is the cost of a step of a pyramid of cylinders by one code on one core.",
         "`tristack bench --pyramids`",
     )
-    .number("cylinders", "1", "number of cylinders", |(cost, _)| cost.cylinders)
+    .number("cylinders", "1", "number of cylinders", |(cost, _)| {
+        cost.cylinders
+    })
     .shown("cylinders")
     .text("code", "name of the code", |(cost, _)| cost.code.as_str())
     .shown("code")
     .text("version", "its version", |(cost, _)| cost.version.clone())
-    .number("ratio", "1", "how many times the cost of native this is, run by run", |(cost, native)| {
-        native.map(|native| cost.ratio_to(native))
-    })
+    .number(
+        "ratio",
+        "1",
+        "how many times the cost of native this is, run by run",
+        |(cost, native)| native.map(|native| cost.ratio_to(native)),
+    )
     .shown("times native")
     .digits(plain)
-    .number("ns_per_step", "ns", "wall time per step and cylinder, the median of the runs", |(cost, _)| {
-        cost.median()
-    })
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and cylinder, the median of the runs",
+        |(cost, _)| cost.median(),
+    )
     .shown("ns per step and cylinder")
     .digits(plain)
-    .number("fastest_ns_per_step", "ns", "the same of the fastest run", |(cost, _)| cost.fastest())
+    .number(
+        "fastest_ns_per_step",
+        "ns",
+        "the same of the fastest run",
+        |(cost, _)| cost.fastest(),
+    )
     .shown("fastest")
     .digits(plain)
-    .number("steps", "1", "steps timed in each run", |(cost, _)| cost.timed_steps)
-    .number("runs", "1", "how often it was measured", |(cost, _)| cost.nanoseconds.len())
+    .number("steps", "1", "steps timed in each run", |(cost, _)| {
+        cost.timed_steps
+    })
+    .number("runs", "1", "how often it was measured", |(cost, _)| {
+        cost.nanoseconds.len()
+    })
     .rows(rows)
 }
 
@@ -177,7 +235,10 @@ mod tests {
     fn ratios_are_to_native_lanes() {
         let liggghts = BenchTarget::External(Code::Liggghts);
         let costs = [cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)];
-        let ratios = beside_lanes(&costs).iter().map(times_lanes).collect::<Vec<_>>();
+        let ratios = beside_lanes(&costs)
+            .iter()
+            .map(times_lanes)
+            .collect::<Vec<_>>();
         assert_eq!(ratios, [Some(1.0), Some(250.0)]);
         assert_eq!(times_lanes(&beside_lanes(&costs[1..])[0]), None);
         assert!(bench(&costs).shown().markdown().contains("| liggghts |"));

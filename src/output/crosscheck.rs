@@ -3,7 +3,9 @@
 use super::number::{friction, or_dash, relative, significant};
 use super::table::{Columns, DataTable};
 use crate::model::{ContactConvention, Stack};
-use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Row};
+use crate::study::yield_force::{
+    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Row,
+};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
 fn stack_of(row: &Row) -> Stack {
@@ -133,7 +135,9 @@ pub fn budget(judgements: &[Judgement]) -> DataTable<'_> {
     );
     for own in Budget::PARTS {
         columns = columns
-            .number(own.name, "m g", own.how, move |(_, slip)| (own.value)(&slip.budget))
+            .number(own.name, "m g", own.how, move |(_, slip)| {
+                (own.value)(&slip.budget)
+            })
             .shown(own.heading)
             .digits(part);
     }
@@ -151,9 +155,12 @@ pub fn budget(judgements: &[Judgement]) -> DataTable<'_> {
         )
         .shown("observed order")
         .digits(|order| format!("{order:.3}"))
-        .number("expected_order", "1", "order with which they must converge", |_| {
-            ConvergenceOrder::EXPECTED
-        })
+        .number(
+            "expected_order",
+            "1",
+            "order with which they must converge",
+            |_| ConvergenceOrder::EXPECTED,
+        )
         .shown("expected")
         .rows(rows)
 }

@@ -56,9 +56,8 @@ fn question(judgement: &Judgement, measurement: &Measurement) -> String {
 
 fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
     let runs = measurement.cases.iter().zip(&judgement.runs).enumerate();
-    let force = |estimate: Option<Estimate>| {
-        optional(estimate, |estimate| significant(estimate.force, 11))
-    };
+    let force =
+        |estimate: Option<Estimate>| optional(estimate, |estimate| significant(estimate.force, 11));
     let table = Columns::<(usize, (&Case, &RunSummary))>::for_people()
         .right("run", |(index, _)| (index + 1).to_string())
         .right("wall speed", |(_, (case, _))| {
@@ -78,7 +77,9 @@ fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
             optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling))
         })
         .right("amplified", |(_, (_, run))| {
-            optional(run.estimates.slip, |slip| format!("{:.0} x", slip.sensitivity))
+            optional(run.estimates.slip, |slip| {
+                format!("{:.0} x", slip.sensitivity)
+            })
         })
         .rows(runs);
     format!(
@@ -116,7 +117,9 @@ fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
         .left("part of u_num", |(name, ..)| name.to_string())
         .left("how", |(_, how, _)| how.to_string())
         .right("m g", |(.., value)| format!("{value:.1e}"))
-        .right("of F + 3", move |(.., value)| format!("{:.1e}", value / load))
+        .right("of F + 3", move |(.., value)| {
+            format!("{:.1e}", value / load)
+        })
         .rows(parts.into_iter().chain([total]));
     format!(
         "4. Numerical uncertainty of S (ASME V&V 20):\n{}\n",

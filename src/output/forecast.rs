@@ -7,7 +7,11 @@ use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast
 type Row<'a> = (&'a Forecast, &'a Forecasted);
 
 /// One row an estimate of the contact.
-pub fn forecast(forecast: &Forecast) -> DataTable<'_> {
+pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
+    let rows = forecasts.iter().flat_map(|all| {
+        let estimates = all.estimates.iter();
+        estimates.map(move |own| (all, own))
+    });
     let newton = |force: Option<Force>| force.map(|force| force.newton);
     let weights = |force: Option<Force>| force.map(|force| force.weights);
     experiment(Columns::<Row>::new(
@@ -73,7 +77,7 @@ pub fn forecast(forecast: &Forecast) -> DataTable<'_> {
     .number("range_highest", "N", "the highest; absent if one of them has no peak", |(all, _)| {
         all.range.highest
     })
-    .rows(forecast.estimates.iter().map(|own| (forecast, own)))
+    .rows(rows)
 }
 
 /// What is known of the cylinders.
@@ -81,26 +85,55 @@ fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let own = |(forecast, _): &Row| -> Experiment { forecast.experiment };
     columns
         .number("mu", "1", "floor friction μ", move |row| own(row).mu)
-        .number("mu_uncertainty", "1", "what μ is known to, as ±", move |row| own(row).mu_uncertainty)
-        .number("mu_d", "1", "friction μ_d between the cylinders", move |row| own(row).mu_d)
-        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| own(row).kappa)
-        .text("regime", "on which side of μ_c the floor is", |(forecast, _)| {
-            Value::word(forecast.regime)
+        .number(
+            "mu_uncertainty",
+            "1",
+            "what μ is known to, as ±",
+            move |row| own(row).mu_uncertainty,
+        )
+        .number(
+            "mu_d",
+            "1",
+            "friction μ_d between the cylinders",
+            move |row| own(row).mu_d,
+        )
+        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| {
+            own(row).kappa
         })
-        .number("youngs_modulus", "Pa", "Young's modulus E", move |row| own(row).cylinder.youngs_modulus)
-        .number("poisson_ratio", "1", "Poisson's ratio ν", move |row| own(row).cylinder.poisson_ratio)
-        .number("density", "kg/m³", "density ρ", move |row| own(row).cylinder.density)
-        .number("radius", "m", "radius r", move |row| own(row).cylinder.radius)
-        .number("length", "m", "length l along the axis", move |row| own(row).cylinder.length)
+        .text(
+            "regime",
+            "on which side of μ_c the floor is",
+            |(forecast, _)| Value::word(forecast.regime),
+        )
+        .number("youngs_modulus", "Pa", "Young's modulus E", move |row| {
+            own(row).cylinder.youngs_modulus
+        })
+        .number("poisson_ratio", "1", "Poisson's ratio ν", move |row| {
+            own(row).cylinder.poisson_ratio
+        })
+        .number("density", "kg/m³", "density ρ", move |row| {
+            own(row).cylinder.density
+        })
+        .number("radius", "m", "radius r", move |row| {
+            own(row).cylinder.radius
+        })
+        .number("length", "m", "length l along the axis", move |row| {
+            own(row).cylinder.length
+        })
         .number("mass", "kg", "mass m", |(forecast, _)| forecast.mass)
         .number("weight", "N", "weight m g", |(forecast, _)| forecast.weight)
 }
 
 /// The estimates side by side, for people.
 pub fn forecast_text(forecast: &Forecast) -> String {
-    let names: Vec<&str> = forecast.estimates.iter().map(|own| own.contact.as_str()).collect();
+    let names: Vec<&str> = forecast
+        .estimates
+        .iter()
+        .map(|own| own.contact.as_str())
+        .collect();
     let mut lines = vec![heading(forecast)];
-    lines.push(self::forecast(forecast).transposed(&names).terminal());
+    let table = forecasts(std::slice::from_ref(forecast));
+    lines.push(table.transposed(&names).terminal());
     lines.push(conclusion(forecast));
     for contact in ContactEstimate::ALL {
         lines.push(format!("{contact}: {}\n", contact.formula()));

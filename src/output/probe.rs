@@ -36,7 +36,8 @@ pub fn probe_by_code(findings: &[Finding]) -> Table {
             properties.push(&finding.property);
         }
     }
-    let mut columns = Columns::for_people().left("property", |property: &&str| property.to_string());
+    let mut columns =
+        Columns::for_people().left("property", |property: &&str| property.to_string());
     for code in codes {
         columns = columns.left(code.as_str(), move |property| {
             let mut own = findings.iter();

@@ -54,7 +54,7 @@ fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, Outco
 }
 
 /// The boundary points.
-pub fn boundaries(survey: &Survey) -> DataTable<'_> {
+pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     let claimed = |own: &Confirmation, side: usize| own.point.sides[side].regime().to_string();
     let observed = |own: &Confirmation, side: usize| {
         let regime = own.sides[side].observed;
@@ -83,11 +83,11 @@ pub fn boundaries(survey: &Survey) -> DataTable<'_> {
     .text("below_verdict", "verdict on the neighbour below", |own| own.sides[0].verdict.as_str())
     .text("above_verdict", "the same above", |own| own.sides[1].verdict.as_str())
     .text("verdict", "the worse of the two", |own| own.verdict().as_str())
-    .rows(&survey.confirmations)
+    .rows(confirmations)
 }
 
 /// The largest forces.
-pub fn largest_forces(survey: &Survey) -> DataTable<'_> {
+pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     let or_why = |own: &Examination, force: Option<f64>| {
         let without = || match own.claimed.failure_mode {
             FailureMode::Collapses => "falls".to_owned(),
@@ -108,27 +108,48 @@ pub fn largest_forces(survey: &Survey) -> DataTable<'_> {
     .shown("mu_d")
     .again("kappa")
     .shown("kappa")
-    .text("event", "the first event", |own| Value::word(own.claimed.first.event))
+    .text("event", "the first event", |own| {
+        Value::word(own.claimed.first.event)
+    })
     .shown("first event")
     .cell(|own| own.claimed.regime().to_string())
-    .text("failure_mode", "what it does", |own| Value::word(own.claimed.failure_mode))
-    .number("largest_force", "m g", "largest F by theory; absent if it falls, or grows without a peak", |own| {
-        own.claimed.largest_force
+    .text("failure_mode", "what it does", |own| {
+        Value::word(own.claimed.failure_mode)
     })
+    .number(
+        "largest_force",
+        "m g",
+        "largest F by theory; absent if it falls, or grows without a peak",
+        |own| own.claimed.largest_force,
+    )
     .shown("theory")
     .cell(move |own| or_why(own, own.claimed.largest_force))
-    .number("observed_force", "m g", "peak of F in the DEM at vanishing wall speed", move |own| observed(own))
+    .number(
+        "observed_force",
+        "m g",
+        "peak of F in the DEM at vanishing wall speed",
+        move |own| observed(own),
+    )
     .shown("DEM")
     .cell(move |own| or_why(own, observed(own)))
-    .number("uncertainty", "m g", "uncertainty of the peak", |own| own.uncertainty)
+    .number("uncertainty", "m g", "uncertainty of the peak", |own| {
+        own.uncertainty
+    })
     .shown("±")
     .digits(|uncertainty| format!("{uncertainty:.0e}"))
-    .number("error", "1", "(observed_force − largest_force)/(largest_force + 3)", |own| own.error)
+    .number(
+        "error",
+        "1",
+        "(observed_force − largest_force)/(largest_force + 3)",
+        |own| own.error,
+    )
     .shown("error")
     .digits(relative)
-    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| own.verdict.as_str())
+    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| {
+        own.verdict.as_str()
+    })
     .shown("verdict")
-    .rows(&survey.examinations)
+    .rows(examinations)
 }
 
 /// Boundaries and largest forces for a terminal.
@@ -192,7 +213,7 @@ fn tables(survey: &Survey) -> [Table; 3] {
     [
         friction_table(survey),
         line_table(survey),
-        largest_forces(survey).shown(),
+        largest_forces(&survey.examinations).shown(),
     ]
 }
 
@@ -228,13 +249,19 @@ fn friction_table(survey: &Survey) -> Table {
     };
     let beyond = |members: &[&Confirmation]| {
         let last = members.last();
-        last.map_or_else(String::new, |member| member.point.sides[1].last.event.to_string())
+        last.map_or_else(String::new, |member| {
+            member.point.sides[1].last.event.to_string()
+        })
     };
     Columns::<Group>::for_people()
         .left("map", |((axis, _), _)| format!("mu, {}", axis.as_str()))
         .right("at", |((_, value), _)| significant(*value, 4))
-        .right("own weight up to mu", move |(_, members)| friction(members, true))
-        .right("floor slip up to mu", move |(_, members)| friction(members, false))
+        .right("own weight up to mu", move |(_, members)| {
+            friction(members, true)
+        })
+        .right("floor slip up to mu", move |(_, members)| {
+            friction(members, false)
+        })
         .left("beyond it", move |(_, members)| beyond(members))
         .right("DEM", |(_, members)| tally(members))
         .rows(groups(survey, key))
@@ -242,7 +269,10 @@ fn friction_table(survey: &Survey) -> Table {
 }
 
 fn line_table(survey: &Survey) -> Table {
-    type Group<'a> = ((Axis, String, [(Event, LoadingPhase); 2]), Vec<&'a Confirmation>);
+    type Group<'a> = (
+        (Axis, String, [(Event, LoadingPhase); 2]),
+        Vec<&'a Confirmation>,
+    );
     let key = |confirmation: &Confirmation| {
         let point = &confirmation.point;
         let Across::Axis(axis) = point.across else {
@@ -266,7 +296,9 @@ fn line_table(survey: &Survey) -> Table {
         .left("boundary", |((_, line, _), _)| line.clone())
         .left("below", move |(_, members)| first(members, 0))
         .left("above", move |(_, members)| first(members, 1))
-        .right("from mu", |(_, members)| significant(members[0].point.stack.floor_friction, 3))
+        .right("from mu", |(_, members)| {
+            significant(members[0].point.stack.floor_friction, 3)
+        })
         .right("DEM", |(_, members)| tally(members))
         .rows(groups(survey, key))
         .shown()

@@ -20,16 +20,12 @@ impl<'a> Simulation<'a> {
             estimates: YieldEstimates::read(&run.series, &run.case.stack),
         }
     }
+}
 
-    /// For people: a line a quantity.
-    pub fn shown(&self) -> String {
-        self.table().transposed(&["value"]).terminal()
-    }
-
-    /// As one row.
-    pub fn table(&self) -> DataTable<'_> {
-        let force = |estimate: Option<Estimate>| estimate.map(|estimate| estimate.force);
-        let columns = Columns::<&Self>::new(
+/// One row a run.
+pub fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
+    let force = |estimate: Option<Estimate>| estimate.map(|estimate| estimate.force);
+    let columns = Columns::<&Simulation>::new(
             "simulation",
             "A row is one compression run and what was read off it. The case file beside it (case.json) holds \
              what is left out here.",
@@ -43,25 +39,32 @@ impl<'a> Simulation<'a> {
         .shown("version")
         .stack(|own| own.run.case.stack)
         .arms(|own| own.run.case.convention);
-        let columns = protocol(convention(columns, |own| own.run.case), |own| own.run.case);
-        columns
-            .number("peak_force", "m g", "largest wall force; absent if the force still rises at the end", move |own| {
-                force(own.estimates.peak)
-            })
-            .shown("peak")
-            .digits(|force| significant(force, 9))
-            .number("slip_force", "m g", "wall force when the floor first slips; absent if it does not", move |own| {
-                force(own.estimates.slip)
-            })
-            .shown("slip onset")
-            .digits(|force| significant(force, 9))
-            .number("steps", "1", "steps in all", |own| own.run.provenance.steps)
-            .shown("steps")
-            .number("seconds", "s", "wall time", |own| own.run.provenance.seconds)
-            .shown("wall time")
-            .digits(|seconds| format!("{seconds:.2}"))
-            .rows([self])
-    }
+    let columns = protocol(convention(columns, |own| own.run.case), |own| own.run.case);
+    columns
+        .number(
+            "peak_force",
+            "m g",
+            "largest wall force; absent if the force still rises at the end",
+            move |own| force(own.estimates.peak),
+        )
+        .shown("peak")
+        .digits(|force| significant(force, 9))
+        .number(
+            "slip_force",
+            "m g",
+            "wall force when the floor first slips; absent if it does not",
+            move |own| force(own.estimates.slip),
+        )
+        .shown("slip onset")
+        .digits(|force| significant(force, 9))
+        .number("steps", "1", "steps in all", |own| own.run.provenance.steps)
+        .shown("steps")
+        .number("seconds", "s", "wall time", |own| {
+            own.run.provenance.seconds
+        })
+        .shown("wall time")
+        .digits(|seconds| format!("{seconds:.2}"))
+        .rows(runs)
 }
 
 /// The contact convention of `case` beyond its arms.
@@ -71,22 +74,35 @@ fn convention<'a, R: 'a>(
 ) -> Columns<'a, R> {
     let own = move |row: &R| case(row).convention;
     columns
-        .number("restitution", "1", "restitution coefficient", move |row| own(row).restitution)
-        .text("coulomb_operand", "force that Coulomb's limit is compared with", move |row| {
-            Value::word(own(row).coulomb_operand)
+        .number("restitution", "1", "restitution coefficient", move |row| {
+            own(row).restitution
         })
-        .text("sliding_spring", "treatment of the tangential spring of a sliding contact", move |row| {
-            Value::word(own(row).sliding_spring)
-        })
-        .text("history_update", "treatment of the tangential spring of a turning contact", move |row| {
-            Value::word(own(row).history_update)
-        })
-        .text("tensile_force", "normal force of a contact that separates", move |row| {
-            Value::word(own(row).tensile_force)
-        })
-        .number("moment_of_inertia", "m r²", "moment of inertia of a cylinder", move |row| {
-            own(row).moment_of_inertia
-        })
+        .text(
+            "coulomb_operand",
+            "force that Coulomb's limit is compared with",
+            move |row| Value::word(own(row).coulomb_operand),
+        )
+        .text(
+            "sliding_spring",
+            "treatment of the tangential spring of a sliding contact",
+            move |row| Value::word(own(row).sliding_spring),
+        )
+        .text(
+            "history_update",
+            "treatment of the tangential spring of a turning contact",
+            move |row| Value::word(own(row).history_update),
+        )
+        .text(
+            "tensile_force",
+            "normal force of a contact that separates",
+            move |row| Value::word(own(row).tensile_force),
+        )
+        .number(
+            "moment_of_inertia",
+            "m r²",
+            "moment of inertia of a cylinder",
+            move |row| own(row).moment_of_inertia,
+        )
 }
 
 /// How `case` is prepared and compressed.
@@ -96,41 +112,72 @@ fn protocol<'a, R: 'a>(
 ) -> Columns<'a, R> {
     let own = move |row: &R| case(row).protocol;
     columns
-        .text("preparation", "how the stack is brought to rest: `gravity-ramp` or `side-walls`", move |row| {
-            own(row).preparation.as_str()
-        })
-        .number("ramp_time", "√(m/k_n)", "duration of the gravity ramp", move |row| {
-            match own(row).preparation {
+        .text(
+            "preparation",
+            "how the stack is brought to rest: `gravity-ramp` or `side-walls`",
+            move |row| own(row).preparation.as_str(),
+        )
+        .number(
+            "ramp_time",
+            "√(m/k_n)",
+            "duration of the gravity ramp",
+            move |row| match own(row).preparation {
                 Preparation::GravityRamp { ramp_time, .. } => Some(ramp_time),
                 Preparation::SideWalls(_) => None,
-            }
-        })
-        .number("rest_time", "√(m/k_n)", "duration of the rest before the compression", move |row| {
-            match own(row).preparation {
+            },
+        )
+        .number(
+            "rest_time",
+            "√(m/k_n)",
+            "duration of the rest before the compression",
+            move |row| match own(row).preparation {
                 Preparation::GravityRamp { rest_time, .. } => rest_time,
                 Preparation::SideWalls(walls) => walls.rest_time,
-            }
-        })
-        .number("push", "r", "A, how far each side wall is pushed in", move |row| {
-            match own(row).preparation {
+            },
+        )
+        .number(
+            "push",
+            "r",
+            "A, how far each side wall is pushed in",
+            move |row| match own(row).preparation {
                 Preparation::GravityRamp { .. } => None,
                 Preparation::SideWalls(walls) => Some(walls.push),
-            }
-        })
-        .number("wall_speed", "r √(k_n/m)", "speed of the top wall", move |row| own(row).wall_speed)
+            },
+        )
+        .number(
+            "wall_speed",
+            "r √(k_n/m)",
+            "speed of the top wall",
+            move |row| own(row).wall_speed,
+        )
         .shown("wall speed")
         .digits(|speed| format!("{speed:.3e}"))
-        .number("time_step", "√(m/k_n)", "time step", move |row| own(row).time_step)
+        .number("time_step", "√(m/k_n)", "time step", move |row| {
+            own(row).time_step
+        })
         .shown("time step")
-        .number("wall_travel", "r", "how far the wall moves", move |row| own(row).wall_travel)
-        .number("coarse_interval", "√(m/k_n)", "time between rows of the series far from the yield", move |row| {
-            own(row).sampling.coarse_interval
+        .number("wall_travel", "r", "how far the wall moves", move |row| {
+            own(row).wall_travel
         })
-        .number("fine_from_travel", "r", "wall travel from which rows are taken finely", move |row| {
-            own(row).sampling.fine_from_travel
+        .number(
+            "coarse_interval",
+            "√(m/k_n)",
+            "time between rows of the series far from the yield",
+            move |row| own(row).sampling.coarse_interval,
+        )
+        .number(
+            "fine_from_travel",
+            "r",
+            "wall travel from which rows are taken finely",
+            move |row| own(row).sampling.fine_from_travel,
+        )
+        .number(
+            "fine_interval",
+            "√(m/k_n)",
+            "time between rows near the yield",
+            move |row| own(row).sampling.fine_interval,
+        )
+        .text("shortcuts", "whether the run takes shortcuts", move |row| {
+            own(row).shortcuts.is_some()
         })
-        .number("fine_interval", "√(m/k_n)", "time between rows near the yield", move |row| {
-            own(row).sampling.fine_interval
-        })
-        .text("shortcuts", "whether the run takes shortcuts", move |row| own(row).shortcuts.is_some())
 }

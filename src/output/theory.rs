@@ -19,39 +19,94 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         stiffness_ratio: own.kappa,
     })
     .number("epsilon", "1", "ε = m g/(k_n r)", |own| own.epsilon)
-    .number("rigid", "m g", "rigid cylinders; absent where infinite", |own| own.rigid.yield_force)
-    .text("rigid_diverges", "whether it is infinite, μ ≥ μ_c", |own| own.rigid.diverges)
-    .number("naive", "m g", "naive expansion", |own| own.naive.yield_force)
+    .number(
+        "rigid",
+        "m g",
+        "rigid cylinders; absent where infinite",
+        |own| own.rigid.yield_force,
+    )
+    .text(
+        "rigid_diverges",
+        "whether it is infinite, μ ≥ μ_c",
+        |own| own.rigid.diverges,
+    )
+    .number("naive", "m g", "naive expansion", |own| {
+        own.naive.yield_force
+    })
     .text("naive_reason", "why it gives none", |own| own.naive.reason)
-    .number("perturbation", "m g", "singular perturbation", |own| own.perturbation.yield_force)
-    .text("perturbation_reason", "why it gives none", |own| own.perturbation.reason)
-    .number("elastic", "m g", "elastic equation", |own| own.elastic.yield_force)
-    .number("elastic_x", "r", "its x = δ₁₁ − δ₂₁", |own| own.elastic.x)
+    .number("perturbation", "m g", "singular perturbation", |own| {
+        own.perturbation.yield_force
+    })
+    .text("perturbation_reason", "why it gives none", |own| {
+        own.perturbation.reason
+    })
+    .number("elastic", "m g", "elastic equation", |own| {
+        own.elastic.yield_force
+    })
+    .number("elastic_x", "r", "its x = δ₁₁ − δ₂₁", |own| {
+        own.elastic.x
+    })
     .number("elastic_y", "r", "its y = δ₂₂", |own| own.elastic.y)
     .number("elastic_z", "r", "its z = δ₂₁", |own| own.elastic.z)
     .number("elastic_theta", "rad", "its θ", |own| own.elastic.theta)
-    .text("elastic_reason", "why it gives none", |own| own.elastic.reason)
-    .text("elastic_caution", "an assumption that its root contradicts", |own| own.elastic.caution)
-    .number("quasistatic", "m g", "exact quasi-static limit of a DEM with these arms", |own| {
-        own.quasistatic.yield_force
+    .text("elastic_reason", "why it gives none", |own| {
+        own.elastic.reason
     })
-    .text("reason", "why there is no quasi-static limit", |own| own.quasistatic.reason.clone())
-    .text("event", "what comes first on the path of equilibria", |own| {
-        own.quasistatic.event.to_string()
+    .text(
+        "elastic_caution",
+        "an assumption that its root contradicts",
+        |own| own.elastic.caution,
+    )
+    .number(
+        "quasistatic",
+        "m g",
+        "exact quasi-static limit of a DEM with these arms",
+        |own| own.quasistatic.yield_force,
+    )
+    .text("reason", "why there is no quasi-static limit", |own| {
+        own.quasistatic.reason.clone()
     })
-    .number("floor_slip_force", "m g", "F at which the floor slips if other events are ignored", |own| {
-        own.quasistatic.floor_slip_force
+    .text(
+        "event",
+        "what comes first on the path of equilibria",
+        |own| own.quasistatic.event.to_string(),
+    )
+    .number(
+        "floor_slip_force",
+        "m g",
+        "F at which the floor slips if other events are ignored",
+        |own| own.quasistatic.floor_slip_force,
+    )
+    .number(
+        "pair_arm",
+        "1",
+        "arm coefficient r₁ of cylinder–cylinder contacts",
+        |own| own.quasistatic.pair_arm,
+    )
+    .number(
+        "floor_arm",
+        "1",
+        "arm coefficient r₁ of floor contacts",
+        |own| own.quasistatic.floor_arm,
+    )
+    .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| {
+        own.quasistatic.tangent
     })
-    .number("pair_arm", "1", "arm coefficient r₁ of cylinder–cylinder contacts", |own| {
-        own.quasistatic.pair_arm
+    .number("y", "r", "y = x₂ − r where the floor slips", |own| {
+        own.quasistatic.y
     })
-    .number("floor_arm", "1", "arm coefficient r₁ of floor contacts", |own| own.quasistatic.floor_arm)
-    .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| own.quasistatic.tangent)
-    .number("y", "r", "y = x₂ − r where the floor slips", |own| own.quasistatic.y)
-    .number("z", "r", "overlap of cylinder 2 and the floor where the floor slips", |own| own.quasistatic.z)
-    .number("wall_travel", "r", "how far the wall has moved when the floor slips", |own| {
-        own.quasistatic.wall_travel
-    })
+    .number(
+        "z",
+        "r",
+        "overlap of cylinder 2 and the floor where the floor slips",
+        |own| own.quasistatic.z,
+    )
+    .number(
+        "wall_travel",
+        "r",
+        "how far the wall has moved when the floor slips",
+        |own| own.quasistatic.wall_travel,
+    )
     .rows(predictions)
 }
 

@@ -4,8 +4,8 @@ use super::number::{optional, or_dash, small};
 use super::table::{Columns, DataTable, Value};
 use crate::model::Stack;
 use crate::study::trajectory::{
-    Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS,
-    TrajectoryJudgement, WALL_SPEED, trajectory_stack,
+    Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
+    WALL_SPEED, trajectory_stack,
 };
 
 /// One distance of one comparison; a code without comparisons has one row without them.
@@ -255,9 +255,15 @@ fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         .right("largest at dt", move |(_, own)| largest(own, 0))
         .right("at dt/2", move |(_, own)| largest(own, 1))
         .right("at dt/4", move |(_, own)| largest(own, 2))
-        .right("order", |(_, own)| optional(own.last_order(), |order| format!("{order:.2}")))
-        .left("documented", |(_, own)| own.documented.order.as_str().to_owned())
-        .right("round-off", |(_, own)| optional(own.distances.last(), |own| small(own.round_off)))
+        .right("order", |(_, own)| {
+            optional(own.last_order(), |order| format!("{order:.2}"))
+        })
+        .left("documented", |(_, own)| {
+            own.documented.order.as_str().to_owned()
+        })
+        .right("round-off", |(_, own)| {
+            optional(own.distances.last(), |own| small(own.round_off))
+        })
         .right("step error", |(_, own)| small(own.step_error))
         .left("verdict", |(_, own)| own.verdict.to_string())
         .rows(rows)

@@ -28,7 +28,11 @@ fn bars(costs: &[StackCost]) -> Panel {
         let ratio = times_lanes(row).map_or_else(String::new, |ratio| {
             format!(", {} times native-lanes", plain(ratio))
         });
-        let words = format!("{}: {} ns{ratio}", row.0.target.as_str(), plain(ns_per_step));
+        let words = format!(
+            "{}: {} ns{ratio}",
+            row.0.target.as_str(),
+            plain(ns_per_step)
+        );
         panel.words(words, (1.2, y + ABOVE), Anchor::Start);
     }
     panel

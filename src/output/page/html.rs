@@ -11,7 +11,9 @@ pub fn html(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_filter("inline", |text: &str| Value::from_safe_string(html_text(text)));
+    environment.add_filter("inline", |text: &str| {
+        Value::from_safe_string(html_text(text))
+    });
     environment
         .add_template("report", include_str!("report.html"))
         .expect("the template is part of the program and tested");

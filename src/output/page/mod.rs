@@ -8,6 +8,7 @@ mod ro_crate;
 mod sections;
 
 pub use sections::Origin;
+pub(crate) use sections::declared_tables;
 
 use crate::output::{PdfError, json};
 use crate::paper::claims::ClaimJudgement;
@@ -45,7 +46,10 @@ pub fn report_files(
     let mut files = vec![
         ReportFile::new("report.html", html::html(&document)),
         ReportFile::new("report.md", markdown::markdown(&document)),
-        ReportFile::new("claims.json", json(&[sections::claims_table(claims)], &origin.command)),
+        ReportFile::new(
+            "claims.json",
+            json(&[sections::claims_table(claims)], &origin.command),
+        ),
         ReportFile::new("junit.xml", junit::junit(reproduction, claims)),
     ];
     files.extend(tables(&document));
@@ -60,7 +64,10 @@ fn tables(document: &Document) -> Vec<ReportFile> {
         let name = data.name;
         [
             ReportFile::new(format!("tables/{name}.csv"), data.csv.clone()),
-            ReportFile::new(format!("tables/{name}.tex"), data.table.latex(&data.caption, data.long)),
+            ReportFile::new(
+                format!("tables/{name}.tex"),
+                data.table.latex(&data.caption, data.long),
+            ),
         ]
     });
     tables.collect()

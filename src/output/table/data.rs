@@ -58,11 +58,6 @@ impl<'a> DataTable<'a> {
         self.rows == 0
     }
 
-    /// How many rows there are.
-    pub(crate) fn len(&self) -> usize {
-        self.rows
-    }
-
     /// The columns that programs read, by index.
     fn named(&self) -> impl Iterator<Item = (usize, &Heading)> {
         let all = self.columns.iter().enumerate();
@@ -118,21 +113,21 @@ impl<'a> DataTable<'a> {
 
     /// What docs/formats.md says of the table.
     pub(crate) fn described(&self) -> String {
-        let schema = &self.schema;
-        let mut table = Table::new(["column", "unit", "meaning"].map(|name| (name.into(), false)));
-        for (_, column) in self.named() {
-            table.push(vec![
-                format!("`{}`", column.name),
-                column.unit.to_owned(),
-                column.meaning.to_owned(),
-            ]);
-        }
+        let Schema {
+            name,
+            what,
+            found_in,
+            ..
+        } = self.schema;
+        let columns = Columns::<&Heading>::for_people()
+            .left("column", |column| format!("`{}`", column.name))
+            .left("unit", |column| column.unit.to_owned())
+            .left("meaning", |column| column.meaning.to_owned())
+            .rows(self.named().map(|(_, column)| column))
+            .shown();
         format!(
-            "## {}\n\n{}\n\nIn: {}.\n\n{}",
-            schema.name,
-            schema.what,
-            schema.found_in,
-            table.markdown()
+            "## {name}\n\n{what} In {found_in}.\n\n{}",
+            columns.markdown()
         )
     }
 }

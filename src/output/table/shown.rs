@@ -71,7 +71,9 @@ impl Table {
     /// character is plain TeX.
     pub(crate) fn latex(&self, caption: &str, long: bool) -> String {
         let numeric = self.numeric.iter();
-        let alignment: String = numeric.map(|&number| if number { 'r' } else { 'l' }).collect();
+        let alignment: String = numeric
+            .map(|&number| if number { 'r' } else { 'l' })
+            .collect();
         let line = |cells: &[String]| {
             let cells: Vec<String> = cells.iter().map(|cell| latex_text(cell)).collect();
             cells.join(" & ") + " \\\\\n"
@@ -136,7 +138,10 @@ mod tests {
     #[test]
     fn html_escapes_cells_and_marks_numbers_and_code() {
         let html = table().html();
-        assert!(html.contains("<td>z⋆ &amp; <code>a_b</code> |x| &lt; 1</td>"), "{html}");
+        assert!(
+            html.contains("<td>z⋆ &amp; <code>a_b</code> |x| &lt; 1</td>"),
+            "{html}"
+        );
         assert!(html.contains("<td class=\"number\">±5 %</td>"), "{html}");
     }
 }

@@ -29,13 +29,19 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         "`tristack report` (tables/errata.csv)",
     )
     .text("claim", "name of the claim", |own| own.id.clone())
-    .text("place", "where it stands in the paper", |own| own.place.clone())
+    .text("place", "where it stands in the paper", |own| {
+        own.place.clone()
+    })
     .shown("place")
     .text("statement", "what is printed", |own| own.statement.clone())
     .shown("as printed")
-    .text("erratum", "what should stand there", |own| own.erratum.clone())
+    .text("erratum", "what should stand there", |own| {
+        own.erratum.clone()
+    })
     .shown("should be")
-    .text("evidence", "what was compared, and the numbers", |own| own.evidence.clone())
+    .text("evidence", "what was compared, and the numbers", |own| {
+        own.evidence.clone()
+    })
     .shown("evidence")
     .rows(wrong)
 }
@@ -64,21 +70,31 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
     )
     .text("id", "name of the claim", |own| own.id.clone())
     .shown("claim")
-    .text("place", "where it stands in the paper", |own| own.place.clone())
+    .text("place", "where it stands in the paper", |own| {
+        own.place.clone()
+    })
     .shown("place")
     .text("statement", "what it says", |own| own.statement.clone())
     .shown("statement")
-    .text("kind", "what kind of statement it is", |own| Value::word(own.kind))
-    .text("verdict", "`holds`, `approximately`, `fails` or `untestable`", |own| {
-        own.verdict.as_str()
+    .text("kind", "what kind of statement it is", |own| {
+        Value::word(own.kind)
     })
+    .text(
+        "verdict",
+        "`holds`, `approximately`, `fails` or `untestable`",
+        |own| own.verdict.as_str(),
+    )
     .shown("verdict")
     .cell(|own| verdict(own.verdict).to_owned())
-    .text("evidence", "what was compared, and the numbers", |own| own.evidence.clone())
-    .shown("evidence")
-    .text("erratum", "what should stand there; only where that has been checked to hold", |own| {
-        own.erratum.clone()
+    .text("evidence", "what was compared, and the numbers", |own| {
+        own.evidence.clone()
     })
+    .shown("evidence")
+    .text(
+        "erratum",
+        "what should stand there; only where that has been checked to hold",
+        |own| own.erratum.clone(),
+    )
     .rows(claims)
 }
 

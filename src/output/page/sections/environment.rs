@@ -8,6 +8,7 @@ use crate::model::sha256_hex;
 use crate::output::DataTable;
 use crate::output::table::Columns;
 use crate::paper::reproduction::Reproduction;
+use crate::study::Source;
 
 /// Digits of a hash that are shown.
 const SHORT: usize = 12;
@@ -25,7 +26,7 @@ pub fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
         Block::Table(PageTable::new(
             "environment",
             format!("Programs, with the first {SHORT} digits of their SHA-256, and their runs."),
-            &programs(&reproduction.provenances, origin),
+            &programs(&reproduction.provenances, &origin.recorded),
         )),
         Block::Table(PageTable::new(
             "decks",
@@ -82,7 +83,7 @@ fn programs_of(provenances: &[Provenance]) -> Vec<Program<'_>> {
     programs
 }
 
-pub(crate) fn programs<'a>(provenances: &'a [Provenance], origin: &'a Origin) -> DataTable<'a> {
+pub(crate) fn programs<'a>(provenances: &'a [Provenance], recorded: &'a [Code]) -> DataTable<'a> {
     Columns::<Program>::new(
         "environment",
         "A row is a program on one machine and its runs.",
@@ -92,14 +93,26 @@ pub(crate) fn programs<'a>(provenances: &'a [Provenance], origin: &'a Origin) ->
     .shown("code")
     .text("version", "its version", |own| own.identity.version.clone())
     .shown("version")
-    .text("package", "distribution package and its version", |own| own.identity.package.clone())
+    .text("package", "distribution package and its version", |own| {
+        own.identity.package.clone()
+    })
     .shown("package")
-    .text("program_hash", "SHA-256 of the program", |own| own.identity.program_hash.clone())
+    .text("program_hash", "SHA-256 of the program", |own| {
+        own.identity.program_hash.clone()
+    })
     .shown("program")
     .cell(|own| short(own.identity.program_hash.as_deref().unwrap_or("-")))
-    .text("source", "`live` if it ran on this machine, `recorded` otherwise", move |own| {
-        origin.source_of(&own.identity.code)
-    })
+    .text(
+        "source",
+        "`live` if it ran on this machine, `recorded` otherwise",
+        move |own| match recorded
+            .iter()
+            .any(|code| code.as_str() == own.identity.code)
+        {
+            true => Source::Recorded.as_str(),
+            false => Source::Live.as_str(),
+        },
+    )
     .shown("source")
     .number("runs", "1", "number of runs", |own| own.runs)
     .shown("runs")
@@ -137,10 +150,16 @@ pub(crate) fn decks() -> DataTable<'static> {
     )
     .text("code", "name of the code", |code| code.as_str())
     .shown("code")
-    .text("deck_hash", "SHA-256 of the deck of a stack", |code| code.static_deck_hash())
+    .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
+        code.static_deck_hash()
+    })
     .shown("SHA-256 of the deck of a stack")
     .cell(|code| short(&code.static_deck_hash()))
-    .text("probe_hash", "SHA-256 of the deck of the micro-tests", |code| code.static_probe_hash())
+    .text(
+        "probe_hash",
+        "SHA-256 of the deck of the micro-tests",
+        |code| code.static_probe_hash(),
+    )
     .shown("of the micro-tests")
     .cell(|code| short(&code.static_probe_hash()))
     .rows(Code::ALL)

@@ -27,7 +27,7 @@ pub fn section(reproduction: &Reproduction) -> Section {
         "c between the bottom cylinders when the compression begins, and yield force F, both in m g; A in r, \
          absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
          with a push, to leading order in ε.",
-        &rows(&reproduction.preparation),
+        &preparations(&reproduction.preparation),
     );
     blocks.push(Block::Table(preparation.folded(true)));
     Section {
@@ -70,7 +70,7 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
 }
 
 /// c(A) and F(A) of every code.
-pub(crate) fn rows(studies: &[PreparationStudy]) -> DataTable<'_> {
+pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     let rows = studies.iter().flat_map(|study| {
         let rows = study.rows.iter();
         rows.map(|row| (study.stack, row))

@@ -30,7 +30,7 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Sectio
         "theories",
         "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
          F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM.",
-        &theories(reproduction),
+        &theories(&reproduction.curves.over_friction),
     )));
     blocks.push(Block::Table(PageTable::new(
         "points",
@@ -116,10 +116,9 @@ fn of_convergence(reproduction: &Reproduction) -> Option<String> {
 }
 
 /// Largest errors of the paper's theories over the frictions of its figure, stiffness by stiffness.
-pub(crate) fn theories(reproduction: &Reproduction) -> DataTable<'_> {
+pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     let largest = |stiffness: f64, above: bool, theory: fn(&TheoryPoint) -> Option<f64>| {
-        let points = reproduction.curves.over_friction.iter();
-        let own = points.filter(move |point| {
+        let own = curve.iter().filter(move |point| {
             point.stiffness == stiffness && (point.mu >= CRITICAL_FRICTION) == above
         });
         let errors = own.filter_map(|point| point.error(theory(point)));
@@ -169,14 +168,20 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         "`tristack report` (tables/points.csv)",
     )
     .stack(|(stack, _)| *stack)
-    .number("perturbation", "m g", "singular perturbation", |(_, theory)| {
-        theory.perturbation.yield_force
-    })
+    .number(
+        "perturbation",
+        "m g",
+        "singular perturbation",
+        |(_, theory)| theory.perturbation.yield_force,
+    )
     .shown("perturbation")
     .digits(seven_digits)
-    .number("quasistatic", "m g", "exact quasi-static limit under the paper's convention", |(_, theory)| {
-        theory.quasistatic.yield_force
-    })
+    .number(
+        "quasistatic",
+        "m g",
+        "exact quasi-static limit under the paper's convention",
+        |(_, theory)| theory.quasistatic.yield_force,
+    )
     .shown("exact limit")
     .digits(seven_digits);
     for code in Code::ALL {

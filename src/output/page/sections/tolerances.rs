@@ -66,7 +66,10 @@ pub fn section(reproduction: &Reproduction) -> Section {
         Block::Table(PageTable::new(
             "agreement",
             "Rows that agree, and their largest errors.",
-            &agreement(reproduction),
+            &agreement(&[
+                ("yield_curves", &reproduction.yield_curves),
+                ("scaling", &reproduction.scaling),
+            ]),
         )),
         Block::Table(exponents_table.folded(true)),
         rows(
@@ -103,12 +106,8 @@ pub fn section(reproduction: &Reproduction) -> Section {
     }
 }
 
-pub(crate) fn agreement(reproduction: &Reproduction) -> DataTable<'_> {
-    let parts = [
-        ("yield_curves", &reproduction.yield_curves),
-        ("scaling", &reproduction.scaling),
-    ];
-    let rows = parts.into_iter().flat_map(|(figure, judgements)| {
+pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a> {
+    let rows = figures.iter().flat_map(|&(figure, judgements)| {
         let agreements = Agreement::of(judgements).into_iter();
         agreements.map(move |own| (own, figure))
     });
@@ -123,14 +122,24 @@ pub(crate) fn agreement(reproduction: &Reproduction) -> DataTable<'_> {
     .shown("figure")
     .number("rows", "1", "number of rows", |(own, _)| own.rows)
     .shown("rows")
-    .number("agreeing", "1", "how many of them agree", |(own, _)| own.agreeing)
+    .number("agreeing", "1", "how many of them agree", |(own, _)| {
+        own.agreeing
+    })
     .shown("agree")
-    .number("largest_error", "1", "largest error, relative to F + 3", |(own, _)| own.largest_error)
+    .number(
+        "largest_error",
+        "1",
+        "largest error, relative to F + 3",
+        |(own, _)| own.largest_error,
+    )
     .shown("largest error/(F + 3)")
     .digits(|error| format!("{error:.1e}"))
-    .number("largest_share", "1", "largest error in units of the tolerance of its row", |(own, _)| {
-        own.largest_share
-    })
+    .number(
+        "largest_share",
+        "1",
+        "largest error in units of the tolerance of its row",
+        |(own, _)| own.largest_share,
+    )
     .shown("largest error/tolerance")
     .digits(|share| format!("{share:.2}"))
     .rows(rows)

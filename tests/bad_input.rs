@@ -11,8 +11,8 @@ floor_friction = 0.3
 stiffness = 100.0
 
 [convention]
-pair_arm = 0.0
-floor_arm = 0.0
+pair = { torque_arm = 0.0 }
+floor = { torque_arm = 0.0 }
 
 [protocol]
 preparation = { kind = "gravity-ramp", ramp_time = 100.0, rest_time = 100.0 }
@@ -155,8 +155,8 @@ fn case_files_are_checked_key_by_key() {
         ),
         ("gravity-ramp", "magic", "unknown variant `magic`"),
         (
-            "pair_arm = 0.0",
-            "pair_arm = 0.0\nrestitution = 2.0",
+            "floor = { torque_arm = 0.0 }",
+            "restitution = 2.0",
             "`convention.restitution` is 2",
         ),
     ];

@@ -16,9 +16,10 @@ use tristack::paper::reproduction::{
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::study::Campaign;
 use tristack::study::preparation::study_preparation;
 use tristack::study::regimes::Survey;
-use tristack::study::yield_force::{measure, plan};
+use tristack::study::yield_force::plan;
 use tristack::theory::RegimeMap;
 
 /// How many displayed equations the paper numbers: in the text, in the End Matter, in the supplement.
@@ -241,22 +242,22 @@ fn native_reproduction() -> Reproduction {
     let plans: Vec<_> = stacks
         .map(|stack| plan(Code::Native, &stack, ContactConvention::PAPER))
         .collect();
-    let scaling = measure(&scaling_measurements(&names), &native, &settings, &Quiet);
-    let (series, _) = force_series(&native[0], &settings, &Quiet).expect("a native run");
+    let campaign = Campaign::new(&native, &settings, &Quiet);
+    let scaling = campaign.carry_out(scaling_measurements(&names));
+    let (series, _) = force_series(&campaign).expect("a native run");
     Reproduction {
         probes: Vec::new(),
-        yield_curves: measure(&plans, &native, &settings, &Quiet),
+        yield_curves: campaign.carry_out(plans),
         exponents: exponents(&scaling),
         scaling,
         literal: Vec::new(),
-        convergence: converge(&native, &settings, &Quiet).0,
+        convergence: converge(&campaign).0,
         force_series: series,
         preparation: study_preparation(
+            &campaign,
             &[Stack::paper(0.2, 1e2), Stack::paper(0.3, 1e2)],
             &[1.0, 5.0],
             &names,
-            &settings,
-            &Quiet,
         )
         .expect("native runs"),
         snapshots: snapshots(&interrupt)

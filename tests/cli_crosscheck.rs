@@ -65,8 +65,8 @@ fn csv_has_the_agreed_columns() {
     assert_eq!(
         text.lines().next(),
         Some(
-            "code,version,source,mu,stiffness,kappa,pair_arm,floor_arm,yield_force,uncertainty,\
-             reference,reference_force,error,tolerance,model_form,verdict"
+            "code,version,source,mu,stiffness,kappa,pair_torque_arm,pair_kinematic_arm,\
+             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,error,tolerance,model_form,verdict"
         )
     );
     assert_eq!(text.lines().count(), 19);

@@ -22,7 +22,7 @@ fn json_of_one_case_is_an_object_with_the_agreed_keys() {
     assert_eq!(case["epsilon"], 0.01);
     assert_eq!(case["rigid"]["diverges"], false);
     assert_eq!(case["quasistatic"]["event"], "floor-slip");
-    assert_eq!(case["quasistatic"]["pair_arm"], 0.0);
+    assert_eq!(case["quasistatic"]["pair_torque_arm"], 0.0);
     for (theory, key, expected) in [
         ("perturbation", "yield_force", 4.1669659),
         ("elastic", "yield_force", 4.3192804),

@@ -8,7 +8,6 @@ use tristack::model::{
     Case, ContactConvention, ContactTest, InitialMotion, Preparation, Protocol, Pyramid, Sampling,
     SideWalls, Stack,
 };
-use tristack::runs::Workload;
 use tristack::study::preparation::plan_preparation;
 use tristack::study::yield_force::plan;
 

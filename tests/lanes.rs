@@ -110,8 +110,10 @@ fn different_cases() -> Vec<Case> {
             let mut case = case(0.15 + 0.3 * part, 100.0 + 900.0 * part, 0.02 + 0.05 * part);
             case.stack.stiffness_ratio = 2.5 - part;
             case.stack.cylinder_friction = 0.5 + 0.3 * part;
-            case.convention.pair_arm = -part;
-            case.convention.floor_arm = -0.5 * part;
+            case.convention.arms.pair.torque = -part;
+            case.convention.arms.pair.kinematic = -0.3 * part;
+            case.convention.arms.floor.torque = -0.5 * part;
+            case.convention.arms.floor.kinematic = -part;
             case.convention.restitution = 0.6 + 0.2 * part;
             case.convention.moment_of_inertia = 0.5 - 0.1 * part;
             case

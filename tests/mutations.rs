@@ -1,20 +1,23 @@
 //! A table of wrong codes: twins of the native DEM with one line changed, and who notices.
 
 use std::path::Path;
-use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
+use tristack::code::{
+    Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext, Tasks,
+};
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
     run_contact_test_with,
 };
-use tristack::model::{Case, ContactConvention, ContactTest, Stack};
+use tristack::model::{Arms, Case, ContactConvention, ContactTest, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, Series};
+use tristack::study::Campaign;
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::Verdict;
 use tristack::study::convention::probe_all;
-use tristack::study::yield_force::{Judgement, measure, plan};
+use tristack::study::yield_force::{Judgement, plan};
 
 /// The line that is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,15 +112,16 @@ impl ContactModel<f64> for Twin {
     fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
         let [nx, ny] = contact.normal;
         let is_pair = nx != 0.0;
-        let arm = match self.mutation {
-            Mutation::PairArmOffBy001 if is_pair => contact.arm + 0.01,
-            Mutation::FloorArmOffBy001 if !is_pair => contact.arm + 0.01,
-            _ => contact.arm,
+        // The paper's law is reciprocal: one arm for torque and surface velocity.
+        let coefficient = match self.mutation {
+            Mutation::PairArmOffBy001 if is_pair => contact.arms.torque + 0.01,
+            Mutation::FloorArmOffBy001 if !is_pair => contact.arms.torque + 0.01,
+            _ => contact.arms.torque,
         };
-        let radius = 1.0 + arm * contact.overlap;
+        let arm = 1.0 + coefficient * contact.overlap;
         let rolling = match self.mutation {
-            Mutation::SignOfSpin => -(radius * contact.spin),
-            _ => radius * contact.spin,
+            Mutation::SignOfSpin => -(arm * contact.spin),
+            _ => arm * contact.spin,
         };
         let velocity = contact.sliding_speed - rolling;
         let elastic = contact.overlap;
@@ -150,9 +154,9 @@ impl ContactModel<f64> for Twin {
                 (false, true) => -limit,
                 (false, false) => limit,
             },
-            radius: match self.mutation {
-                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * radius,
-                _ => radius,
+            arm: match self.mutation {
+                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * arm,
+                _ => arm,
             },
         }
     }
@@ -208,7 +212,17 @@ impl InstalledCode for TwinEngine {
         Batching::OneCallACase
     }
 
-    fn run(&self, cases: &[Case], _: &RunContext, finished: Finished<Run>) {
+    fn carry_out(&self, tasks: Tasks, _: &RunContext) {
+        match tasks {
+            Tasks::Cases(cases, finished) => self.run_cases(cases, finished),
+            Tasks::ContactTests(tests, finished) => self.probe_all(tests, finished),
+            Tasks::Pyramids(..) => unreachable!("a twin is asked for no pyramids"),
+        }
+    }
+}
+
+impl TwinEngine {
+    fn run_cases(&self, cases: &[Case], finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
             let run = self.compress(case).map(|series| Run {
                 case: *case,
@@ -225,13 +239,13 @@ impl InstalledCode for TwinEngine {
         }
     }
 
-    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
-        let motions = tests.iter().map(|test| {
+    fn probe_all(&self, tests: &[ContactTest], finished: Finished<Motion>) {
+        for (index, test) in tests.iter().enumerate() {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);
-            run_contact_test_with(test, twin).expect("a finite motion")
-        });
-        Ok(motions.collect())
+            let motion = run_contact_test_with(test, twin).expect("a finite motion");
+            finished(index, Ok(motion));
+        }
     }
 }
 
@@ -275,22 +289,24 @@ fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
     let measurements = [plan(Code::Native, &stack, ContactConvention::PAPER)];
     let codes = [TwinEngine::selected(mutation)];
-    let judgements = with_settings(|settings| measure(&measurements, &codes, settings, &Silent));
+    let judgements = with_settings(|settings| {
+        Campaign::new(&codes, settings, &Silent).carry_out(measurements.to_vec())
+    });
     judgements.into_iter().next().expect("a row")
 }
 
 /// What the crosscheck would say if nobody had probed: the row still has its numbers.
 fn crosscheck_alone(judgement: &Judgement) -> &'static str {
-    let row = &judgement.row;
+    let row = judgement;
     let (Some(force), Some(reference), Some(uncertainty)) =
-        (row.yield_force, row.reference_force, row.uncertainty)
+        (row.yield_force(), row.reference_force(), row.uncertainty())
     else {
         // Runs without a yield; a failed one leaves none.
-        let without_yield = judgement.contradicted && !judgement.runs.is_empty();
+        let without_yield = judgement.grounds.is_contradicted() && !judgement.runs().is_empty();
         return if without_yield {
             Verdict::NoYield.as_str()
         } else {
-            row.verdict.as_str()
+            row.verdict().as_str()
         };
     };
     let allowed = uncertainty.max(MIN_TOLERANCE * (reference + 3.0));
@@ -310,7 +326,7 @@ fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
     assert_eq!(series, compress_stack(&case, || true).expect("a series"));
     assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());
-    assert_eq!(crosscheck(Mutation::None).row.verdict, Verdict::Agrees);
+    assert_eq!(crosscheck(Mutation::None).verdict(), Verdict::Agrees);
 }
 
 #[test]
@@ -324,7 +340,7 @@ fn every_changed_line_is_noticed() {
             !properties.is_empty() || alone != "agrees",
             "nobody noticed {mutation:?}"
         );
-        assert_ne!(judgement.row.verdict, Verdict::Agrees, "{mutation:?}");
+        assert_ne!(judgement.verdict(), Verdict::Agrees, "{mutation:?}");
         let seen = match properties.len() {
             0 => "-".to_owned(),
             1..=3 => properties.join(", "),
@@ -339,7 +355,7 @@ fn every_changed_line_is_noticed() {
 #[test]
 fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     let wrong = ContactConvention {
-        floor_arm: -0.01,
+        arms: Arms::reciprocal(0.0, -0.01),
         ..ContactConvention::PAPER
     };
     let declared = tristack::code::Declaration {
@@ -351,7 +367,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
             .iter()
             .map(|test| ContactTest {
                 convention: ContactConvention {
-                    floor_arm: 0.0,
+                    arms: Arms::PAPER,
                     ..test.convention
                 },
                 ..*test

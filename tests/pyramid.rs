@@ -27,8 +27,7 @@ fn twins<const N: usize, const W: usize>(
     let material = Material::new(&stack, convention);
     let mut scene = Scene::new(cylinders, walls, material.law, time_step);
     scene.cylinder_friction = material.cylinder_friction;
-    scene.pair_arm = material.pair_arm;
-    scene.wall_arm = material.wall_arm;
+    scene.arms = material.arms;
     scene.moment_of_inertia = material.moment_of_inertia;
     let packing = Packing::new(cylinders.to_vec(), walls.to_vec(), material, time_step);
     (scene, packing)
@@ -206,8 +205,9 @@ fn other_codes_move_every_cylinder_of_a_pyramid_to_the_same_place() {
         };
         let directory = tempfile::tempdir().expect("a directory");
         let code = name.find().expect("it is installed");
-        let run = code.pyramid(&pyramid, &RunContext::new(directory.path(), &interrupt));
-        let run = run.expect("a run");
+        let context = RunContext::new(directory.path(), &interrupt);
+        let runs = code.build(&[pyramid], &context).expect("a run");
+        let run = &runs[0];
         let twin = run_pyramid(&pyramid, || true).expect("a run");
         let centres = run.centres().iter().zip(twin.centres());
         let distance =
@@ -236,13 +236,13 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
     assert!(!Code::Yade.builds_pyramids());
     for name in installed(&[Code::Yade]) {
         let pyramid = Pyramid::touching(2, 1e3, name.convention());
-        let failure = name.find().expect("installed").pyramid(&pyramid, &context);
+        let failure = name.find().expect("installed").build(&[pyramid], &context);
         let kind = failure.expect_err("no deck").kind;
         assert!(matches!(kind, FailureKind::Unsupported(_)));
     }
     let none = Pyramid::touching(0, 1e3, ContactConvention::PAPER);
     let native = Code::Native.find().expect("always there");
-    let failure = native.pyramid(&none, &context).expect_err("no rows");
+    let failure = native.build(&[none], &context).expect_err("no rows");
     assert!(
         failure.to_string().contains("`pyramid.rows` is 0"),
         "{failure}"

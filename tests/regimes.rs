@@ -1,13 +1,54 @@
 //! The regime map against the native DEM, on both sides of every boundary.
 
-use tristack::code::Interrupt;
-use tristack::dem::{Loading, Until, watch_stack};
-use tristack::model::{PAPER_STIFFNESS_RATIO, Stack};
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Duration;
+use tristack::code::{Code, Failure, Interrupt, Run};
+use tristack::dem::{EventRun, Loading, Until};
+use tristack::model::{Case, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::runs::{Progress, Recorded, Settings, Store};
 use tristack::study::Verdict;
-use tristack::study::regimes::{THREE_DIGITS, confirm, examine, examined_stacks};
+use tristack::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use tristack::theory::{BoundaryPoint, Event, LoadingPhase, Outcome, RegimeMap};
 
 static INTERRUPT: Interrupt = Interrupt::new();
+
+/// Receives the progress of a survey.
+#[derive(Default)]
+struct Journal {
+    /// Planned and reused runs of every round.
+    rounds: Mutex<Vec<(usize, usize)>>,
+    warnings: Mutex<Vec<String>>,
+}
+
+impl Progress for Journal {
+    fn planned(&self, total: usize, reused: usize, _: f64) {
+        self.rounds.lock().unwrap().push((total, reused));
+    }
+    fn advanced(&self, _: f64) {}
+    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
+    fn warn(&self, message: &str) {
+        self.warnings.lock().unwrap().push(message.to_owned());
+    }
+}
+
+fn settings(store: &Path) -> Settings<'static> {
+    Settings {
+        store: Store::open(store).expect("a store"),
+        recorded: Recorded::new(Path::new("reference")),
+        fresh: false,
+        threads: 2,
+        time_limit: None,
+        interrupt: &INTERRUPT,
+    }
+}
+
+/// The survey of `points` and `stacks` in a new store.
+fn surveyed(points: &[BoundaryPoint], stacks: &[Stack]) -> Survey {
+    let store = tempfile::tempdir().expect("a directory");
+    let plan = SurveyPlan::new(points, stacks);
+    survey(&plan, &settings(store.path()), &Journal::default())
+}
 
 fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO).into_iter();
@@ -19,22 +60,27 @@ fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
 fn val_the_dem_agrees_on_both_sides_of_every_boundary() {
     let points = boundary_points(3);
     assert!(points.len() > 25);
-    for point in points {
-        let confirmation = confirm(&point, &INTERRUPT);
+    let survey = surveyed(&points, &[]);
+    assert_eq!(survey.confirmations.len(), points.len());
+    for confirmation in survey.confirmations {
         assert_eq!(confirmation.verdict(), Verdict::Agrees, "{confirmation:?}");
     }
 }
 
 #[test]
 fn val_the_dem_contradicts_a_boundary_that_is_wrong_by_two_in_a_thousand() {
-    for (index, mut point) in boundary_points(2).into_iter().enumerate() {
+    let mut points = boundary_points(2);
+    for (index, point) in points.iter_mut().enumerate() {
         let factor = if index.is_multiple_of(2) {
             1.002
         } else {
             0.998
         };
         point.stack = point.across.scale(&point.stack, factor);
-        let confirmation = confirm(&point, &INTERRUPT);
+    }
+    let survey = surveyed(&points, &[]);
+    assert_eq!(survey.confirmations.len(), points.len());
+    for confirmation in survey.confirmations {
         assert_eq!(confirmation.verdict(), Verdict::Differs, "{confirmation:?}");
     }
 }
@@ -57,7 +103,12 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
                 wall_travel: 1.05 * claimed.wall_travel,
                 time_step: 0.1,
             };
-            let seen = watch_stack(&stack, &loading, Until::LastEvent, || true);
+            let run = EventRun {
+                stack,
+                loading,
+                until: Until::LastEvent,
+            };
+            let seen = run.observe(|| true);
             assert_eq!(seen.last, Some((Event::FloorSlip, LoadingPhase::Wall)));
             seen.force
         };
@@ -74,9 +125,122 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
 #[test]
 fn val_the_dem_bears_the_largest_forces() {
     // One of each kind: yield, saturated, contact 2-3 closed, wall contact, softened.
-    for index in [0, 2, 8, 15, 17] {
-        let stack = &examined_stacks()[index];
-        let examination = examine(stack, &INTERRUPT).unwrap();
+    let stacks = [0, 2, 8, 15, 17].map(|index| examined_stacks()[index]);
+    let survey = surveyed(&[], &stacks);
+    assert_eq!(survey.examinations.len(), stacks.len());
+    for examination in survey.examinations {
         assert_eq!(examination.verdict, Verdict::Agrees, "{examination:?}");
     }
+}
+
+/// A survey of few points, one of which is wrong and needs a second round.
+fn small_plan() -> SurveyPlan {
+    let mut points = boundary_points(2);
+    points.truncate(2);
+    points[0].stack = points[0].across.scale(&points[0].stack, 1.002);
+    SurveyPlan::new(&points, &[])
+}
+
+#[test]
+fn a_survey_is_made_once_and_then_taken_from_the_store() {
+    let store = tempfile::tempdir().expect("a directory");
+    let journal = Journal::default();
+    let mut settings = settings(store.path());
+    let first = survey(&small_plan(), &settings, &journal);
+    let again = survey(&small_plan(), &settings, &journal);
+    settings.fresh = true;
+    let fresh = survey(&small_plan(), &settings, &journal);
+    assert_eq!(again, first);
+    assert_eq!(fresh, first);
+    let rounds = journal.rounds.into_inner().unwrap();
+    let (total, repeats) = (rounds[0].0, rounds[1].0);
+    assert_eq!(total, 4);
+    assert!(repeats > 0);
+    let expected = [
+        [(total, 0), (repeats, 0)],
+        [(total, total), (repeats, repeats)],
+        [(total, 0), (repeats, 0)],
+    ];
+    assert_eq!(rounds, expected.concat());
+    assert!(journal.warnings.into_inner().unwrap().is_empty());
+}
+
+#[test]
+fn a_damaged_observation_goes_into_quarantine_and_is_made_anew() {
+    let store = tempfile::tempdir().expect("a directory");
+    let settings = settings(store.path());
+    let first = survey(&small_plan(), &settings, &Journal::default());
+    let observations = store.path().join("observations");
+    let files = std::fs::read_dir(&observations).expect("observations");
+    let mut files: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    files.sort();
+    let right: Vec<Vec<u8>> = files
+        .iter()
+        .map(|file| std::fs::read(file).unwrap())
+        .collect();
+    let mut flipped = right[0].clone();
+    let last = flipped.len() - 10;
+    flipped[last] ^= 1;
+    std::fs::write(&files[0], &flipped).unwrap();
+    std::fs::write(&files[1], &right[1][..80]).unwrap();
+    let journal = Journal::default();
+    assert_eq!(survey(&small_plan(), &settings, &journal), first);
+    let warnings = journal.warnings.into_inner().unwrap();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    for warning in &warnings {
+        assert!(
+            warning.contains("damaged observation in the store") && warning.contains("quarantine"),
+            "{warning}"
+        );
+    }
+    for (file, right) in files.iter().zip(&right) {
+        assert_eq!(&std::fs::read(file).unwrap(), right);
+    }
+    let aside = std::fs::read_dir(store.path().join("quarantine")).expect("a directory");
+    let aside = aside.map(|file| std::fs::read(file.unwrap().path()).unwrap());
+    assert!(aside.into_iter().any(|content| content == flipped));
+}
+
+#[test]
+fn an_interrupted_survey_keeps_only_whole_observations() {
+    let store = tempfile::tempdir().expect("a directory");
+    let mut late = settings(store.path());
+    late.time_limit = Some(Duration::ZERO);
+    let cut = survey(&small_plan(), &late, &Journal::default());
+    let verdicts: Vec<Verdict> = cut.verdicts().collect();
+    assert_eq!(verdicts, [Verdict::Inconclusive; 2]);
+    assert!(!store.path().join("observations").exists());
+    let interrupted = Interrupt::new();
+    interrupted.request();
+    let stopped = Settings {
+        interrupt: &interrupted,
+        ..settings(store.path())
+    };
+    let cut = survey(&small_plan(), &stopped, &Journal::default());
+    assert!(
+        cut.verdicts()
+            .all(|verdict| verdict == Verdict::Inconclusive)
+    );
+    let journal = Journal::default();
+    let whole = survey(&small_plan(), &settings(store.path()), &journal);
+    let verdicts: Vec<Verdict> = whole.verdicts().collect();
+    assert_eq!(verdicts, [Verdict::Differs, Verdict::Agrees]);
+    assert_eq!(journal.rounds.into_inner().unwrap()[0], (4, 0));
+}
+
+#[test]
+fn several_surveys_at_a_time_share_a_store() {
+    let store = tempfile::tempdir().expect("a directory");
+    let surveys: Vec<Survey> = std::thread::scope(|scope| {
+        let start =
+            || scope.spawn(|| survey(&small_plan(), &settings(store.path()), &Journal::default()));
+        let threads = [start(), start(), start()];
+        threads.map(|thread| thread.join().unwrap()).into()
+    });
+    let journal = Journal::default();
+    let kept = survey(&small_plan(), &settings(store.path()), &journal);
+    assert!(surveys.iter().all(|survey| *survey == kept));
+    let rounds = journal.rounds.into_inner().unwrap();
+    assert!(rounds.iter().all(|(total, reused)| total == reused));
+    assert!(journal.warnings.into_inner().unwrap().is_empty());
 }

@@ -9,7 +9,8 @@ use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, Preparation, Stack};
 use tristack::runs::Store;
-use tristack::runs::{Progress, Recorded, Settings, Workload};
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::study::Campaign;
 use tristack::study::preparation::{
     Estimator, PreparationStudy, critical_pushes, plan_preparation, study_preparation,
 };
@@ -42,7 +43,9 @@ fn settings(bench: &Bench) -> Settings<'static> {
 fn study(stacks: &[Stack], relative_pushes: &[f64]) -> Vec<PreparationStudy> {
     let bench = Bench::without_codes();
     let settings = settings(&bench);
-    study_preparation(stacks, relative_pushes, &[], &settings, &Silent).expect("native runs")
+    let codes = [SelectedCode::find(Code::Native)];
+    let campaign = Campaign::new(&codes, &settings, &Silent);
+    study_preparation(&campaign, stacks, relative_pushes, &[]).expect("native runs")
 }
 
 /// Largest possible difference between F(A) and its limit, in m g: that limit leaves out the area between two
@@ -98,7 +101,9 @@ fn bottom_cylinders_touch_beyond_the_critical_push_and_not_before() {
 fn critical_push_is_the_predicted_one_to_leading_order() {
     let bench = Bench::without_codes();
     let stacks = [1e2, 1e4].map(|stiffness| Stack::paper(0.2, stiffness));
-    let found = critical_pushes(&stacks, &settings(&bench), &Silent).expect("native runs");
+    let settings = settings(&bench);
+    let campaign = Campaign::new(&[], &settings, &Silent);
+    let found = critical_pushes(&campaign, &stacks).expect("native runs");
     assert_eq!(found.len(), stacks.len());
     for (stack, found) in stacks.iter().zip(found) {
         let (found, predicted) = (found.expect("c appears"), critical_push(stack));

@@ -2,7 +2,7 @@
 //! relations that must hold between them.
 
 use proptest::prelude::*;
-use tristack::model::Stack;
+use tristack::model::{Arms, ContactArms, Stack};
 use tristack::theory::{Predictions, closed_form_limit, followed_limit};
 
 /// Values spread evenly over the logarithm.
@@ -31,16 +31,23 @@ prop_compose! {
     }
 }
 
+prop_compose! {
+    fn any_arms()(arms in prop::array::uniform4(-1.0..1.0)) -> Arms {
+        let [pair, floor] = [[arms[0], arms[1]], [arms[2], arms[3]]]
+            .map(|[torque, kinematic]| ContactArms { torque, kinematic });
+        Arms { pair, floor }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn every_force_is_a_number_or_has_a_reason(
         stack in any_stack(),
-        pair_arm in -1.0..1.0,
-        floor_arm in -1.0..1.0,
+        arms in any_arms(),
     ) {
-        let predictions = Predictions::new(&stack, pair_arm, floor_arm);
+        let predictions = Predictions::new(&stack, &arms);
         let forces = [
             (predictions.naive.yield_force, predictions.naive.reason.is_some()),
             (predictions.perturbation.yield_force, predictions.perturbation.reason.is_some()),
@@ -56,7 +63,7 @@ proptest! {
     #[test]
     fn follower_and_closed_form_are_the_same_for_arms_0(stack in usual_stack()) {
         let closed = closed_form_limit(&stack);
-        let followed = followed_limit(&stack, 0.0, 0.0);
+        let followed = followed_limit(&stack, &Arms::PAPER);
         prop_assert_eq!(closed.event, followed.event);
         match (closed.floor_slip_force, followed.floor_slip_force) {
             (Some(closed), Some(followed)) => {

@@ -8,11 +8,10 @@ use tristack::model::{
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
-use tristack::study::Verdict;
 use tristack::study::trajectory::{
-    Branch, TIME_STEPS, TrajectoryJudgement, Twin, measure_trajectories, plan_trajectory,
-    trajectory_stack,
+    Branch, TIME_STEPS, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
 };
+use tristack::study::{Campaign, Verdict};
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -28,7 +27,7 @@ impl Progress for Silence {
 /// The recorded runs of `code` beside twins with the convention `declared`.
 fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
-    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
     let settings = Settings {
         store: Store::open(store.path()).expect("a store"),
         recorded: Recorded::new(&reference),
@@ -45,15 +44,17 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
         SelectedCode::find(Code::Native),
     ];
     let plan = plan_trajectory(code, &trajectory_stack(), declared);
-    let mut judgements = measure_trajectories(&[plan], &codes, &settings, &Silence);
+    let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }
 
 /// `convention` with one thing changed, each named.
 fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)> {
     let mut all = vec![
-        ("pair arm", convention),
-        ("floor arm", convention),
+        ("pair torque arm", convention),
+        ("pair kinematic arm", convention),
+        ("floor torque arm", convention),
+        ("floor kinematic arm", convention),
         ("restitution", convention),
         ("inertia", convention),
         ("operand", convention),
@@ -61,20 +62,22 @@ fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)
         ("transport", convention),
         ("separating force", convention),
     ];
-    all[0].1.pair_arm += 1e-3;
-    all[1].1.floor_arm += 1e-3;
-    all[2].1.restitution = 0.701;
-    all[3].1.moment_of_inertia = 0.9 - convention.moment_of_inertia;
-    all[4].1.coulomb_operand = match convention.coulomb_operand {
+    all[0].1.arms.pair.torque += 1e-3;
+    all[1].1.arms.pair.kinematic += 1e-3;
+    all[2].1.arms.floor.torque += 1e-3;
+    all[3].1.arms.floor.kinematic += 1e-3;
+    all[4].1.restitution = 0.701;
+    all[5].1.moment_of_inertia = 0.9 - convention.moment_of_inertia;
+    all[6].1.coulomb_operand = match convention.coulomb_operand {
         CoulombOperand::Spring => CoulombOperand::SpringAndDamping,
         CoulombOperand::SpringAndDamping => CoulombOperand::Spring,
     };
-    all[5].1.sliding_spring = SlidingSpring::Frozen;
-    all[6].1.history_update = match convention.history_update {
+    all[7].1.sliding_spring = SlidingSpring::Frozen;
+    all[8].1.history_update = match convention.history_update {
         HistoryUpdate::Linearised => HistoryUpdate::Projected,
         _ => HistoryUpdate::Linearised,
     };
-    all[7].1.tensile_force = match convention.tensile_force {
+    all[9].1.tensile_force = match convention.tensile_force {
         TensileForce::MayPull => TensileForce::NeverPulls,
         TensileForce::NeverPulls => TensileForce::MayPull,
     };
@@ -90,7 +93,7 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
     for code in [Code::Liggghts, Code::Yade, Code::Lammps] {
         let own = judged(code, code.convention());
-        assert_eq!(count(&own, Verdict::Agrees), own.comparisons.len());
+        assert_eq!(count(&own, Verdict::Agrees), own.comparisons().len());
         for (what, convention) in wrong(code.convention()) {
             let judgement = judged(code, convention);
             let differing = count(&judgement, Verdict::Differs);
@@ -110,11 +113,11 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
             .find(|(name, _)| *name == what)
             .expect("its name");
         let judgement = judged(code, convention);
-        let full = judgement.comparisons.iter().filter(|comparison| {
+        let full = judgement.comparisons().iter().filter(|comparison| {
             comparison.branch == Branch::Collapse && comparison.twin == Twin::Full
         });
         for comparison in full {
-            assert_eq!(comparison.verdict, Verdict::Differs);
+            assert_eq!(comparison.verdict(), Verdict::Differs);
             let finest = comparison.distances[TIME_STEPS.len() - 1].largest;
             assert!(
                 finest > 10.0 * comparison.step_error,

@@ -9,9 +9,8 @@ use crate::code::Code;
 use crate::files::FileError;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
-use crate::study::Source;
-use crate::study::Verdict;
-use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
+use crate::study::yield_force::{Judgement, Measurement, Profile};
+use crate::study::{Campaign, Source, Verdict};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +67,8 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let judgements = measure(&measurements, &codes, &settings, &reporter);
+    let planned = measurements.len();
+    let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(measurements);
     drop(reporter);
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, command)?;
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     let tables = [crosscheck(&judgements)];
     let people = || crosscheck_text(&judgements);
     super::print(&arguments.format.render(&tables, command, people))?;
-    Ok(conclude(&judgements, measurements.len(), &codes))
+    Ok(conclude(&judgements, planned, &codes))
 }
 
 fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), FileError> {
@@ -98,14 +98,14 @@ pub(super) fn conclude(
     codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
-        let row = &judgement.row;
-        for note in &judgement.notes {
+        let stack = &judgement.study.stack;
+        for note in judgement.notes() {
             tell!(
                 "{}: {} mu={} stiffness={}: {note}",
-                row.verdict,
-                row.code,
-                friction(row.mu),
-                row.stiffness
+                judgement.verdict(),
+                judgement.code,
+                friction(stack.floor_friction),
+                stack.stiffness
             );
         }
     }
@@ -130,8 +130,8 @@ pub(super) fn conclude(
 
 fn summary(judgements: &[Judgement]) -> String {
     let count = |verdict: Verdict| {
-        let rows = judgements.iter().map(|judgement| &judgement.row);
-        rows.filter(|row| row.verdict == verdict).count()
+        let alike = judgements.iter().filter(|row| row.verdict() == verdict);
+        alike.count()
     };
     let others = [
         Verdict::Differs,
@@ -150,7 +150,7 @@ fn summary(judgements: &[Judgement]) -> String {
     }
     let recorded = judgements
         .iter()
-        .filter(|judgement| judgement.row.source == Source::Recorded);
+        .filter(|judgement| judgement.source == Source::Recorded);
     match recorded.count() {
         0 => text,
         count => format!("{text}; {count} rows are recorded, not live"),

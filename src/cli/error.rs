@@ -48,9 +48,9 @@ impl ExitStatus {
     pub(super) fn of(judgements: &[Judgement]) -> Self {
         let each = judgements
             .iter()
-            .map(|judgement| match judgement.row.verdict {
-                _ if judgement.contradicted => Self::Disagreement,
-                Verdict::NoYield if judgement.row.reference_force.is_none() => Self::Success,
+            .map(|judgement| match judgement.verdict() {
+                _ if judgement.grounds.is_contradicted() => Self::Disagreement,
+                Verdict::NoYield if judgement.reference_force().is_none() => Self::Success,
                 verdict => Self::of_verdict(verdict),
             });
         each.max().unwrap_or(Self::Success)

@@ -7,7 +7,8 @@ use crate::code::Code;
 use crate::model::Stack;
 use crate::output::explanation;
 use crate::runs::SelectedCode;
-use crate::study::yield_force::{measure, measure_with_twin, plan};
+use crate::study::Campaign;
+use crate::study::yield_force::{measure_with_twin, plan};
 use clap::ValueEnum;
 
 /// One row of a crosscheck.
@@ -44,20 +45,17 @@ pub fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliErr
     let measurement = plan(row.code, &row.stack, row.code.convention());
     let settings = options.settings()?;
     let reporter = Reporter::new();
-    let measurements = std::slice::from_ref(&measurement);
-    let judgements = measure(
-        measurements,
-        std::slice::from_ref(&selected),
-        &settings,
-        &reporter,
-    );
+    let codes = [selected];
+    let campaign = Campaign::new(&codes, &settings, &reporter);
+    let judgements = campaign.carry_out(vec![measurement]);
     let Some(judgement) = judgements.first() else {
         return Ok(ExitStatus::Interrupted);
     };
+    drop(campaign);
     drop(reporter);
-    let twin = measure_with_twin(&measurement, &settings, &Reporter::new())
+    let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new())
         .map(|result| result.map_err(|error| error.to_string()));
-    let text = explanation(judgement, &measurement, twin.as_ref());
+    let text = explanation(judgement, twin.as_ref());
     super::print(text.as_bytes())?;
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);

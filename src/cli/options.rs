@@ -4,7 +4,7 @@ use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::files::{FileError, write_atomically};
 use crate::model::{
-    CRITICAL_FRICTION, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
+    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::output::{DataTable, json};
@@ -94,15 +94,21 @@ impl StackOptions {
     }
 }
 
-/// Torque arms, where they are not the code's own.
+/// Arms, where they are not the code's own.
 #[derive(Debug, Clone, Args)]
 pub struct ArmOptions {
     /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_arm: Option<f64>,
+    /// The same for the surface velocity alone, if it is not that of the torque
+    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    pub pair_kinematic_arm: Option<f64>,
     /// Arm coefficient r1 of floor contacts
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_arm: Option<f64>,
+    /// The same for the surface velocity alone, if it is not that of the torque
+    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    pub floor_kinematic_arm: Option<f64>,
 }
 
 impl ArmOptions {
@@ -110,14 +116,25 @@ impl ArmOptions {
     pub fn convention(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();
         let convention = ContactConvention {
-            // Adding zero turns -0 into 0, which is the same arm and must be the same case.
-            pair_arm: self.pair_arm.unwrap_or(own.pair_arm) + 0.0,
-            floor_arm: self.floor_arm.unwrap_or(own.floor_arm) + 0.0,
+            arms: Arms {
+                pair: replaced(own.arms.pair, self.pair_arm, self.pair_kinematic_arm),
+                floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
+            },
             ..own
         };
         convention.validate().map_err(as_flag)?;
         code.check_convention(&convention).map_err(as_flag)?;
         Ok(convention)
+    }
+}
+
+/// `own` with the coefficients that are given; a torque arm that is given is the kinematic arm too, unless that
+/// is given as well.
+fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> ContactArms {
+    // Adding zero turns -0 into 0, which is the same arm and must be the same case.
+    ContactArms {
+        torque: torque.unwrap_or(own.torque) + 0.0,
+        kinematic: kinematic.or(torque).unwrap_or(own.kinematic) + 0.0,
     }
 }
 
@@ -191,11 +208,6 @@ pub fn reference_directory() -> PathBuf {
         .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"))
 }
 
-/// The recorded trajectories, apart from the runs of the crosscheck.
-pub fn recorded_trajectories() -> Recorded {
-    Recorded::new(&reference_directory().join("trajectories"))
-}
-
 /// The directory that an environment variable names; an empty one names none.
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
@@ -260,8 +272,10 @@ pub fn as_flag(error: InvalidValue) -> InvalidValue {
         "stack.cylinder_friction" => "--mu-d",
         "stack.stiffness" => "--stiffness",
         "stack.stiffness_ratio" => "--kappa",
-        "convention.pair_arm" => "--pair-arm",
-        "convention.floor_arm" => "--floor-arm",
+        "convention.pair" | "convention.pair.torque_arm" => "--pair-arm",
+        "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
+        "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",
+        "convention.floor.kinematic_arm" => "--floor-kinematic-arm",
         "cylinder.density" => "--density",
         "cylinder.poisson_ratio" => "--poisson",
         "mu_uncertainty" => "--mu-uncertainty",

@@ -120,34 +120,3 @@ impl Drop for Reporter {
         self.bar.finish_and_clear();
     }
 }
-
-/// Counts tasks that are all alike: a bar on a terminal, nothing elsewhere.
-pub struct Counter {
-    bar: ProgressBar,
-}
-
-impl Counter {
-    /// A counter up to `total`.
-    pub fn new(total: usize) -> Self {
-        let target = if std::io::stderr().is_terminal() {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(total as u64), target);
-        Self {
-            bar: bar.with_style(style()),
-        }
-    }
-
-    /// Some more tasks are done.
-    pub fn add(&self, done: usize) {
-        self.bar.inc(done as u64);
-    }
-}
-
-impl Drop for Counter {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
-    }
-}

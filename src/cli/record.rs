@@ -1,6 +1,6 @@
 //! `tristack record`.
 
-use super::options::{RunOptions, recorded_trajectories, reference_directory, selected_codes};
+use super::options::{RunOptions, reference_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::trajectories::plans;
@@ -8,8 +8,9 @@ use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::code::Run;
 use crate::model::shown;
-use crate::paper::reproduction::readings_to_record;
+use crate::paper::reproduction::summaries_to_record;
 use crate::runs::{Recorded, RunError, SelectedCode, Settings, Workload, run_all};
+use crate::study::Study;
 use crate::study::convention::record_probe;
 use crate::study::yield_force::Profile;
 use clap::{Args, ValueEnum};
@@ -82,32 +83,37 @@ fn record(
     }
     if wanted(Set::Crosscheck) {
         let plans = Profile::Quick.measurements(&[name]);
+        let plans: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
         let place = (&settings.recorded, reference_directory());
         worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Trajectories) {
-        let plans = plans(std::iter::once(name));
+        let planned = plans(std::iter::once(name));
+        let plans: Vec<Workload> = planned
+            .iter()
+            .filter_map(|plan| plan.workloads().into_iter().next())
+            .collect();
         let place = (
-            &recorded_trajectories(),
+            &Recorded::new(&reference_directory().join("trajectories")),
             reference_directory().join("trajectories"),
         );
         worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Report) {
-        worst = worst.max(record_readings(&selected[0], settings)?);
+        worst = worst.max(record_summaries(&selected[0], settings)?);
     }
     Ok(worst)
 }
 
 /// Records what is read off the runs of the report, in place of what is there.
-fn record_readings(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
+fn record_summaries(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
     let name = selected.name;
     let reporter = Reporter::new();
-    let summaries = readings_to_record(selected, settings, &reporter);
+    let summaries = summaries_to_record(selected, settings, &reporter);
     drop(reporter);
     match summaries {
         Ok(summaries) => {
-            settings.recorded.replace_readings(name, &summaries)?;
+            settings.recorded.replace_summaries(name, &summaries)?;
             let (count, directory) = (summaries.len(), reference_directory());
             let directory = directory.join("summaries");
             tell!(
@@ -124,8 +130,8 @@ fn record_readings(selected: &SelectedCode, settings: &Settings) -> Result<ExitS
 }
 
 /// Records the runs of one code, in place of those that are there.
-fn record_runs<W: Workload>(
-    workloads: &[W],
+fn record_runs(
+    workloads: &[Workload],
     selected: &[SelectedCode; 1],
     settings: &Settings,
     (recorded, directory): (&Recorded, PathBuf),

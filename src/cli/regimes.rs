@@ -1,7 +1,7 @@
 //! `tristack regimes`.
 
-use super::options::{Format, as_flag, writable, write_all};
-use super::progress::Counter;
+use super::options::{Format, RunOptions, as_flag, writable, write_all};
+use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::files::FileError;
@@ -10,10 +10,9 @@ use crate::output::{
     boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
 use crate::study::Verdict;
-use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
 use clap::Args;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Values on the axis and floor frictions of regimes.csv.
@@ -23,30 +22,29 @@ const MOST_POINTS: usize = 1000;
 
 /// Which event comes first, and what it does
 ///
-/// Maps the events over floor friction and stiffness, cylinder friction, or stiffness ratio. Every boundary
-/// is looked at with the native DEM on both sides, at a relative distance of 5e-4, and the largest force
-/// of stacks of every kind is held against theory.
+/// Maps the events over floor friction and stiffness, cylinder friction, or stiffness ratio. The native DEM
+/// examines every boundary on both sides, at a relative distance of 5e-4, and the largest forces of stacks of
+/// every kind are compared with theory. Finished runs are reused.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack regimes --out regimes")]
 pub struct Arguments {
     /// Stiffness ratio k_n/k_t where it does not vary
     #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
     kappa: f64,
-    /// Points that are looked at on each boundary
+    /// Points examined on each boundary
     #[arg(long, value_name = "N", default_value_t = 13)]
     points: usize,
-    /// Runs at the same time [default: the number of cores]
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
     /// Directory for regimes.csv, boundaries.csv, largest_forces.csv, regimes.md and regimes.svg
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// How to print boundaries and largest forces; csv prints the boundaries alone
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    #[command(flatten)]
+    run: RunOptions,
 }
 
-/// Looks at every boundary, prints and writes what was found.
+/// Examines every boundary, prints and writes the result.
 pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let maps = checked_maps(arguments)?;
     if let Some(directory) = &arguments.out {
@@ -54,13 +52,13 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     }
     let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
-    let threads = arguments.jobs.or(std::thread::available_parallelism().ok());
-    let counter = Counter::new(points.len() + examined_stacks().len());
-    let threads = threads.map_or(1, usize::from);
-    let survey = survey(&points, threads, &INTERRUPT, &|done| counter.add(done));
-    drop(counter);
+    let settings = arguments.run.settings()?;
+    let plan = SurveyPlan::new(&points, &examined_stacks());
+    let reporter = Reporter::new();
+    let survey = survey(&plan, &settings, &reporter);
+    drop(reporter);
     if INTERRUPT.requested() {
-        tell!("interrupted: nothing is printed or written");
+        tell!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);
     }
     if let Some(directory) = &arguments.out {
@@ -115,7 +113,7 @@ fn write(
     write_all(directory, &files)
 }
 
-/// Says on standard error what it amounts to, and returns the exit status.
+/// Prints a summary on standard error, and returns the exit status.
 fn conclude(survey: &Survey) -> ExitStatus {
     let verdicts: Vec<Verdict> = survey.verdicts().collect();
     let count = |verdict: Verdict| verdicts.iter().filter(|&&other| other == verdict).count();

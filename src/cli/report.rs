@@ -1,7 +1,7 @@
 //! `tristack report`.
 
-use super::options::{RunOptions, recorded_trajectories, selected_codes, writable};
-use super::progress::{Counter, Reporter};
+use super::options::{RunOptions, selected_codes, writable};
+use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
@@ -9,7 +9,7 @@ use crate::files::{FileError, write_atomically};
 use crate::model::shown;
 use crate::output::{Origin, ReportFile, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
-use crate::paper::reproduction::{Reproduction, Scope, examined_points, reproduce};
+use crate::paper::reproduction::{Reproduction, Scope, reproduce};
 use crate::runs::SelectedCode;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -52,12 +52,11 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     let scope = Scope {
         codes: &codes,
         settings: &settings,
-        trajectories: recorded_trajectories(),
         literal: arguments.literal,
     };
-    let (reporter, counter) = (Reporter::new(), Counter::new(examined_points()));
-    let reproduced = reproduce(&scope, &reporter, &|done| counter.add(done));
-    drop((reporter, counter));
+    let reporter = Reporter::new();
+    let reproduced = reproduce(&scope, &reporter);
+    drop(reporter);
     let reproduced = match reproduced {
         Ok(Some(reproduced)) => reproduced,
         _ if INTERRUPT.requested() => return Ok(interrupted()),

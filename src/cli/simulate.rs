@@ -39,7 +39,7 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     code: Code,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "floor_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "pair_kinematic_arm", "floor_arm", "floor_kinematic_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
     case: Option<PathBuf>,
     /// Floor friction; a number or the word `critical`
     #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
@@ -210,7 +210,7 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     );
     let stack: Stack = arguments.stack.stack(mu, stiffness)?;
     let convention = arguments.arms.convention(arguments.code)?;
-    let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+    let limit = quasistatic_limit(&stack, &convention.arms);
     let protocol = match arguments.speed {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
         None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),

@@ -9,7 +9,8 @@ use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::files::write_atomically;
 use crate::output::{crosscheck, crosscheck_text, json};
-use crate::study::yield_force::{Judgement, Measurement, measure, plan};
+use crate::study::Campaign;
+use crate::study::yield_force::{Judgement, Measurement, plan};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -90,12 +91,13 @@ fn rounded(value: f64) -> f64 {
     (value * 1e12).round() / 1e12
 }
 
-/// Its row and notes alone are printed.
-fn without_runs(judgement: Judgement) -> Judgement {
-    Judgement {
-        runs: Vec::new(),
-        ..judgement
+/// The same without its runs and their cases, which are not printed and would fill the memory.
+fn without_runs(mut judgement: Judgement) -> Judgement {
+    judgement.study.cases = Vec::new();
+    if let Some(finding) = &mut judgement.finding {
+        finding.runs = Vec::new();
     }
+    judgement
 }
 
 /// Measures the curve, prints and writes its rows.
@@ -112,6 +114,7 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     }
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
+    let campaign = Campaign::new(&codes, &settings, &reporter);
     let mut judgements = Vec::new();
     for stacks in stacks.chunks(STACKS_AT_ONCE) {
         let planned = stacks.iter();
@@ -123,12 +126,13 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
             }
         });
         let planned: Vec<Measurement> = planned.collect();
-        let judged = measure(&planned, &codes, &settings, &reporter);
+        let judged = campaign.carry_out(planned);
         judgements.extend(judged.into_iter().map(without_runs));
         if INTERRUPT.requested() {
             break;
         }
     }
+    drop(campaign);
     drop(reporter);
     let tables = [crosscheck(&judgements)];
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {

@@ -40,9 +40,8 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     let stacks = arguments
         .stack
         .stacks(&arguments.mu, &arguments.stiffness)?;
-    let (pair, floor) = (convention.pair_arm, convention.floor_arm);
     let predictions = stacks.iter();
-    let predictions = predictions.map(|stack| Predictions::new(stack, pair, floor));
+    let predictions = predictions.map(|stack| Predictions::new(stack, &convention.arms));
     let predictions: Vec<Predictions> =
         predictions.take_while(|_| !INTERRUPT.requested()).collect();
     let people = || theories_by_stack(&predictions);

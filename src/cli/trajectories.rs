@@ -1,8 +1,6 @@
 //! `tristack trajectories`.
 
-use super::options::{
-    Format, RunOptions, recorded_trajectories, selected_codes, writable, write_all,
-};
+use super::options::{Format, RunOptions, selected_codes, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -10,12 +8,11 @@ use crate::code::Code;
 use crate::files::FileError;
 use crate::model::InvalidValue;
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
-use crate::runs::{SelectedCode, Settings};
-use crate::study::Verdict;
-use crate::study::convention::probe_all;
+use crate::runs::SelectedCode;
 use crate::study::trajectory::{
-    Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory, trajectory_stack,
+    Trajectory, TrajectoryJudgement, plan_trajectory, trajectory_stack,
 };
+use crate::study::{Campaign, Verdict};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -53,25 +50,16 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     codes.push(SelectedCode::find(Code::Native));
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
-    let probes = probe_all(&codes, &settings, &reporter);
-    let settings = Settings {
-        recorded: recorded_trajectories(),
-        ..settings
-    };
-    let judgements = measure_trajectories(&plans, &codes, &settings, &reporter);
+    let planned = plans.len();
+    let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(plans);
     drop(reporter);
-    let judged = judgements.into_iter().map(|judgement| {
-        let names = codes.iter().map(|who| who.name);
-        judgement.unless_contradicted(names.zip(&probes))
-    });
-    let judgements: Vec<TrajectoryJudgement> = judged.collect();
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
         write(directory, &judgements, command)?;
     }
     let tables = [trajectories(&judgements)];
     let people = || trajectories_text(&judgements);
     super::print(&arguments.format.render(&tables, command, people))?;
-    Ok(conclude(&judgements, plans.len(), &codes))
+    Ok(conclude(&judgements, planned, &codes))
 }
 
 /// The plans of the codes, each beside the convention that is declared for it.
@@ -119,12 +107,12 @@ fn conclude(
     codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
-        for note in &judgement.notes {
-            tell!("{}: {}: {note}", judgement.verdict, judgement.code);
+        for note in judgement.notes() {
+            tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
         }
-        for comparison in &judgement.comparisons {
-            if let Some(note) = &comparison.note {
-                let (code, verdict) = (judgement.code, comparison.verdict);
+        for comparison in judgement.comparisons() {
+            for note in comparison.grounds.notes() {
+                let (code, verdict) = (judgement.code, comparison.verdict());
                 let twin = comparison.twin.as_str();
                 let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
                 tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
@@ -158,6 +146,11 @@ fn conclude(
         );
         return ExitStatus::Interrupted;
     }
-    let worst = verdicts.into_iter().map(ExitStatus::of_verdict).max();
-    worst.unwrap_or(ExitStatus::Success)
+    let contradicted = judgements.iter().any(|own| own.grounds.is_contradicted());
+    let contradicted = contradicted.then_some(ExitStatus::Disagreement);
+    let worst = verdicts.into_iter().map(ExitStatus::of_verdict);
+    worst
+        .chain(contradicted)
+        .max()
+        .unwrap_or(ExitStatus::Success)
 }

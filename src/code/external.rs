@@ -3,10 +3,11 @@
 use super::batch::Batch;
 use super::installation::{self, Installation, VersionQuestion};
 use super::task::{Deck, ParameterFile, Task};
+use super::tasks::Tasks;
 use super::{Batching, Code, Environment, Failure, Finished, InstalledCode, RunContext};
 use crate::code::{Identity, Provenance, Run};
 use crate::model::{Case, ContactTest, InvalidValue, Preparation, Pyramid, sha256_hex};
-use crate::series::{Motion, PyramidRun};
+use crate::series::PyramidRun;
 use std::ops::Range;
 
 /// What has to be known about an external code.
@@ -104,7 +105,7 @@ impl ExternalCode {
 
     /// Carries out those of `tasks` in `range`, in order, as many at once as the code can; if
     /// `all_or_nothing`, only up to the first failure.
-    fn carry_out<T: Task>(
+    fn carry_out_with<T: Task>(
         &self,
         deck: &Deck<T>,
         tasks: &[T],
@@ -154,7 +155,7 @@ impl ExternalCode {
         context: &RunContext,
         finished: Finished<Run>,
     ) {
-        self.carry_out(deck, cases, range, context, false, &mut |index, result| {
+        self.carry_out_with(deck, cases, range, context, false, &mut |index, result| {
             let case = cases[index];
             let run = result.map(|(series, seconds)| Run {
                 case,
@@ -171,33 +172,58 @@ impl ExternalCode {
         });
     }
 
-    /// The outcomes of `tasks`, in order, or the first failure.
-    fn outcomes<T: Task>(
+    /// Carries out `tasks` with `deck`, up to the first failure.
+    fn up_to_failure<T: Task>(
         &self,
         deck: &Deck<T>,
         tasks: &[T],
         context: &RunContext,
-    ) -> Result<Vec<T::Outcome>, Box<Failure>> {
-        let mut outcomes: Vec<Option<T::Outcome>> = tasks.iter().map(|_| None).collect();
-        let mut failure = None;
-        self.carry_out(
-            deck,
-            tasks,
-            0..tasks.len(),
-            context,
-            true,
-            &mut |index, result| match result {
-                Ok((outcome, _)) => outcomes[index] = Some(outcome),
-                Err(error) => failure = failure.take().or(Some(error)),
-            },
-        );
-        match failure {
-            Some(failure) => Err(Box::new(failure)),
-            None => Ok(outcomes.into_iter().flatten().collect()),
+        finished: Finished<T::Outcome>,
+    ) {
+        let all = 0..tasks.len();
+        self.carry_out_with(deck, tasks, all, context, true, &mut |index, result| {
+            finished(index, result.map(|(outcome, _)| outcome));
+        });
+    }
+
+    /// Runs `cases`, those that share a deck together.
+    fn run_cases(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        let mut start = 0;
+        for same in cases.chunk_by(same_deck) {
+            let range = start..start + same.len();
+            start = range.end;
+            match self.deck_of(&same[0]) {
+                Ok(deck) => self.run_with(deck, cases, range, context, finished),
+                Err(_) => {
+                    for index in range {
+                        if let Err(refusal) = self.deck_of(&cases[index]) {
+                            finished(index, Err(*refusal));
+                        }
+                    }
+                }
+            }
         }
     }
 
-    fn deck_for(&self, pyramid: &Pyramid) -> Result<&Deck<Pyramid>, InvalidValue> {
+    /// Runs `pyramids`, if all are valid and there is a deck for them.
+    fn run_pyramids(
+        &self,
+        pyramids: &[Pyramid],
+        context: &RunContext,
+        finished: Finished<PyramidRun>,
+    ) {
+        for (index, pyramid) in pyramids.iter().enumerate() {
+            if let Err(refusal) = self.pyramid_deck(pyramid) {
+                let failure = Failure::unsupported(self.adapter.name, pyramid, refusal);
+                return finished(index, Err(failure));
+            }
+        }
+        if let Some(deck) = &self.adapter.pyramid {
+            self.up_to_failure(deck, pyramids, context, finished);
+        }
+    }
+
+    fn pyramid_deck(&self, pyramid: &Pyramid) -> Result<&Deck<Pyramid>, InvalidValue> {
         pyramid.validate()?;
         let deck = self.adapter.pyramid.as_ref();
         deck.ok_or_else(|| self.adapter.name.unknown_pyramid())
@@ -231,40 +257,13 @@ impl InstalledCode for ExternalCode {
         }
     }
 
-    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        let mut start = 0;
-        for same in cases.chunk_by(same_deck) {
-            let range = start..start + same.len();
-            start = range.end;
-            match self.deck_of(&same[0]) {
-                Ok(deck) => self.run_with(deck, cases, range, context, finished),
-                Err(_) => {
-                    for index in range {
-                        if let Err(refusal) = self.deck_of(&cases[index]) {
-                            finished(index, Err(*refusal));
-                        }
-                    }
-                }
+    fn carry_out(&self, tasks: Tasks, context: &RunContext) {
+        match tasks {
+            Tasks::Cases(cases, finished) => self.run_cases(cases, context, finished),
+            Tasks::ContactTests(tests, finished) => {
+                self.up_to_failure(&self.adapter.probe, tests, context, finished);
             }
+            Tasks::Pyramids(pyramids, finished) => self.run_pyramids(pyramids, context, finished),
         }
-    }
-
-    fn probe(
-        &self,
-        tests: &[ContactTest],
-        context: &RunContext,
-    ) -> Result<Vec<Motion>, Box<Failure>> {
-        self.outcomes(&self.adapter.probe, tests, context)
-    }
-
-    fn pyramid(&self, pyramid: &Pyramid, context: &RunContext) -> Result<PyramidRun, Box<Failure>> {
-        let deck = self.deck_for(pyramid).map_err(|refusal| {
-            Box::new(Failure::unsupported(self.adapter.name, pyramid, refusal))
-        })?;
-        let outcomes = self.outcomes(deck, std::slice::from_ref(pyramid), context)?;
-        let mut outcomes = outcomes.into_iter();
-        Ok(outcomes
-            .next()
-            .expect("a task without failure has an outcome"))
     }
 }

@@ -6,12 +6,11 @@ use super::installation::VersionQuestion;
 use super::pyramid_log::read_pyramid;
 use super::task::{Deck, ParameterFile};
 use super::thermo_log;
-use crate::model::{Case, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring};
+use crate::model::{Arms, Case, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring};
 
 /// Both arms end halfway into the overlap; the cylinders are spheres.
 pub const CONVENTION: ContactConvention = ContactConvention {
-    pair_arm: -0.5,
-    floor_arm: -0.5,
+    arms: Arms::reciprocal(-0.5, -0.5),
     coulomb_operand: CoulombOperand::Spring,
     sliding_spring: SlidingSpring::FollowsLimit,
     history_update: HistoryUpdate::Projected,

@@ -14,6 +14,7 @@ mod process;
 mod provenance;
 mod pyramid_log;
 mod task;
+mod tasks;
 mod thermo_log;
 mod written;
 mod yade;
@@ -29,13 +30,11 @@ pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use pyramid_log::pyramid_in_log;
 pub use task::{ParameterFile, Task};
+pub use tasks::Tasks;
 pub use thermo_log::{motion_in_log, series_in_log};
 pub use written::keep_evidence;
 
-use crate::model::{
-    Case, ContactConvention, ContactTest, InvalidValue, Preparation, Pyramid, sha256_hex,
-};
-use crate::series::{Motion, PyramidRun};
+use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Preparation, sha256_hex};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -371,7 +370,7 @@ pub enum Batching {
 /// Receives results, each with its index, as soon as they are there.
 pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
 
-/// A code that runs cases.
+/// A code that carries out tasks here.
 pub trait InstalledCode: Send + Sync {
     /// Which one it is.
     fn name(&self) -> Code;
@@ -382,33 +381,6 @@ pub trait InstalledCode: Send + Sync {
     /// How many cases one call should have.
     fn batching(&self) -> Batching;
 
-    /// Runs `cases` and hands each result, with its index, to `finished` as soon as it is there.
-    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>);
-
-    /// Carries out micro-tests, in order.
-    ///
-    /// # Errors
-    /// The first failure, if there is one.
-    fn probe(
-        &self,
-        tests: &[ContactTest],
-        context: &RunContext,
-    ) -> Result<Vec<Motion>, Box<Failure>>;
-
-    /// Carries out the run of a pyramid, if the code can build one.
-    ///
-    /// # Errors
-    /// If it cannot, if it does not take the pyramid's convention, or if the run fails.
-    fn pyramid(
-        &self,
-        pyramid: &Pyramid,
-        _workplace: &RunContext,
-    ) -> Result<PyramidRun, Box<Failure>> {
-        let refusal = self.name().unknown_pyramid();
-        Err(Box::new(Failure::unsupported(
-            self.name(),
-            pyramid,
-            refusal,
-        )))
-    }
+    /// Carries out `tasks`, and hands each outcome to their receiver.
+    fn carry_out(&self, tasks: Tasks, context: &RunContext);
 }

@@ -6,7 +6,7 @@ use super::external::Adapter;
 use super::installation::VersionQuestion;
 use super::task::{Deck, ParameterFile};
 use crate::model::{
-    Case, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring,
+    Arms, Case, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring,
     TensileForce,
 };
 use crate::series::{Motion, Series, SeriesError};
@@ -16,8 +16,7 @@ use std::path::Path;
 
 /// On a box or a facet: both arms end halfway into the overlap.
 pub const CONVENTION: ContactConvention = ContactConvention {
-    pair_arm: -0.5,
-    floor_arm: -0.5,
+    arms: Arms::reciprocal(-0.5, -0.5),
     coulomb_operand: CoulombOperand::Spring,
     sliding_spring: SlidingSpring::FollowsLimit,
     history_update: HistoryUpdate::Linearised,
@@ -27,7 +26,7 @@ pub const CONVENTION: ContactConvention = ContactConvention {
 
 /// On a wall: the floor arm ends at the floor.
 pub const ON_WALL: ContactConvention = ContactConvention {
-    floor_arm: -1.0,
+    arms: Arms::reciprocal(-0.5, -1.0),
     ..CONVENTION
 };
 

@@ -1,7 +1,9 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
 use super::real::{LaneWise, Real, composite, lane_wise};
-use crate::model::{ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};
+use crate::model::{
+    ContactArms, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
+};
 
 /// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +20,8 @@ pub struct Contact<R> {
     pub spin: R,
     /// Friction coefficient.
     pub friction: R,
-    /// Arm coefficient r₁.
-    pub arm: R,
+    /// Arm coefficients.
+    pub arms: ContactArms<R>,
     /// Time step.
     pub time_step: R,
 }
@@ -32,18 +34,19 @@ pub struct ContactForce<R> {
     /// Tangential force along t = (−n_y, n_x).
     pub tangential: R,
     /// Torque arm R; the torque on either body is −R times the tangential force.
-    pub radius: R,
+    pub arm: R,
 }
 
 composite!(ContactForce {
     normal,
     tangential,
-    radius
+    arm
 });
+composite!(ContactArms { torque, kinematic });
 lane_wise!(ContactForce {
     normal,
     tangential,
-    radius
+    arm
 });
 
 impl<R: Real> ContactForce<R> {
@@ -63,7 +66,7 @@ impl<R: Real> ContactForce<R> {
         Self {
             normal: zero,
             tangential: zero,
-            radius: zero,
+            arm: zero,
         }
     }
 }
@@ -213,8 +216,9 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
 
     #[inline(always)]
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
-        let radius = contact.overlap.like(1.0) + contact.arm * contact.overlap;
-        let velocity = contact.sliding_speed - radius * contact.spin;
+        let one = contact.overlap.like(1.0);
+        let kinematic_arm = one + contact.arms.kinematic * contact.overlap;
+        let velocity = contact.sliding_speed - kinematic_arm * contact.spin;
         let normal = self.normal_force(contact.overlap, contact.separation_speed);
         let limit = contact.friction * normal.abs();
         if self.history_update != HistoryUpdate::Rotated {
@@ -225,7 +229,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
         ContactForce {
             normal,
             tangential: self.tangential_force(&mut memory.length, limit, velocity, time_step),
-            radius,
+            arm: one + contact.arms.torque * contact.overlap,
         }
     }
 }
@@ -253,7 +257,7 @@ mod tests {
         sliding_speed: 0.5,
         spin: 0.0,
         friction: 0.5,
-        arm: 0.0,
+        arms: ContactArms::reciprocal(0.0),
         time_step: 0.1,
     };
 
@@ -349,7 +353,7 @@ mod tests {
         let force = ContactForce {
             normal: 2.0,
             tangential: 5.0,
-            radius: 1.0,
+            arm: 1.0,
         };
         // 2 n + 5 t with t = (-0.8, 0.6).
         let vector: [f64; 2] = force.in_the_plane(normal);
@@ -371,9 +375,12 @@ mod tests {
     }
 
     #[test]
-    fn the_arm_enters_radius_and_surface_velocity() {
+    fn the_torque_has_one_arm_and_the_surface_velocity_the_other() {
         let contact = Contact {
-            arm: -0.5,
+            arms: ContactArms {
+                torque: -1.0,
+                kinematic: -0.5,
+            },
             spin: 0.25,
             overlap: 0.5,
             friction: 10.0,
@@ -381,7 +388,7 @@ mod tests {
         };
         let mut memory = paper().forgotten(0.0);
         let force = paper().evaluate(&contact, &mut memory);
-        assert_eq!(force.radius, 0.75);
+        assert_eq!(force.arm, 0.5);
         // v_t = 0.5 - 0.75 * 0.25 for a time of 0.1.
         assert!((memory.length - 0.031_25).abs() < 1e-17);
         assert_eq!(force.normal, 0.5);

@@ -39,8 +39,7 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     let cylinders = BODIES.map(|body| launched(&test.initial_motions[body]));
     let mut scene = Scene::new(cylinders, walls, model, test.time_step);
     scene.cylinder_friction = test.cylinder_friction;
-    scene.pair_arm = test.convention.pair_arm;
-    scene.wall_arm = test.convention.floor_arm;
+    scene.arms = test.convention.arms;
     scene.moment_of_inertia = test.convention.moment_of_inertia;
     let rows = (0..=test.steps).map(|step| {
         scene.evaluate_forces();

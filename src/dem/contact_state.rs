@@ -86,7 +86,7 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
 mod tests {
     use super::super::contact::{Spring, SpringDashpot};
     use super::*;
-    use crate::model::ContactConvention;
+    use crate::model::{ContactArms, ContactConvention};
 
     type State = ContactState<f64, Spring<f64>>;
 
@@ -97,7 +97,7 @@ mod tests {
         sliding_speed: 0.5,
         spin: 0.0,
         friction: 10.0,
-        arm: 0.0,
+        arms: ContactArms::reciprocal(0.0),
         time_step: 0.1,
     };
 

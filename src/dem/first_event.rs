@@ -1,47 +1,64 @@
-//! Which event comes first in a run: what slides, what closes, what touches, and under which load.
+//! Runs that report which event comes first (slip, closing of contact 2–3, wall contact) and under which load.
 //!
-//! The boundaries of the regime map are so close to each other's runs that preparation and compression
-//! must be much slower than for a yield force. Gravity therefore does not rise over a fixed time but at a
-//! fixed relative rate: with g(t) = g x/(1 + x), x growing by a constant factor a step, every force of the
-//! stack grows by the same factor, and inertia changes the ratio of any two by the square of the rate.
+//! Stacks on both sides of a boundary of the regime map differ so little that preparation and compression must be
+//! much slower than for a yield force. Gravity therefore rises at a fixed relative rate rather than over a fixed
+//! time: g(t) = g x/(1 + x), where x grows by a constant factor a step. Every force of the stack then grows by the
+//! same factor, and inertia changes the ratio of any two by the square of the rate.
 
 use super::contact::SpringDashpot;
+use super::source_digest::SOURCE_DIGEST;
 use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack, sha256_hex};
 use crate::theory::{Event, LoadingPhase};
+use serde::{Deserialize, Serialize};
 
 /// How slowly the stack is loaded.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Loading {
     /// Relative growth of gravity per unit time.
     pub gravity_rate: f64,
     /// Speed of the top wall, downwards.
     pub wall_speed: f64,
-    /// How far the wall moves at most.
+    /// Largest travel of the wall.
     pub wall_travel: f64,
     /// Time step.
     pub time_step: f64,
 }
 
 /// When a run ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Until {
-    /// With the event that ends the path of equilibria.
+    /// At the event that ends the path of equilibria, or at the end of the travel.
     LastEvent,
-    /// When the wall has travelled all its way.
+    /// At the end of the travel.
     EndOfTravel,
 }
 
-/// What happened in a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A run of which the events and the largest force are observed, under the paper's convention.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EventRun {
+    /// The stack.
+    pub stack: Stack,
+    /// How it is loaded.
+    pub loading: Loading,
+    /// When the run ends.
+    pub until: Until,
+}
+
+/// The events of a run, and its largest force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Observation {
-    /// When contact 2–3 formed, if it did before `last`.
+    /// When contact 2–3 closed, if it did before `last`.
     pub closed: Option<LoadingPhase>,
     /// The first of floor slip, cylinder slip and wall contact, and when it came.
     pub last: Option<(Event, LoadingPhase)>,
     /// Force of the top wall on cylinder 1 at that moment, in m g; 0 under own weight.
     pub force: f64,
-    /// How far the wall had moved then.
+    /// Travel of the wall at that moment.
     pub travel: f64,
     /// Whether the stack still stands when gravity is complete.
     pub stands: bool,
@@ -51,55 +68,88 @@ pub struct Observation {
     pub peaked: bool,
     /// Time steps taken.
     pub steps: u64,
-    /// Whether the run went as far as it should, rather than being given up.
+    /// Whether the run reached its end, rather than being given up.
     pub complete: bool,
 }
 
-/// Part of its final value from which gravity grows. What this first step excites is gone long before …
+/// Fraction of its final value from which gravity grows. The vibration that this first step excites has died out
+/// long before [`COUNTED_LOAD`].
 const FIRST_LOAD: f64 = 1e-7;
-/// … gravity has reached this part of its final value, from which on events count: on the ramp they are there
-/// from the start or come near its end.
+/// Fraction of full gravity from which events count: under own weight they are present from the start or come
+/// near the end of the ramp.
 const COUNTED_LOAD: f64 = 1e-2;
-/// The part of gravity that is missing when the ramp ends.
+/// Fraction of gravity that is missing when the ramp ends.
 const MISSING_LOAD: f64 = 1e-6;
-/// Cylinder 1 rests √3 above the others, and falls until it is level with them.
+/// Height of cylinder 1 above the others below which the stack has fallen: it rests at √3 and falls to 0.
 const LOWEST_RISE: f64 = 1.0;
-/// The wall starts with a jolt of a few time units; what the stack loads in this time is more than it rings.
+/// Time within which the stack loads by more than it vibrates: the wall starts with a jolt of a few time units.
 const RINGING: f64 = 20.0;
-/// Some milliseconds.
+/// Steps between two calls of `wanted`: some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
-/// Prepares and compresses `stack`, under the paper's convention, and watches what happens, for as long as
-/// it is `wanted`.
-pub fn watch_stack(
-    stack: &Stack,
-    loading: &Loading,
-    until: Until,
-    wanted: impl Fn() -> bool,
-) -> Observation {
-    let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.tangential_stiffness());
-    let scene = StackScene::of(&case(stack, loading), law, 0.0);
-    let mut run = Run {
-        scene,
-        stack: *stack,
-        observation: Observation {
-            closed: None,
-            last: None,
-            force: 0.0,
-            travel: 0.0,
-            stands: false,
-            peak_force: 0.0,
-            peaked: false,
-            steps: 0,
-            complete: false,
-        },
+impl EventRun {
+    /// Content address: everything that decides the observation, the sources of the native DEM included.
+    pub fn address(&self) -> String {
+        let parts = serde_json::json!([
+            "event-run",
+            env!("CARGO_PKG_VERSION"),
+            *SOURCE_DIGEST,
+            ContactConvention::PAPER,
+            self
+        ]);
+        sha256_hex(parts.to_string().as_bytes())
+    }
+
+    /// Time steps that the run takes at most.
+    pub fn largest_steps(&self) -> f64 {
+        let loading = &self.loading;
+        let ramp = -libm::log(FIRST_LOAD * MISSING_LOAD) / loading.gravity_rate;
+        let gentle = loading.gravity_rate * self.stack.epsilon();
+        let start = libm::log((loading.wall_speed / gentle).max(1.0)) / loading.gravity_rate;
+        (ramp + start + loading.wall_travel / loading.wall_speed) / loading.time_step
+    }
+
+    /// Prepares and compresses the stack, and observes it for as long as it is `wanted`.
+    pub fn observe(&self, wanted: impl Fn() -> bool) -> Observation {
+        let Self {
+            stack,
+            loading,
+            until,
+        } = self;
+        let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.tangential_stiffness());
+        let mut run = Run {
+            scene: StackScene::of(&case(stack, loading), law, 0.0),
+            stack: *stack,
+            observation: Observation::NOTHING,
+        };
+        let wanted = |step: u64| !step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) || wanted();
+        let prepared = run.prepare(loading, *until, wanted);
+        let complete = prepared && run.compress(loading, *until, wanted);
+        Observation {
+            complete,
+            ..run.observation
+        }
+    }
+}
+
+impl Observation {
+    /// A run of no steps.
+    pub const NOTHING: Self = Self {
+        closed: None,
+        last: None,
+        force: 0.0,
+        travel: 0.0,
+        stands: false,
+        peak_force: 0.0,
+        peaked: false,
+        steps: 0,
+        complete: false,
     };
-    let wanted = |step: u64| !step.is_multiple_of(STEPS_BETWEEN_QUESTIONS) || wanted();
-    let prepared = run.prepare(loading, until, wanted);
-    let complete = prepared && run.compress(loading, until, wanted);
-    Observation {
-        complete,
-        ..run.observation
+
+    /// Whether the run reached its end within the finite numbers.
+    pub fn is_usable(&self) -> bool {
+        let forces = [self.force, self.travel, self.peak_force];
+        self.complete && forces.into_iter().all(f64::is_finite)
     }
 }
 
@@ -110,7 +160,7 @@ struct Run {
 }
 
 impl Run {
-    /// Raises gravity; false if no longer wanted.
+    /// Raises gravity; false if the run was given up.
     fn prepare(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
         let gravity = self.stack.epsilon();
         let growth = 1.0 + loading.gravity_rate * loading.time_step;
@@ -139,7 +189,7 @@ impl Run {
         true
     }
 
-    /// Lowers the wall; false if no longer wanted.
+    /// Lowers the wall; false if the run was given up.
     fn compress(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
         if until == Until::LastEvent && self.observation.last.is_some() {
             return true;
@@ -150,7 +200,7 @@ impl Run {
             if !wanted(step) {
                 return false;
             }
-            // At first the load grows as slowly, compared with the weight, as gravity did.
+            // The load first grows at the relative rate at which gravity rose.
             let gentle = loading.gravity_rate * (self.stack.epsilon() + travel);
             self.scene.walls[TOP_WALL].speed = loading.wall_speed.min(gentle);
             self.scene.evaluate_forces();
@@ -176,6 +226,7 @@ impl Run {
         top - right
     }
 
+    /// Records force and events at the given travel of the wall.
     fn record(&mut self, travel: f64) {
         let force = |cylinder| self.scene.wall_force(TOP_WALL, cylinder).normal;
         let on_top = force(TOP) * self.stack.stiffness;
@@ -193,8 +244,8 @@ impl Run {
         }
     }
 
-    /// Notes what has happened, once the forces are evaluated.
-    fn watch(&mut self, stage: LoadingPhase) {
+    /// Records the events that the current forces show.
+    fn watch(&mut self, phase: LoadingPhase) {
         let scene = &self.scene;
         let touches = |cylinder| scene.wall_force(TOP_WALL, cylinder).normal != 0.0;
         let event = if self.floor_slides() {
@@ -208,12 +259,12 @@ impl Run {
         };
         let closed = scene.pair_force(LEFT, RIGHT).normal != 0.0;
         if closed && self.observation.closed.is_none() {
-            self.observation.closed = Some(stage);
+            self.observation.closed = Some(phase);
         }
-        self.observation.last = event.map(|event| (event, stage));
+        self.observation.last = event.map(|event| (event, phase));
     }
 
-    /// Whether either floor contact bears all the tangential force it can.
+    /// Whether either floor contact is at Coulomb's limit.
     fn floor_slides(&self) -> bool {
         let friction = self.scene.walls[FLOOR].friction;
         [RIGHT, LEFT].into_iter().any(|cylinder| {
@@ -223,7 +274,7 @@ impl Run {
         })
     }
 
-    /// The same of the contacts of cylinder 1 with the others.
+    /// Whether either contact of cylinder 1 with the others is at Coulomb's limit.
     fn cylinders_slide(&self) -> bool {
         [RIGHT, LEFT].into_iter().any(|cylinder| {
             let contact = self.scene.pair_force(cylinder, TOP);
@@ -233,7 +284,7 @@ impl Run {
     }
 }
 
-/// The run as a case, for what the scene takes from one: stack, convention and time step.
+/// A case with the stack, convention and time step from which the scene is built.
 fn case(stack: &Stack, loading: &Loading) -> Case {
     Case {
         stack: *stack,

@@ -6,7 +6,7 @@ use super::lanes::{Lanes, Pair};
 use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
-use crate::model::{Case, ContactConvention, Preparation};
+use crate::model::{Arms, Case, ContactConvention, Preparation};
 use crate::series::{DropWatch, Sample, Series, SeriesError};
 use pulp::Simd;
 use serde::{Deserialize, Serialize};
@@ -87,8 +87,7 @@ impl LaneKind {
     pub fn of(case: &Case) -> Self {
         Self {
             convention: ContactConvention {
-                pair_arm: 0.0,
-                floor_arm: 0.0,
+                arms: Arms::PAPER,
                 restitution: 1.0,
                 moment_of_inertia: 1.0,
                 ..case.convention

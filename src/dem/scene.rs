@@ -4,7 +4,7 @@ use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along, 
 use super::contact_state::{ContactState, Touch};
 use super::real::{Composite, Real, composite, lane_wise};
 use super::wall::PlaneWall;
-use crate::model::CYLINDER_INERTIA;
+use crate::model::{Arms, CYLINDER_INERTIA};
 
 /// A loop over all indices below a count, the first three of which the compiler knows.
 macro_rules! unrolled {
@@ -81,10 +81,8 @@ pub struct Scene<
     pub model: Model,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: R,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: R,
-    /// Arm coefficient r₁ of cylinder–wall contacts.
-    pub wall_arm: R,
+    /// Arm coefficients of the contacts.
+    pub arms: Arms<R>,
     /// Moment of inertia of a cylinder.
     pub moment_of_inertia: R,
     /// Gravity, downwards.
@@ -127,8 +125,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             wall_exists: [true; WALLS],
             model,
             cylinder_friction: zero,
-            pair_arm: zero,
-            wall_arm: zero,
+            arms: Arms::PAPER.map(|arm| zero.like(arm)),
             moment_of_inertia: zero.like(CYLINDER_INERTIA),
             gravity: zero,
             time_step,
@@ -248,13 +245,13 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             sliding_speed: tangential(normal, velocity),
             spin: i.spin + j.spin,
             friction: self.cylinder_friction,
-            arm: self.pair_arm,
+            arms: self.arms.pair,
             time_step: self.time_step,
         };
         let state = &mut self.pair_contacts[first][second];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
         let force = exerted.in_the_plane(normal);
-        let torque = exerted.radius * exerted.tangential;
+        let torque = exerted.arm * exerted.tangential;
         loads[first].add(touches, force, -torque);
         loads[second].add(touches, [-force[0], -force[1]], -torque);
     }
@@ -298,13 +295,13 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             sliding_speed: plane.facing.tangential(body.velocity),
             spin: body.spin,
             friction: plane.friction,
-            arm: self.wall_arm,
+            arms: self.arms.floor,
             time_step: self.time_step,
         };
         let state = &mut self.wall_contacts[wall][cylinder];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
         let force = plane.facing.in_the_plane(&exerted);
-        let torque = exerted.radius * exerted.tangential;
+        let torque = exerted.arm * exerted.tangential;
         loads[cylinder].add(touches, force, -torque);
     }
 }
@@ -337,8 +334,8 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         self.model.visit(&other.model, visit);
         self.cylinder_friction
             .visit(&other.cylinder_friction, visit);
-        self.pair_arm.visit(&other.pair_arm, visit);
-        self.wall_arm.visit(&other.wall_arm, visit);
+        self.arms.pair.visit(&other.arms.pair, visit);
+        self.arms.floor.visit(&other.arms.floor, visit);
         self.moment_of_inertia
             .visit(&other.moment_of_inertia, visit);
         self.gravity.visit(&other.gravity, visit);

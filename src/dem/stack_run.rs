@@ -5,28 +5,8 @@ use super::double_double::DoubleDouble;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::real::Real;
 use super::stack_scene::StackScene;
-use crate::model::{Case, sha256_hex};
+use crate::model::Case;
 use crate::series::{Series, SeriesError};
-use std::sync::LazyLock;
-
-/// Digest of the sources that decide the numbers of the native DEM; it takes the place that the hash of
-/// the deck has for an external code.
-pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
-    let sources = [
-        include_str!("contact.rs"),
-        include_str!("contact_run.rs"),
-        include_str!("contact_state.rs"),
-        include_str!("double_double.rs"),
-        include_str!("lane_group.rs"),
-        include_str!("lanes.rs"),
-        include_str!("loading.rs"),
-        include_str!("real.rs"),
-        include_str!("scene.rs"),
-        include_str!("stack_scene.rs"),
-        include_str!("wall.rs"),
-    ];
-    sha256_hex(sources.concat().as_bytes())
-});
 
 /// Prepares and compresses the stack of `case`, and samples the compression as planned. Gives up once
 /// `wanted` is false; the series is then reported as truncated.

@@ -93,7 +93,7 @@ mod tests {
         let force = ContactForce {
             normal: 2.0,
             tangential: 5.0,
-            radius: 1.0,
+            arm: 1.0,
         };
         let normals = [
             (Facing::Up, [0.0, 1.0]),

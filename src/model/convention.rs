@@ -1,5 +1,6 @@
 //! What a code means by "contact": where the torque acts, what friction limits, and what dissipates.
 
+use super::Arms;
 use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
 
@@ -62,10 +63,9 @@ pub enum TensileForce {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactConvention {
-    /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of cylinder–floor contacts.
-    pub floor_arm: f64,
+    /// Arm coefficients; the keys `pair` and `floor` of a case file.
+    #[serde(flatten)]
+    pub arms: Arms,
     /// Restitution coefficient e_r, in (0, 1], of normal and tangential damping.
     pub restitution: f64,
     /// What Coulomb's limit is compared with.
@@ -90,8 +90,7 @@ impl ContactConvention {
     /// The paper's convention: arms 0 and 0, restitution 0.7, the whole tangential force limited, the
     /// spring frozen while sliding and turning with the contact.
     pub const PAPER: Self = Self {
-        pair_arm: 0.0,
-        floor_arm: 0.0,
+        arms: Arms::PAPER,
         restitution: PAPER_RESTITUTION,
         coulomb_operand: CoulombOperand::SpringAndDamping,
         sliding_spring: SlidingSpring::Frozen,
@@ -110,6 +109,13 @@ impl ContactConvention {
 
     /// The first key in which this convention is not `other`, with both values.
     pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
+        let arms = [
+            ("pair", self.arms.pair, other.arms.pair),
+            ("floor", self.arms.floor, other.arms.floor),
+        ];
+        if let Some((key, own, theirs)) = arms.into_iter().find(|(_, own, theirs)| own != theirs) {
+            return Some((key.to_owned(), own.to_string(), theirs.to_string()));
+        }
         let values = |convention: &Self| {
             let value = serde_json::to_value(convention);
             value.expect("a convention has only named fields and finite numbers")
@@ -122,8 +128,7 @@ impl ContactConvention {
 
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        within("convention.pair_arm", self.pair_arm, -1.0, 1.0)?;
-        within("convention.floor_arm", self.floor_arm, -1.0, 1.0)?;
+        self.arms.validate()?;
         within("convention.restitution", self.restitution, 1e-3, 1.0)?;
         // From a solid sphere to a hoop.
         within(
@@ -161,6 +166,26 @@ mod tests {
             ..ContactConvention::PAPER
         };
         assert_eq!(elastic.damping(1.0).to_bits(), 0);
+    }
+
+    /// Serde promises nothing about `flatten` beside `deny_unknown_fields`.
+    #[test]
+    fn arms_are_keys_of_the_convention_and_an_unknown_key_is_refused() {
+        let read = |text| toml::from_str::<ContactConvention>(text);
+        let convention = read("floor = { torque_arm = -1.0 }\nrestitution = 1.0").unwrap();
+        assert_eq!(convention.arms, Arms::reciprocal(0.0, -1.0));
+        assert_eq!(convention.restitution.to_bits(), 1f64.to_bits());
+        for (text, key) in [
+            ("arms = {}", "arms"),
+            ("restitutoin = 1.0", "restitutoin"),
+            ("pair = { torqe_arm = 0.0 }", "torqe_arm"),
+        ] {
+            let message = read(text).unwrap_err().to_string();
+            assert!(
+                message.contains(&format!("unknown field `{key}`")),
+                "{message}"
+            );
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). The yield force alone is
 //! given in m g, as in the paper (arXiv:2511.06807).
 
+mod arms;
 mod case;
 mod contact_test;
 mod convention;
@@ -16,6 +17,7 @@ mod side_walls;
 mod stack;
 mod validity;
 
+pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
 pub use contact_test::{ContactTest, InitialMotion};
 pub use convention::{

@@ -1,29 +1,11 @@
 //! The rows of a crosscheck in every format.
 
-use super::number::{friction, or_dash, relative, significant};
+use super::number::{friction, one_digit, or_dash, relative, significant, small};
 use super::table::{Columns, DataTable};
-use crate::model::{ContactConvention, Stack};
-use crate::study::yield_force::{
-    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Row,
-};
+use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-fn stack_of(row: &Row) -> Stack {
-    Stack {
-        floor_friction: row.mu,
-        cylinder_friction: row.mu_d,
-        stiffness: row.stiffness,
-        stiffness_ratio: row.kappa,
-    }
-}
-
-fn convention_of(row: &Row) -> ContactConvention {
-    ContactConvention {
-        pair_arm: row.pair_arm,
-        floor_arm: row.floor_arm,
-        ..ContactConvention::PAPER
-    }
-}
+const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the paper's, relative to F + 3";
 
 /// The rows.
 pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
@@ -33,136 +15,64 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
         "`tristack crosscheck` (crosscheck.csv, crosscheck.json), `tristack sweep` (sweep.csv, sweep.json), \
          `tristack report` (tables/yield_curves.csv, tables/scaling.csv, tables/literal.csv)",
     )
-    .stack(|judgement| stack_of(&judgement.row))
-    .text("code", "the code that was measured", |judgement| {
-        judgement.row.code.as_str()
-    })
-    .shown("code")
-    .text("version", "its version", |judgement| {
-        judgement.row.version.clone()
-    })
-    .text(
-        "source",
-        "`live` if it ran on this machine, `recorded` if recorded runs stand in for it",
-        |judgement| judgement.row.source.as_str(),
-    )
+    .stack(|row| row.study.stack)
+    .code(|row| row.code)
+    .version(|row| &row.version)
+    .source(|row| row.source)
     .shown("source")
-    .arms(|judgement| convention_of(&judgement.row))
-    .number(
-        "yield_force",
-        "m g",
-        "yield force F at vanishing wall speed, read at the onset of slip",
-        |judgement| judgement.row.yield_force,
-    )
-    .shown("yield force")
-    .digits(|force| significant(force, 9))
-    .number(
-        "uncertainty",
-        "m g",
-        "its numerical uncertainty, the sum of the parts of the error budget",
-        |judgement| judgement.row.uncertainty,
-    )
-    .shown("±")
-    .digits(|uncertainty| format!("{uncertainty:.0e}"))
-    .text("reference", "the theory that it is compared with", |judgement| {
-        judgement.row.reference.clone()
-    })
-    .number(
-        "reference_force",
-        "m g",
-        "F by that theory, under the contact convention of the code",
-        |judgement| judgement.row.reference_force,
-    )
-    .shown("exact limit")
-    .digits(|force| significant(force, 9))
-    .number(
-        "error",
-        "1",
-        "(yield_force − reference_force)/(reference_force + 3)",
-        |judgement| judgement.row.error,
-    )
-    .shown("error")
-    .digits(relative)
-    .number(
-        "tolerance",
-        "1",
-        "largest error that agrees, relative to reference_force + 3",
-        |judgement| judgement.row.tolerance,
-    )
-    .shown("tolerance")
-    .digits(|tolerance| format!("{tolerance:.1e}"))
-    .number(
-        "model_form",
-        "1",
-        "distance of the limit under the code's convention from the one under the paper's, relative to F + 3",
-        |judgement| judgement.row.model_form,
-    )
-    .shown("model form")
-    .digits(relative)
-    .text("verdict", "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`", |judgement| {
-        judgement.row.verdict.as_str()
-    })
-    .shown("verdict")
+    .arms(|row| row.study.convention.arms)
+    .number("yield_force", "m g", "yield force F at vanishing wall speed", |row| row.yield_force())
+    .shown_as("yield force", |force| significant(force, 9))
+    .number("uncertainty", "m g", "its numerical uncertainty (see `budget`)", |row| row.uncertainty())
+    .shown_as("±", one_digit)
+    .text("reference", "the theory that it is compared with", |_| "quasistatic")
+    .number("reference_force", "m g", "F by that theory, with the arms of the code", |row| row.reference_force())
+    .shown_as("exact limit", |force| significant(force, 9))
+    .number("error", "1", "(yield_force − reference_force)/(reference_force + 3)", |row| row.error())
+    .shown_as("error", relative)
+    .number("tolerance", "1", "largest error that agrees", |row| row.tolerance())
+    .shown_as("tolerance", small)
+    .number("model_form", "1", MODEL_FORM, |row| row.model_form())
+    .shown_as("model form", relative)
+    .verdict(|row| row.verdict())
     .rows(judgements)
-}
-
-fn part(value: f64) -> String {
-    format!("{value:.0e}")
 }
 
 /// What the uncertainty of every row that has one consists of, and how its runs converge.
 pub fn budget(judgements: &[Judgement]) -> DataTable<'_> {
-    let rows = judgements.iter().filter_map(|judgement| {
-        let slip = judgement.slip.as_ref()?;
-        Some((judgement, slip))
-    });
     let mut columns = Columns::<(&Judgement, &Extrapolation)>::new(
         "budget",
-        "A row says what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` consists of, and \
-         how its runs converge.",
+        "A row is what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` consists of, and how \
+         its runs converge.",
         "`tristack crosscheck` (budget.csv)",
     )
-    .stack(|(judgement, _)| stack_of(&judgement.row))
-    .text("code", "the code that was measured", |(judgement, _)| {
-        judgement.row.code.as_str()
-    })
-    .shown("code")
-    .number(
-        "model_form",
-        "1",
-        "distance of the limit under the code's convention from the one under the paper's, relative to F + 3",
-        |(judgement, _)| judgement.row.model_form,
-    );
-    for own in Budget::PARTS {
+    .stack(|(row, _)| row.study.stack)
+    .code(|(row, _)| row.code)
+    .number("model_form", "1", MODEL_FORM, |(row, _)| row.model_form());
+    for part in Budget::PARTS {
         columns = columns
-            .number(own.name, "m g", own.how, move |(_, slip)| {
-                (own.value)(&slip.budget)
+            .number(part.name, "m g", part.how, move |(_, slip)| {
+                (part.value)(&slip.budget)
             })
-            .shown(own.heading)
-            .digits(part);
+            .shown_as(part.heading, one_digit);
     }
     columns
         .number("uncertainty", "m g", "sum of the parts", |(_, slip)| {
             slip.budget.total()
         })
-        .shown("total")
-        .digits(part)
+        .shown_as("total", one_digit)
         .number(
             "observed_order",
             "1",
-            "order with which the runs converge in the wall speed; absent below the noise",
+            "order of convergence in the wall speed, if above the noise",
             |(_, slip)| slip.order.observed,
         )
-        .shown("observed order")
-        .digits(|order| format!("{order:.3}"))
-        .number(
-            "expected_order",
-            "1",
-            "order with which they must converge",
-            |_| ConvergenceOrder::EXPECTED,
-        )
+        .shown_as("observed order", |order| format!("{order:.3}"))
+        .number("expected_order", "1", "what it must be", |_| {
+            ConvergenceOrder::EXPECTED
+        })
         .shown("expected")
-        .rows(rows)
+        .rows(judgements.iter().filter_map(|row| Some((row, row.slip()?))))
 }
 
 fn evidence() -> String {
@@ -199,7 +109,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     page += &evidence();
     let explained = judgements
         .iter()
-        .filter(|judgement| !judgement.notes.is_empty());
+        .filter(|judgement| !judgement.notes().is_empty());
     for (index, judgement) in explained.enumerate() {
         if index == 0 {
             page += "\n## Remarks\n\n";
@@ -210,36 +120,37 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
 }
 
 fn remark(judgement: &Judgement) -> String {
-    let row = &judgement.row;
     let subject = format!(
         "{}, mu = {}, stiffness = {}: {}",
-        row.code,
-        friction(row.mu),
-        row.stiffness,
-        row.verdict
+        judgement.code,
+        friction(judgement.mu()),
+        judgement.stiffness(),
+        judgement.verdict()
     );
-    let notes = judgement.notes.join("\n").replace('\n', "\n  ");
+    let notes = judgement.notes().join("\n").replace('\n', "\n  ");
     format!("- **{subject}**\n\n  {notes}\n")
 }
 
 /// The codes in the order of their first rows, with what all their rows share.
 fn codes(judgements: &[Judgement]) -> DataTable<'_> {
-    let mut rows: Vec<&Row> = Vec::new();
-    for Judgement { row, .. } in judgements {
-        let shared = |row: &Row| {
-            let arms = [row.pair_arm, row.floor_arm];
-            (row.code, row.version.clone(), row.source, arms)
-        };
+    let shared = |row: &Judgement| {
+        let arms = row.study.convention.arms;
+        (row.code, row.version.clone(), row.source, arms)
+    };
+    let mut rows: Vec<&Judgement> = Vec::new();
+    for row in judgements {
         if !rows.iter().any(|other| shared(other) == shared(row)) {
             rows.push(row);
         }
     }
-    Columns::<&Row>::for_people()
+    Columns::<&Judgement>::for_people()
         .left("code", |row| row.code.to_string())
         .left("version", |row| or_dash(&row.version))
         .left("source", |row| row.source.as_str().to_owned())
-        .right("pair arm", |row| row.pair_arm.to_string())
-        .right("floor arm", |row| row.floor_arm.to_string())
+        .right("pair arm", |row| row.study.convention.arms.pair.to_string())
+        .right("floor arm", |row| {
+            row.study.convention.arms.floor.to_string()
+        })
         .left("evidence", |row| Evidence::of(row).as_str().to_owned())
         .rows(rows)
 }

@@ -6,19 +6,15 @@ use crate::model::{Case, Preparation};
 use crate::runs::RunSummary;
 use crate::series::Estimate;
 use crate::study::yield_force::{
-    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Measurement, TwinForce,
+    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce,
 };
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
 /// What stands behind `judgement`, for a terminal. `twin` is the same number computed with more digits.
-pub fn explanation(
-    judgement: &Judgement,
-    measurement: &Measurement,
-    twin: Option<&Result<TwinForce, String>>,
-) -> String {
-    let mut text = question(judgement, measurement);
-    text += &runs(judgement, measurement);
-    if let Some(slip) = &judgement.slip {
+pub fn explanation(judgement: &Judgement, twin: Option<&Result<TwinForce, String>>) -> String {
+    let mut text = question(judgement);
+    text += &runs(judgement);
+    if let Some(slip) = judgement.slip() {
         text += &extrapolation(slip);
         text += &budget(judgement, slip);
         text += &round_off(slip, twin);
@@ -27,9 +23,9 @@ pub fn explanation(
     text
 }
 
-fn question(judgement: &Judgement, measurement: &Measurement) -> String {
-    let row = &judgement.row;
-    let convention = &measurement.convention;
+fn question(judgement: &Judgement) -> String {
+    let row = judgement;
+    let convention = &judgement.study.convention;
     format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
          1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
@@ -38,24 +34,25 @@ fn question(judgement: &Judgement, measurement: &Measurement) -> String {
         row.code,
         row.version,
         row.source.as_str(),
-        friction(row.mu),
-        row.stiffness,
-        row.kappa,
-        measurement.stack.cylinder_friction,
-        convention.pair_arm,
-        convention.floor_arm,
+        friction(row.mu()),
+        row.stiffness(),
+        row.study.stack.stiffness_ratio,
+        judgement.study.stack.cylinder_friction,
+        convention.arms.pair,
+        convention.arms.floor,
         if judgement.arms_are_measured {
             "measured: tristack probe"
         } else {
             "declared"
         },
-        optional(row.reference_force, |force| significant(force, 12)),
-        optional(row.model_form, relative),
+        optional(row.reference_force(), |force| significant(force, 12)),
+        optional(row.model_form(), relative),
     )
 }
 
-fn runs(judgement: &Judgement, measurement: &Measurement) -> String {
-    let runs = measurement.cases.iter().zip(&judgement.runs).enumerate();
+fn runs(judgement: &Judgement) -> String {
+    let runs = judgement.study.cases.iter().zip(judgement.runs());
+    let runs = runs.enumerate();
     let force =
         |estimate: Option<Estimate>| optional(estimate, |estimate| significant(estimate.force, 11));
     let table = Columns::<(usize, (&Case, &RunSummary))>::for_people()
@@ -108,8 +105,7 @@ fn extrapolation(slip: &Extrapolation) -> String {
 
 fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
     let load = judgement
-        .row
-        .reference_force
+        .reference_force()
         .map_or(f64::NAN, |force| force + 3.0);
     let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
     let total = ("total", "sum, as if all conspired", slip.budget.total());
@@ -142,16 +138,16 @@ fn round_off(slip: &Extrapolation, twin: Option<&Result<TwinForce, String>>) -> 
 }
 
 fn conclusion(judgement: &Judgement) -> String {
-    let row = &judgement.row;
+    let row = judgement;
     let evidence = Evidence::of(row);
     let mut text = format!(
         "6. Comparison error E = S - D: {} of F + 3; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
          and at most {MAX_TOLERANCE:e}): {}\n",
-        optional(row.error, relative),
-        optional(row.tolerance, |tolerance| format!("{tolerance:.1e}")),
-        row.verdict
+        optional(row.error(), relative),
+        optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),
+        row.verdict()
     );
-    for note in &judgement.notes {
+    for note in &judgement.notes() {
         text += &format!("   {note}\n");
     }
     text + &format!(

@@ -2,6 +2,7 @@
 
 use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity};
+use crate::model::ContactArms;
 
 /// One code, and its program where it is installed.
 pub struct Inventory {
@@ -29,11 +30,11 @@ impl Inventory {
         identity.and_then(|identity| identity.package.clone())
     }
 
-    /// An arm for people: of the codes that a case may give any arm, it is a default.
-    fn arm(&self, arm: f64) -> String {
+    /// Arms for people; of a code that takes any, they are a default.
+    fn arms(&self, arms: ContactArms) -> String {
         match self.code.accepts_any_convention() {
-            true => format!("{arm} (any)"),
-            false => arm.to_string(),
+            true => format!("{arms} (any)"),
+            false => arms.to_string(),
         }
     }
 }
@@ -45,36 +46,32 @@ pub fn inventory(codes: &[Inventory]) -> DataTable<'_> {
         "A row is a code that tristack knows, as it is installed on this machine.",
         "`tristack codes`",
     )
-    .text("code", "name of the code", |own| own.code.as_str())
-    .shown("code")
-    .text("installed", "whether it can run here", |own| own.identity.is_some())
+    .code(|own| own.code)
+    .text("installed", "whether it can run here", |own| {
+        own.identity.is_some()
+    })
     .text("version", "its version", |own| own.version())
     .shown("version")
     .cell(|own| {
         let absent = || format!("not installed ({})", own.code.installation_hint());
         own.version().unwrap_or_else(absent)
     })
-    .text("package", "distribution package and its version", |own| own.package())
+    .text("package", "distribution package and its version", |own| {
+        own.package()
+    })
     .shown("package")
-    .number(
-        "pair_arm",
-        "1",
-        "arm coefficient r₁ of cylinder–cylinder contacts; a default that a case may change for `native`",
-        |own| own.code.convention().pair_arm,
-    )
-    .shown("pair arm")
-    .cell(|own| own.arm(own.code.convention().pair_arm))
-    .number(
-        "floor_arm",
-        "1",
-        "arm coefficient r₁ of floor contacts",
-        |own| own.code.convention().floor_arm,
-    )
-    .shown("floor arm")
-    .cell(|own| own.arm(own.code.convention().floor_arm))
-    .text("deck_hash", "SHA-256 of the deck", |own| own.code.static_deck_hash())
+    .arms(|own| own.code.convention().arms)
+    .right("pair arm", |own| own.arms(own.code.convention().arms.pair))
+    .right("floor arm", |own| {
+        own.arms(own.code.convention().arms.floor)
+    })
+    .text("deck_hash", "SHA-256 of the deck", |own| {
+        own.code.static_deck_hash()
+    })
     .shown("deck")
     .cell(|own| own.code.static_deck_hash()[..12].to_owned())
-    .text("install", "how to install it", |own| own.code.installation_hint())
+    .text("install", "how to install it", |own| {
+        own.code.installation_hint()
+    })
     .rows(codes)
 }

@@ -58,6 +58,11 @@ pub fn small(value: f64) -> String {
     format!("{value:.1e}")
 }
 
+/// An uncertainty: one digit and an exponent.
+pub fn one_digit(value: f64) -> String {
+    format!("{value:.0e}")
+}
+
 /// A fraction in percent, with its sign.
 pub fn percent(value: f64) -> String {
     format!("{:+.2} %", 100.0 * value)

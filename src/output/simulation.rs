@@ -38,7 +38,7 @@ pub fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
         })
         .shown("version")
         .stack(|own| own.run.case.stack)
-        .arms(|own| own.run.case.convention);
+        .arms(|own| own.run.case.convention.arms);
     let columns = protocol(convention(columns, |own| own.run.case), |own| own.run.case);
     columns
         .number(

@@ -77,18 +77,7 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "F at which the floor slips if other events are ignored",
         |own| own.quasistatic.floor_slip_force,
     )
-    .number(
-        "pair_arm",
-        "1",
-        "arm coefficient r₁ of cylinder–cylinder contacts",
-        |own| own.quasistatic.pair_arm,
-    )
-    .number(
-        "floor_arm",
-        "1",
-        "arm coefficient r₁ of floor contacts",
-        |own| own.quasistatic.floor_arm,
-    )
+    .arms(|own| own.quasistatic.arms)
     .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| {
         own.quasistatic.tangent
     })
@@ -119,8 +108,8 @@ pub fn theories_by_stack(predictions: &[Predictions]) -> String {
             case.stiffness,
             case.kappa,
             case.mu_d,
-            case.quasistatic.pair_arm,
-            case.quasistatic.floor_arm
+            case.quasistatic.arms.pair,
+            case.quasistatic.arms.floor
         );
         heading + &one_case(case).terminal()
     });

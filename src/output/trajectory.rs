@@ -1,8 +1,7 @@
 //! Trajectories compared, in every format.
 
 use super::number::{optional, or_dash, small};
-use super::table::{Columns, DataTable, Value};
-use crate::model::Stack;
+use super::table::{Columns, DataTable};
 use crate::study::trajectory::{
     Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
     WALL_SPEED, trajectory_stack,
@@ -11,29 +10,30 @@ use crate::study::trajectory::{
 /// One distance of one comparison; a code without comparisons has one row without them.
 #[derive(Clone, Copy)]
 struct Row<'a> {
-    stack: Stack,
     judgement: &'a TrajectoryJudgement,
     comparison: Option<&'a Comparison>,
-    /// The distance at the next larger time step, if there is one, and this one.
-    distances: (Option<&'a Distance>, Option<&'a Distance>),
+    own: Option<&'a Distance>,
+    /// The distance at the next larger time step.
+    coarser: Option<&'a Distance>,
 }
 
 fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
     let blank = Row {
-        stack: trajectory_stack(),
         judgement,
         comparison: None,
-        distances: (None, None),
+        own: None,
+        coarser: None,
     };
-    if judgement.comparisons.is_empty() {
+    if judgement.comparisons().is_empty() {
         return vec![blank];
     }
-    let rows = judgement.comparisons.iter().flat_map(|comparison| {
+    let rows = judgement.comparisons().iter().flat_map(|comparison| {
         let distances = &comparison.distances;
         let coarser = std::iter::once(None).chain(distances.iter().map(Some));
         coarser.zip(distances).map(move |(coarser, own)| Row {
             comparison: Some(comparison),
-            distances: (coarser, Some(own)),
+            own: Some(own),
+            coarser,
             ..blank
         })
     });
@@ -42,7 +42,7 @@ fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
 
 /// One row a distance.
 pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
-    let first_above = |row: &Row, level: usize| row.distances.1?.first_above[level];
+    let first_above = |row: &Row, level: usize| row.own?.first_above[level];
     Columns::<Row>::new(
         "trajectories",
         "A row is the distance between the series of a code and of its native twin, in one quantity on one \
@@ -50,30 +50,22 @@ pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
          without comparisons has one row without distances.",
         "`tristack trajectories` (trajectories.csv, trajectories.json)",
     )
-    .text("code", "the code that is compared with its twin", |row| row.judgement.code.as_str())
-    .text("version", "its version", |row| row.judgement.version.clone())
-    .text(
-        "source",
-        "`live` if it ran on this machine, `recorded` if recorded runs stand in for it",
-        |row| row.judgement.source.as_str(),
-    )
-    .stack(|row| row.stack)
+    .code(|row| row.judgement.code)
+    .version(|row| &row.judgement.version)
+    .source(|row| row.judgement.source)
+    .stack(|_| trajectory_stack())
+    .arms(|row| row.judgement.code.convention().arms)
     .text("twin", "what the twin has of the convention of the code", |row| {
-        row.comparison.map(|own| Value::word(own.twin))
+        row.comparison.map(|own| own.twin.as_str())
     })
-    .text("quantity", "what is compared", |row| row.comparison.map(|own| Value::word(own.quantity)))
-    .text("branch", "where: `compression`, `collapse` or `fall`", |row| {
-        row.comparison.map(|own| Value::word(own.branch))
+    .text("quantity", "what is compared", |row| row.comparison.map(|own| own.quantity.as_str()))
+    .text("branch", "`compression`, `collapse` or `fall`", |row| row.comparison.map(|own| own.branch.as_str()))
+    .number("time_step", "√(m/k_n)", "time step of both", |row| row.own.map(|own| own.time_step))
+    .number("largest", "1", "largest distance", |row| row.own.map(|own| own.largest))
+    .number("rms", "1", "root mean square of the distance", |row| row.own.map(|own| own.rms))
+    .number("first_above_1e-6", "√(m/k_n)", "first time at which it exceeds 1e-6, if it does", move |row| {
+        first_above(row, 0)
     })
-    .number("time_step", "√(m/k_n)", "time step of both", |row| row.distances.1.map(|own| own.time_step))
-    .number("largest", "1", "largest distance", |row| row.distances.1.map(|own| own.largest))
-    .number("rms", "1", "root mean square of the distance", |row| row.distances.1.map(|own| own.rms))
-    .number(
-        "first_above_1e-6",
-        "√(m/k_n)",
-        "time from which the distance exceeds 1e-6; absent if it never does",
-        move |row| first_above(row, 0),
-    )
     .number("first_above_1e-4", "√(m/k_n)", "the same for 1e-4", move |row| first_above(row, 1))
     .number("first_above_1e-2", "√(m/k_n)", "the same for 1e-2", move |row| first_above(row, 2))
     .number(
@@ -81,20 +73,20 @@ pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         "1",
         "log₂ of the largest distance at twice the time step over this one; absent where nothing but rounding \
          is expected",
-        |row| row.comparison?.order(row.distances.0?, row.distances.1?),
+        |row| row.comparison?.order(row.coarser?, row.own?),
     )
     .text("documented_order", "how the distance must fall with the time step", |row| {
         row.comparison.map(|own| own.documented.order.as_str())
     })
     .number("round_off", "1", "what rounding may have done to the largest distance", |row| {
-        row.distances.1.map(|own| own.round_off)
+        row.own.map(|own| own.round_off)
     })
     .number("step_error", "1", "largest change of the twin itself when its time step is halved", |row| {
         row.comparison.map(|own| own.step_error)
     })
-    .text("verdict", "the verdict on all time steps together", |row| {
-        let verdict = row.comparison.map_or(row.judgement.verdict, |own| own.verdict);
-        verdict.as_str()
+    .verdict(|row| {
+        let verdict = row.comparison.map(Comparison::verdict);
+        verdict.unwrap_or_else(|| row.judgement.verdict())
     })
     .rows(judgements.iter().flat_map(rows_of))
 }
@@ -160,7 +152,7 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
     let mut seen = Vec::new();
     for comparison in judgements
         .iter()
-        .flat_map(|judgement| &judgement.comparisons)
+        .flat_map(|judgement| judgement.comparisons())
     {
         let documented = comparison.documented;
         if !seen.contains(&documented) {
@@ -178,16 +170,17 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
 fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     let mut lines = String::new();
     for judgement in judgements {
-        let notes = judgement.notes.join("\n").replace('\n', "\n  ");
+        let notes = judgement.notes().join("\n").replace('\n', "\n  ");
         if !notes.is_empty() {
             lines += &format!(
                 "- **{}: {}**\n\n  {notes}\n",
-                judgement.code, judgement.verdict
+                judgement.code,
+                judgement.verdict()
             );
         }
-        for comparison in &judgement.comparisons {
-            if let Some(note) = &comparison.note {
-                let (subject, verdict) = (subject(judgement, comparison), comparison.verdict);
+        for comparison in judgement.comparisons() {
+            for note in comparison.grounds.notes() {
+                let (subject, verdict) = (subject(judgement, comparison), comparison.verdict());
                 lines += &format!("- **{subject}: {verdict}**: {note}\n");
             }
         }
@@ -210,7 +203,7 @@ fn subject(judgement: &TrajectoryJudgement, comparison: &Comparison) -> String {
 
 fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     let time = |own: &TrajectoryJudgement, index: usize| {
-        optional(own.times, |times| format!("{:.0}", times[index]))
+        optional(own.times(), |times| format!("{:.0}", times[index]))
     };
     Columns::<&TrajectoryJudgement>::for_people()
         .left("code", |own| own.code.to_string())
@@ -225,15 +218,15 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
 
 /// The verdict that stands in place of comparisons, or how many of them agree.
 fn tally(judgement: &TrajectoryJudgement) -> String {
-    if judgement.comparisons.is_empty() {
-        return judgement.verdict.to_string();
+    if judgement.comparisons().is_empty() {
+        return judgement.verdict().to_string();
     }
-    let agreeing = judgement.comparisons.iter();
-    let agreeing = agreeing.filter(|comparison| comparison.verdict.as_str() == "agrees");
+    let agreeing = judgement.comparisons().iter();
+    let agreeing = agreeing.filter(|comparison| comparison.verdict().as_str() == "agrees");
     format!(
         "{} of {} agree",
         agreeing.count(),
-        judgement.comparisons.len()
+        judgement.comparisons().len()
     )
 }
 
@@ -244,7 +237,7 @@ fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         optional(own.distances.get(index), |own| small(own.largest))
     };
     let rows = judgements.iter().flat_map(|judgement| {
-        let comparisons = judgement.comparisons.iter();
+        let comparisons = judgement.comparisons().iter();
         comparisons.map(move |comparison| (judgement, comparison))
     });
     Columns::<Row>::for_people()
@@ -265,6 +258,6 @@ fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
             optional(own.distances.last(), |own| small(own.round_off))
         })
         .right("step error", |(_, own)| small(own.step_error))
-        .left("verdict", |(_, own)| own.verdict.to_string())
+        .left("verdict", |(_, own)| own.verdict().to_string())
         .rows(rows)
 }

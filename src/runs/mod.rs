@@ -2,6 +2,8 @@
 //! schedule that makes what is in neither.
 
 mod entry;
+mod observations;
+mod parallel;
 mod probe_record;
 mod read_all;
 mod recorded;
@@ -10,8 +12,10 @@ mod store;
 mod summary;
 
 pub use entry::Archive;
+pub(crate) use observations::observe_all;
+pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
-pub use read_all::{Load, read_all};
+pub use read_all::{Reading, read_all};
 pub use recorded::{Recorded, RecordedError};
 pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 pub use store::{LockOwner, Store, StoreError};

@@ -1,35 +1,64 @@
-//! Runs carried out and read, live or recorded.
+//! Runs carried out, and what is kept of each.
 
 use super::schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
-use crate::code::Code;
-use crate::model::Case;
-use crate::runs::RunSummary;
+use super::summary::RunSummary;
+use crate::code::{Code, Identity, Run};
 use std::collections::HashMap;
 
-/// Carries out the cases of all workloads and reads every run. Where an code is not installed and the
-/// series of a run is not recorded, its recorded summary stands in.
-pub fn read_all<W: Workload>(
-    workloads: &[W],
+/// What is kept of a run. Whole runs are not held longer than it takes to read them, so that memory does not
+/// grow with their number.
+pub trait Reading: Clone + Send {
+    /// Reads `run`.
+    fn of_run(run: Run) -> Self;
+
+    /// The same from a recorded summary, where the series itself is not recorded; `None` if that does not do.
+    fn of_summary(summary: RunSummary) -> Option<Self>;
+
+    /// The program that made the run.
+    fn identity(&self) -> &Identity;
+}
+
+impl Reading for RunSummary {
+    fn of_run(run: Run) -> Self {
+        Self::new(run)
+    }
+
+    fn of_summary(summary: RunSummary) -> Option<Self> {
+        Some(summary)
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.provenance.identity
+    }
+}
+
+/// Carries out the cases of all workloads and reads every run. Where a code is not installed and the series of
+/// a run is not recorded, its recorded summary stands in.
+pub fn read_all<R: Reading>(
+    workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
-) -> Vec<Vec<Result<RunSummary, RunError>>> {
-    let mut results = run_all(workloads, codes, settings, progress, RunSummary::new);
+) -> Vec<Vec<Result<R, RunError>>> {
+    let mut results = run_all(workloads, codes, settings, progress, R::of_run);
     let mut recorded = HashMap::new();
     for (workload, results) in workloads.iter().zip(&mut results) {
-        let code = workload.code();
-        for (case, result) in workload.cases().iter().zip(results) {
+        let code = workload.code;
+        for (case, result) in workload.cases.iter().zip(results) {
             if !result.as_ref().is_err_and(RunError::is_unrecorded) {
                 continue;
             }
             let summaries = recorded
                 .entry(code)
                 .or_insert_with(|| by_case(code, settings, progress));
-            if let Some(summary) = summaries.get(&case.content_hash()) {
-                *result = settings
-                    .recorded
-                    .unless_outdated(code, case, summary.clone())
-                    .map_err(RunError::from);
+            let Some(summary) = summaries.get(&case.content_hash()) else {
+                continue;
+            };
+            let current = settings
+                .recorded
+                .unless_outdated(code, case, summary.clone());
+            if let Some(reading) = current.map(R::of_summary).transpose() {
+                *result = reading.map_err(RunError::from);
             }
         }
     }
@@ -48,25 +77,6 @@ fn by_case(
     });
     let keyed = summaries
         .into_iter()
-        .map(|summary: RunSummary| (summary.case.content_hash(), summary));
+        .map(|summary| (summary.case.content_hash(), summary));
     keyed.collect()
-}
-
-/// Cases that one code is to run, and nothing more.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Load {
-    /// Who runs them.
-    pub code: Code,
-    /// The cases.
-    pub cases: Vec<Case>,
-}
-
-impl Workload for Load {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
 }

@@ -60,7 +60,11 @@ impl Recorded {
     pub fn get(&self, code: Code, case: &Case) -> Result<Run, RecordedError> {
         let name = name(code, case);
         let path = self.archive.root().join(&name);
-        let run = self.archive.load(&name)?;
+        let of_trajectories = Path::new("trajectories").join(&name);
+        let run = match self.archive.load(&name)? {
+            None => self.archive.load(&of_trajectories)?,
+            run => run,
+        };
         let Some(run) =
             run.filter(|run| run.case == *case && run.provenance.identity.code == code.as_str())
         else {
@@ -97,7 +101,7 @@ impl Recorded {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn replace_readings(&self, code: Code, summaries: &[RunSummary]) -> Result<(), FileError> {
+    pub fn replace_summaries(&self, code: Code, summaries: &[RunSummary]) -> Result<(), FileError> {
         RunSummary::save_all(&self.readings_path(code), summaries)
     }
 

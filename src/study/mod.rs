@@ -1,11 +1,17 @@
 //! Studies: each names the runs that it needs and evaluates them.
+//!
+//! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
+//! all cores, contradicted conventions. [`Grounds`] collects what speaks for and against a row and derives its
+//! verdict.
 
 pub mod convention;
 pub mod cost;
+mod pipeline;
 pub mod preparation;
 pub mod regimes;
 pub mod trajectory;
 mod verdict;
 pub mod yield_force;
 
-pub use verdict::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict, judge, tolerance};
+pub use pipeline::{Campaign, Evaluation, Judged, Study};
+pub use verdict::{Ground, Grounds, MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict, tolerance};

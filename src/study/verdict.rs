@@ -59,11 +59,6 @@ pub const MIN_TOLERANCE: f64 = 1e-7;
 /// An uncertainty above it decides nothing.
 pub const MAX_TOLERANCE: f64 = 1e-5;
 
-/// The verdict on an error with an expanded uncertainty, both relative to F + 3.
-pub fn judge(error: f64, uncertainty: f64) -> Verdict {
-    Verdict::of(error, uncertainty, tolerance(uncertainty))
-}
-
 /// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
 /// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
 pub fn tolerance(uncertainty: f64) -> f64 {
@@ -90,9 +85,290 @@ impl Source {
     }
 }
 
+/// One thing that speaks for or against a row.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ground {
+    /// A number was held against what it should be.
+    Deviation {
+        /// Measured minus expected.
+        error: f64,
+        /// Expanded uncertainty of the error.
+        uncertainty: f64,
+        /// Largest error that agrees.
+        tolerance: f64,
+        /// What to say if it does not agree.
+        note: Option<String>,
+    },
+    /// A condition that must hold does not.
+    Violation(String),
+    /// Speaks against an agreement, but decides nothing.
+    Doubt(String),
+    /// Deviations up to `up_to` decide nothing.
+    Blur {
+        /// The largest deviation that decides nothing.
+        up_to: f64,
+        /// The reason.
+        note: String,
+    },
+    /// The numbers are there, but nothing can be decided by them.
+    Undecidable(String),
+    /// Explains the numbers and has no say in the verdict.
+    Remark(String),
+    /// Nothing yields, with the reason if there is one to give.
+    NoYield(Option<String>),
+    /// The code failed.
+    Failed(String),
+    /// A run, or a number, is not there.
+    Missing(String),
+    /// The reference belongs to a convention that the code does not have, or is not known to have.
+    NotJudged {
+        /// The reason.
+        note: String,
+        /// Whether the convention is known to be another one.
+        contradicted: bool,
+    },
+}
+
+impl Ground {
+    fn note(&self) -> Option<&str> {
+        match self {
+            Self::Deviation { note, .. } => match self.verdict(0.0) {
+                Some(Verdict::Agrees) => None,
+                _ => note.as_deref(),
+            },
+            Self::NoYield(note) => note.as_deref(),
+            Self::Violation(note)
+            | Self::Doubt(note)
+            | Self::Blur { note, .. }
+            | Self::Undecidable(note)
+            | Self::Remark(note)
+            | Self::Failed(note)
+            | Self::Missing(note)
+            | Self::NotJudged { note, .. } => Some(note),
+        }
+    }
+
+    /// The verdict that this ground alone would give; `None` if it gives none. Deviations up to `blur` decide
+    /// nothing.
+    fn verdict(&self, blur: f64) -> Option<Verdict> {
+        match *self {
+            Self::Deviation {
+                error,
+                uncertainty,
+                tolerance,
+                ..
+            } => Some(match Verdict::of(error, uncertainty, tolerance) {
+                Verdict::Differs if error.abs() <= blur => Verdict::Inconclusive,
+                verdict => verdict,
+            }),
+            Self::Violation(_) => Some(Verdict::Differs),
+            Self::Doubt(_) | Self::Blur { .. } | Self::Undecidable(_) | Self::NotJudged { .. } => {
+                Some(Verdict::Inconclusive)
+            }
+            Self::NoYield(_) => Some(Verdict::NoYield),
+            Self::Failed(_) => Some(Verdict::Failed),
+            Self::Missing(_) => Some(Verdict::Missing),
+            Self::Remark(_) => None,
+        }
+    }
+}
+
+/// Everything that speaks for or against a row, and the one place where its verdict is derived.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Grounds(Vec<Ground>);
+
+impl Grounds {
+    /// No grounds yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a ground.
+    pub fn add(&mut self, ground: Ground) {
+        self.0.push(ground);
+    }
+
+    /// Adds a measured number with what it should be; `note` is said if the two do not agree.
+    pub fn compare(&mut self, error: f64, uncertainty: f64, tolerance: f64, note: Option<String>) {
+        self.add(Ground::Deviation {
+            error,
+            uncertainty,
+            tolerance,
+            note,
+        });
+    }
+
+    /// The verdict.
+    ///
+    /// 1. A failed or missing run leaves nothing to judge.
+    /// 2. Without the right reference, or where nothing can be decided, the row is inconclusive.
+    /// 3. A row without a yield says so.
+    /// 4. Of the deviations and violations the worst counts, `differs` before `inconclusive` before `agrees`.
+    /// 5. A doubt turns `agrees` into `inconclusive`; without any comparison nothing agrees.
+    pub fn verdict(&self) -> Verdict {
+        let blurs = self.0.iter().map(|ground| match ground {
+            Ground::Blur { up_to, .. } => *up_to,
+            _ => 0.0,
+        });
+        let blur = blurs.fold(0.0, f64::max);
+        let has = |wanted: Verdict| self.0.iter().any(|one| one.verdict(blur) == Some(wanted));
+        let is_open =
+            |ground: &Ground| matches!(ground, Ground::Undecidable(_) | Ground::NotJudged { .. });
+        if has(Verdict::Failed) {
+            Verdict::Failed
+        } else if has(Verdict::Missing) {
+            Verdict::Missing
+        } else if self.0.iter().any(is_open) {
+            Verdict::Inconclusive
+        } else if has(Verdict::NoYield) {
+            Verdict::NoYield
+        } else if has(Verdict::Differs) {
+            Verdict::Differs
+        } else if has(Verdict::Inconclusive) || !has(Verdict::Agrees) {
+            Verdict::Inconclusive
+        } else {
+            Verdict::Agrees
+        }
+    }
+
+    /// What explains the verdict, in the order in which it was found.
+    pub fn notes(&self) -> Vec<&str> {
+        self.0.iter().filter_map(Ground::note).collect()
+    }
+
+    /// Error and tolerance of the first comparison; `None` where the reference is not the right one.
+    pub fn deviation(&self) -> Option<(f64, f64)> {
+        self.0
+            .iter()
+            .filter(|_| self.is_judged())
+            .find_map(|ground| match ground {
+                Ground::Deviation {
+                    error, tolerance, ..
+                } => Some((*error, *tolerance)),
+                _ => None,
+            })
+    }
+
+    /// Whether the reference is the right one.
+    pub fn is_judged(&self) -> bool {
+        let not_judged = |ground: &Ground| matches!(ground, Ground::NotJudged { .. });
+        !self.0.iter().any(not_judged)
+    }
+
+    /// Whether the row is not judged because the code is known to have another convention than it declares.
+    pub fn is_contradicted(&self) -> bool {
+        let contradicted = |ground: &Ground| {
+            matches!(
+                ground,
+                Ground::NotJudged {
+                    contradicted: true,
+                    ..
+                }
+            )
+        };
+        self.0.iter().any(contradicted)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The verdict on an error with its uncertainty, both relative to F + 3.
+    fn judge(error: f64, uncertainty: f64) -> Verdict {
+        let mut grounds = Grounds::new();
+        grounds.compare(error, uncertainty, tolerance(uncertainty), None);
+        grounds.verdict()
+    }
+
+    fn grounds(grounds: &[Ground]) -> Grounds {
+        Grounds(grounds.to_vec())
+    }
+
+    fn deviation(error: f64) -> Ground {
+        Ground::Deviation {
+            error,
+            uncertainty: 0.5,
+            tolerance: 1.0,
+            note: Some(format!("off by {error}")),
+        }
+    }
+
+    #[test]
+    fn nothing_compared_is_no_agreement() {
+        assert_eq!(Grounds::new().verdict(), Verdict::Inconclusive);
+        let remark = Ground::Remark("a remark".to_owned());
+        assert_eq!(grounds(&[remark]).verdict(), Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn the_worst_ground_decides() {
+        let doubt = Ground::Doubt("a doubt".to_owned());
+        let violation = Ground::Violation("a violation".to_owned());
+        for (list, verdict) in [
+            (vec![deviation(0.1)], Verdict::Agrees),
+            (vec![deviation(0.1), doubt.clone()], Verdict::Inconclusive),
+            (vec![deviation(3.0), doubt], Verdict::Differs),
+            (vec![deviation(0.1), violation], Verdict::Differs),
+            (
+                vec![deviation(3.0), Ground::Undecidable(String::new())],
+                Verdict::Inconclusive,
+            ),
+            (
+                vec![deviation(0.1), Ground::NoYield(None)],
+                Verdict::NoYield,
+            ),
+            (
+                vec![Ground::NoYield(None), Ground::Missing(String::new())],
+                Verdict::Missing,
+            ),
+            (
+                vec![
+                    Ground::Missing(String::new()),
+                    Ground::Failed(String::new()),
+                ],
+                Verdict::Failed,
+            ),
+        ] {
+            assert_eq!(grounds(&list).verdict(), verdict, "{list:?}");
+        }
+    }
+
+    #[test]
+    fn a_blur_hides_deviations_up_to_its_size_and_no_larger_ones() {
+        let blur = Ground::Blur {
+            up_to: 2.0,
+            note: "a blur".to_owned(),
+        };
+        for (error, verdict) in [
+            (0.1, Verdict::Inconclusive),
+            (1.5, Verdict::Inconclusive),
+            (2.5, Verdict::Differs),
+        ] {
+            assert_eq!(
+                grounds(&[deviation(error), blur.clone()]).verdict(),
+                verdict
+            );
+        }
+    }
+
+    #[test]
+    fn a_row_with_the_wrong_reference_is_not_judged_by_it() {
+        let not_judged = Ground::NotJudged {
+            note: "another arm".to_owned(),
+            contradicted: true,
+        };
+        let grounds = grounds(&[deviation(3.0), not_judged]);
+        assert_eq!(grounds.verdict(), Verdict::Inconclusive);
+        assert_eq!(grounds.deviation(), None);
+        assert!(grounds.is_contradicted());
+    }
+
+    #[test]
+    fn only_a_deviation_that_does_not_agree_is_explained() {
+        assert!(grounds(&[deviation(0.1)]).notes().is_empty());
+        assert_eq!(grounds(&[deviation(3.0)]).notes(), ["off by 3"]);
+    }
 
     #[test]
     fn only_a_small_error_that_is_known_well_agrees() {

@@ -1,10 +1,10 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
 use super::events::{Event, Path, PathPoint, locate};
-use crate::model::Stack;
+use crate::model::{Arms, Stack};
 use serde::Serialize;
 
-/// The quasi-static limit of a DEM with the given torque arms.
+/// The quasi-static limit of a DEM whose contacts have the given arms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Limit {
     /// F = f/(m g) at which the floor slips; absent when something else comes first.
@@ -13,10 +13,9 @@ pub struct Limit {
     pub event: Event,
     /// F at which the floor slips if the other events are ignored.
     pub floor_slip_force: Option<f64>,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of floor contacts.
-    pub floor_arm: f64,
+    /// Arm coefficients of the contacts.
+    #[serde(flatten, serialize_with = "Arms::serialize_flat")]
+    pub arms: Arms,
     /// T = tan(ψ/2) where the floor slips.
     #[serde(rename = "T")]
     pub tangent: Option<f64>,
@@ -34,13 +33,7 @@ pub struct Limit {
 impl Limit {
     /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`: under its own
     /// weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 z/ε − 3 (Eq. 23).
-    pub(super) fn of(
-        path: &impl Path,
-        slip: Option<f64>,
-        stack: &Stack,
-        pair_arm: f64,
-        floor_arm: f64,
-    ) -> Self {
+    pub(super) fn of(path: &impl Path, slip: Option<f64>, stack: &Stack, arms: &Arms) -> Self {
         let settled = path.settled();
         let own_weight = slip.is_some_and(|slip| slip < settled);
         let force_at = |point: PathPoint| 2.0 * point.floor_overlap * stack.stiffness - 3.0;
@@ -55,8 +48,7 @@ impl Limit {
             yield_force: force.filter(|_| yields),
             event,
             floor_slip_force: force,
-            pair_arm,
-            floor_arm,
+            arms: *arms,
             tangent: point.map(|point| point.tangent),
             y: point.map(|point| point.outward),
             z: point.map(|point| point.floor_overlap),
@@ -135,7 +127,7 @@ mod tests {
             cylinder_friction: 127.0,
             ..Stack::paper(0.315, 230.0)
         };
-        let limit = followed_limit(&stack, 0.496, 0.824);
+        let limit = followed_limit(&stack, &Arms::reciprocal(0.496, 0.824));
         assert_eq!(limit.event, Event::None);
         assert_eq!([limit.yield_force, limit.floor_slip_force], [None; 2]);
         assert!(

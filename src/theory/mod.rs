@@ -30,15 +30,15 @@ pub use small_displacement::{
     perturbation_load, quintic_displacement, rigid_yield,
 };
 
-use crate::model::Stack;
+use crate::model::{Arms, Stack};
 
-/// The exact quasi-static limit of `stack` for the given torque arms: the closed form where both are 0,
+/// The exact quasi-static limit of `stack` for the given arms: the closed form where all are 0,
 /// the path follower otherwise.
-pub fn quasistatic_limit(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Limit {
-    if pair_arm == 0.0 && floor_arm == 0.0 {
+pub fn quasistatic_limit(stack: &Stack, arms: &Arms) -> Limit {
+    if *arms == Arms::PAPER {
         closed_form_limit(stack)
     } else {
-        followed_limit(stack, pair_arm, floor_arm)
+        followed_limit(stack, arms)
     }
 }
 
@@ -49,13 +49,12 @@ mod tests {
     #[test]
     fn the_closed_form_is_taken_where_both_arms_are_0_and_only_there() {
         let stack = Stack::paper(0.3, 1e2);
-        let limit = |pair_arm, floor_arm| quasistatic_limit(&stack, pair_arm, floor_arm);
-        assert_eq!(limit(0.0, 0.0), closed_form_limit(&stack));
+        let limit = |arms| quasistatic_limit(&stack, &arms);
+        assert_eq!(limit(Arms::PAPER), closed_form_limit(&stack));
         // The two agree to nine digits, not to the last.
-        assert_ne!(limit(0.0, 0.0), followed_limit(&stack, 0.0, 0.0));
-        for (pair_arm, floor_arm) in [(-0.5, 0.0), (0.0, -0.5)] {
-            let followed = followed_limit(&stack, pair_arm, floor_arm);
-            assert_eq!(limit(pair_arm, floor_arm), followed);
+        assert_ne!(limit(Arms::PAPER), followed_limit(&stack, &Arms::PAPER));
+        for arms in [Arms::reciprocal(-0.5, 0.0), Arms::reciprocal(0.0, -0.5)] {
+            assert_eq!(limit(arms), followed_limit(&stack, &arms));
         }
     }
 }

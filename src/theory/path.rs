@@ -1,13 +1,13 @@
-//! The quasi-static limit for any torque arms, by following the path of equilibria.
+//! The quasi-static limit for any arms, by following the path of equilibria.
 //!
-//! With the arms R_c = r + r₁ G and R_f = r + r₁ z, equilibrium reads (forces in k_n r, lengths in r)
+//! With the torque arms R_c = r + r₁ G and R_f = r + r₁ z, equilibrium reads (forces in k_n r, lengths in r)
 //!
 //! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  2(a cos ψ + b sin ψ) = L,
 //!
 //! where L is the load carried by cylinder 1: its growing weight along the gravity ramp, f + m g under
-//! the wall. The springs accumulate ρ dψ − R_c dθ and dx₂ + R_f dθ. Differentiated with respect to ψ this
-//! is a linear 3×3 system for (ρ′, θ′, L′), regular also where L has a maximum
-//! (docs/theory.md, Eqs. 10, 15 and 36 to 40).
+//! the wall. The springs accumulate ρ dψ − S_c dθ and dx₂ + S_f dθ, with the kinematic arms S_c and S_f of the
+//! same form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
+//! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
 //!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
 //! carries c = k_n (−2y), and nothing tangential: by mirror symmetry its surfaces do not move against each
@@ -18,7 +18,7 @@
 use super::events::{Event, Path, PathPoint, half_angle_tangent, locate, outward_displacement};
 use super::limit::Limit;
 use super::root::bracketed_root;
-use crate::model::Stack;
+use crate::model::{Arms, Stack};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_6;
@@ -133,8 +133,7 @@ pub enum BottomContact {
 struct Contacts {
     /// k_t = 1/κ.
     tangential_stiffness: f64,
-    pair_arm: f64,
-    floor_arm: f64,
+    arms: Arms,
     epsilon: f64,
     bottom: BottomContact,
 }
@@ -147,17 +146,20 @@ impl Contacts {
         let distance = 2.0 - state.pair_overlap;
         let floor_overlap = leg.floor_force(state.load, self.epsilon);
         let tangential = self.tangential_stiffness;
-        let pair_radius = 1.0 + self.pair_arm * state.pair_overlap;
-        let floor_radius = 1.0 + self.floor_arm * floor_overlap;
+        let Arms { pair, floor } = self.arms;
+        let pair_lever = 1.0 + pair.torque * state.pair_overlap;
+        let pair_radius = 1.0 + pair.kinematic * state.pair_overlap;
+        let floor_lever = 1.0 + floor.torque * floor_overlap;
+        let floor_radius = 1.0 + floor.kinematic * floor_overlap;
         let (a, b, e) = (state.pair_overlap, state.pair_shear, state.floor_shear);
         // −dc/dx₂: the bottom cylinders overlap by −2y.
         let bottom_stiffness = if closed { 2.0 } else { 0.0 };
 
         // Rows: torque on 2, horizontal force on 2, vertical force on 1. Columns: ρ′, θ′, L′.
         let system = Matrix3::new(
-            -b * self.pair_arm - tangential * floor_radius * sin,
-            -tangential * pair_radius * pair_radius - tangential * floor_radius * floor_radius,
-            -e * self.floor_arm * leg.floor_force_slope(),
+            -b * pair.torque - tangential * floor_lever * sin,
+            -tangential * pair_lever * pair_radius - tangential * floor_lever * floor_radius,
+            -e * floor.torque * leg.floor_force_slope(),
             (1.0 + tangential + bottom_stiffness) * sin,
             -tangential * pair_radius * cos + tangential * floor_radius,
             0.0,
@@ -166,7 +168,7 @@ impl Contacts {
             -1.0,
         );
         let known = Vector3::new(
-            (tangential * pair_radius - tangential * floor_radius * cos) * distance,
+            (tangential * pair_lever - tangential * floor_lever * cos) * distance,
             (2.0 * tangential + bottom_stiffness) * distance * cos - a * cos - b * sin,
             2.0 * (tangential * distance * sin - a * sin + b * cos),
         );
@@ -407,24 +409,18 @@ impl Path for FollowedPath {
     }
 }
 
-/// The quasi-static limit of `stack` for any torque arms.
-pub fn followed_limit(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Limit {
-    let path = followed_path(stack, pair_arm, floor_arm, BottomContact::Ignored);
+/// The quasi-static limit of `stack` for any arms.
+pub fn followed_limit(stack: &Stack, arms: &Arms) -> Limit {
+    let path = followed_path(stack, arms, BottomContact::Ignored);
     let slip = locate(&path, Event::FloorSlip, stack);
-    Limit::of(&path, slip, stack, pair_arm, floor_arm)
+    Limit::of(&path, slip, stack, arms)
 }
 
 /// The path of equilibria of a stack like this one; its frictions play no part in it.
-pub(super) fn followed_path(
-    stack: &Stack,
-    pair_arm: f64,
-    floor_arm: f64,
-    bottom: BottomContact,
-) -> FollowedPath {
+pub(super) fn followed_path(stack: &Stack, arms: &Arms, bottom: BottomContact) -> FollowedPath {
     FollowedPath::new(Contacts {
         tangential_stiffness: stack.tangential_stiffness(),
-        pair_arm,
-        floor_arm,
+        arms: *arms,
         epsilon: stack.epsilon(),
         bottom,
     })

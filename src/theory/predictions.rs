@@ -4,7 +4,7 @@ use super::{
     ElasticRoot, Limit, RigidYield, elastic_root, naive_load, perturbation_load, quasistatic_limit,
     rigid_yield,
 };
-use crate::model::Stack;
+use crate::model::{Arms, Stack};
 use serde::Serialize;
 
 /// The yield force according to one theory, or the reason why it has none.
@@ -92,7 +92,7 @@ pub struct Predictions {
 
 impl Predictions {
     /// Every theory for `stack`; the arms concern the quasi-static limit alone.
-    pub fn new(stack: &Stack, pair_arm: f64, floor_arm: f64) -> Self {
+    pub fn new(stack: &Stack, arms: &Arms) -> Self {
         Self {
             mu: stack.floor_friction,
             stiffness: stack.stiffness,
@@ -106,7 +106,7 @@ impl Predictions {
                 "the solution is not real or gives F < 0",
             ),
             elastic: ElasticPrediction::new(elastic_root(stack)),
-            quasistatic: quasistatic_limit(stack, pair_arm, floor_arm),
+            quasistatic: quasistatic_limit(stack, arms),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::floor_slip::FloorSlip;
 use super::limit::Limit;
 use super::overlap::{HIGHEST_TANGENT, OverlapCurve, pair_overlap};
 use super::root::bracketed_root;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 const STATIONS: usize = 256;
@@ -69,13 +69,13 @@ impl Path for ClosedForm {
     }
 }
 
-/// The exact limit of `stack` with both torque arms 0.
+/// The exact limit of `stack` under the paper's arms.
 pub fn closed_form_limit(stack: &Stack) -> Limit {
     let curve = OverlapCurve::from_just_touching(stack.stiffness_ratio);
     let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon());
     let slip = slip.map(|slip| slip.beyond);
     let path = ClosedForm::new(stack, slip.unwrap_or(WIDEST));
-    Limit::of(&path, slip, stack, 0.0, 0.0)
+    Limit::of(&path, slip, stack, &Arms::PAPER)
 }
 
 #[cfg(test)]

@@ -3,18 +3,18 @@
 
 use super::Seed;
 use tristack::code::{Code, Task};
-use tristack::model::{Case, ContactConvention, Stack};
+use tristack::model::{Arms, Case, ContactArms, ContactConvention, Stack};
 use tristack::study::yield_force::protocol_at_speed;
 use tristack::theory::{Predictions, quasistatic_limit};
 
-const NUMBERS: usize = 8;
+const NUMBERS: usize = 10;
 
 /// Of the domain over which the theories are tested (tests/theory_domain.rs).
 const SMALLEST_RATIO: f64 = 1e-3;
 
-/// Eight numbers: friction, cylinder friction, stiffness, stiffness ratio, both arms, wall speed, time step.
+/// Ten numbers: friction, cylinder friction, stiffness, stiffness ratio, wall speed, time step, four arms.
 pub fn check(data: &[u8]) {
-    let mut numbers = [0.3, 0.7, 1e4, 2.5, 0.0, 0.0, 1e-5, 0.1];
+    let mut numbers = [0.3, 0.7, 1e4, 2.5, 1e-5, 0.1, 0.0, 0.0, 0.0, 0.0];
     for (number, bytes) in numbers.iter_mut().zip(data.chunks_exact(size_of::<f64>())) {
         *number = f64::from_le_bytes(bytes.try_into().expect("eight bytes"));
     }
@@ -23,11 +23,13 @@ pub fn check(data: &[u8]) {
         cylinder_friction,
         stiffness,
         stiffness_ratio,
-        pair_arm,
-        floor_arm,
         speed,
         step,
+        arms @ ..,
     ] = numbers;
+    let [pair, floor] = [[arms[0], arms[1]], [arms[2], arms[3]]]
+        .map(|[torque, kinematic]| ContactArms { torque, kinematic });
+    let arms = Arms { pair, floor };
     let stack = Stack {
         floor_friction,
         cylinder_friction,
@@ -35,8 +37,7 @@ pub fn check(data: &[u8]) {
         stiffness_ratio,
     };
     let convention = ContactConvention {
-        pair_arm,
-        floor_arm,
+        arms,
         ..ContactConvention::PAPER
     };
     // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.
@@ -46,8 +47,8 @@ pub fn check(data: &[u8]) {
     if stack.validate().is_err() || convention.validate().is_err() {
         return;
     }
-    Predictions::new(&stack, pair_arm, floor_arm);
-    let limit = quasistatic_limit(&stack, pair_arm, floor_arm);
+    Predictions::new(&stack, &arms);
+    let limit = quasistatic_limit(&stack, &arms);
     assert!(limit.yield_force.is_none_or(f64::is_finite));
     let Some(protocol) = protocol_at_speed(&limit, speed, step) else {
         return;
@@ -69,11 +70,22 @@ pub fn check(data: &[u8]) {
 
 pub fn seeds() -> Vec<Seed> {
     let stacks: [[f64; NUMBERS]; 5] = [
-        [0.3, 0.7, 1e4, 2.5, 0.0, 0.0, 1e-5, 0.1],
-        [0.12, 0.7, 1e2, 2.5, -0.5, -0.5, 1e-3, 0.1],
-        [0.5, 1.0, 1e8, 1.0, -0.5, -1.0, 1e-7, 0.01],
-        [0.267_949_192_431_122_7, 0.1, 1.0, 50.0, 0.0, 0.0, 1e-2, 0.2],
-        [1e3, 1e3, 1e3, 1e6, 1.0, 1.0, 1e-4, 1e-6],
+        [0.3, 0.7, 1e4, 2.5, 1e-5, 0.1, 0.0, 0.0, 0.0, 0.0],
+        [0.12, 0.7, 1e2, 2.5, 1e-3, 0.1, -0.5, 0.0, -0.5, -0.5],
+        [0.5, 1.0, 1e8, 1.0, 1e-7, 0.01, -0.5, -0.5, -1.0, -1.0],
+        [
+            0.267_949_192_431_122_7,
+            0.1,
+            1.0,
+            50.0,
+            1e-2,
+            0.2,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ],
+        [1e3, 1e3, 1e3, 1e6, 1e-4, 1e-6, 1.0, -1.0, 1.0, -1.0],
     ];
     let seed = |(index, stack): (usize, [f64; NUMBERS])| {
         let bytes = stack.iter().flat_map(|number| number.to_le_bytes());

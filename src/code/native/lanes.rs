@@ -59,7 +59,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
         while let Some(index) = self.waiting.pop_front() {
             let late = self.late().map(FailureKind::TimedOut);
             let kind = late.unwrap_or(FailureKind::Interrupted);
-            (self.finished)(index, Err(failure(self.cases[index], kind)));
+            (self.finished)(index, Err(failure(&self.cases[index], kind)));
         }
     }
 

@@ -3,11 +3,11 @@
 mod checkpoints;
 mod lanes;
 
-use super::{Batching, Code, Failure, FailureKind, Finished, InstalledCode, RunContext};
+use super::{Batching, Code, Failure, FailureKind, Finished, InstalledCode, RunContext, Tasks};
 use crate::code::{Identity, Provenance, Run};
 use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
-use crate::model::{Case, ContactTest, Pyramid};
-use crate::series::{Motion, PyramidRun, Series, SeriesError};
+use crate::model::Case;
+use crate::series::{Series, SeriesError};
 use lanes::Lanes;
 use std::time::{Duration, Instant};
 
@@ -58,6 +58,18 @@ impl Native {
             let mut lanes = Lanes::new(self, cases, indices, context, &mut *finished);
             width.compress_stacks(&mut lanes);
             lanes.give_up_waiting();
+        }
+    }
+
+    fn run_cases(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        match self.arithmetic {
+            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
+            Arithmetic::DoubleDouble => {
+                for (index, case) in cases.iter().enumerate() {
+                    let result = self.run_precisely(case, context);
+                    finished(index, result.map_err(|kind| failure(case, kind)));
+                }
+            }
         }
     }
 
@@ -121,7 +133,7 @@ fn why(error: SeriesError, context: &RunContext, late: Option<Duration>) -> Fail
     }
 }
 
-fn failure(subject: impl ToString, kind: FailureKind) -> Failure {
+fn failure(subject: &impl ToString, kind: FailureKind) -> Failure {
     Failure {
         code: Code::Native,
         subject: subject.to_string(),
@@ -147,34 +159,32 @@ impl InstalledCode for Native {
         }
     }
 
-    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        match self.arithmetic {
-            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
-            Arithmetic::DoubleDouble => {
-                for (index, case) in cases.iter().enumerate() {
-                    let result = self.run_precisely(case, context);
-                    finished(index, result.map_err(|kind| failure(case, kind)));
-                }
-            }
+    fn carry_out(&self, tasks: Tasks, context: &RunContext) {
+        match tasks {
+            Tasks::Cases(cases, finished) => self.run_cases(cases, context, finished),
+            Tasks::ContactTests(tests, finished) => up_to_failure(tests, finished, |test| {
+                run_contact_test(test).map_err(FailureKind::from)
+            }),
+            Tasks::Pyramids(pyramids, finished) => up_to_failure(pyramids, finished, |pyramid| {
+                pyramid.validate().map_err(FailureKind::Unsupported)?;
+                while_wanted(context, |wanted| run_pyramid(pyramid, wanted))
+            }),
         }
     }
+}
 
-    fn probe(
-        &self,
-        tests: &[ContactTest],
-        _workplace: &RunContext,
-    ) -> Result<Vec<Motion>, Box<Failure>> {
-        let motions = tests.iter().map(|test| {
-            run_contact_test(test).map_err(|error| Box::new(failure(test, error.into())))
-        });
-        motions.collect()
-    }
-
-    fn pyramid(&self, pyramid: &Pyramid, context: &RunContext) -> Result<PyramidRun, Box<Failure>> {
-        let valid = pyramid.validate().map_err(FailureKind::Unsupported);
-        let run = || while_wanted(context, |wanted| run_pyramid(pyramid, wanted));
-        valid
-            .and_then(|()| run())
-            .map_err(|kind| Box::new(failure(pyramid, kind)))
+/// Carries out `tasks` one after another, up to the first failure.
+fn up_to_failure<Task: ToString, Outcome>(
+    tasks: &[Task],
+    finished: Finished<Outcome>,
+    carry_out: impl Fn(&Task) -> Result<Outcome, FailureKind>,
+) {
+    for (index, task) in tasks.iter().enumerate() {
+        let result = carry_out(task).map_err(|kind| failure(task, kind));
+        let failed = result.is_err();
+        finished(index, result);
+        if failed {
+            return;
+        }
     }
 }

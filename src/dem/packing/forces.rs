@@ -49,12 +49,12 @@ impl Packing {
                     sliding_speed: tangential(normal, velocity),
                     spin: i.spin + j.spin,
                     friction: material.cylinder_friction,
-                    arm: material.pair_arm,
+                    arms: material.arms.pair,
                     time_step: self.time_step,
                 };
                 let force = material.law.evaluate(&contact, memory);
                 let [fx, fy] = force.in_the_plane(normal);
-                let torque = -(force.radius * force.tangential);
+                let torque = -(force.arm * force.tangential);
                 add(&mut load, [fx, fy], torque);
                 add(&mut loads[second as usize], [-fx, -fy], torque);
             }
@@ -80,12 +80,12 @@ impl Packing {
                 sliding_speed: plane.facing.tangential(body.velocity),
                 spin: body.spin,
                 friction: plane.friction,
-                arm: self.material.wall_arm,
+                arms: self.material.arms.floor,
                 time_step: self.time_step,
             };
             state.force = self.material.law.evaluate(&contact, &mut state.memory);
             let force = plane.facing.in_the_plane(&state.force);
-            let torque = -(state.force.radius * state.force.tangential);
+            let torque = -(state.force.arm * state.force.tangential);
             add(&mut self.loads[state.cylinder as usize], force, torque);
         }
     }

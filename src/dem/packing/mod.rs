@@ -13,7 +13,7 @@ mod skin;
 mod walls;
 
 use super::{ContactForce, Cylinder, Load, PlaneWall, SpringDashpot};
-use crate::model::{ContactConvention, Stack};
+use crate::model::{Arms, ContactConvention, Stack};
 use pairs::PairList;
 pub use pyramid::{PYRAMID_FLOOR, run_pyramid};
 use skin::Skin;
@@ -29,10 +29,8 @@ pub struct Material {
     pub law: SpringDashpot<f64>,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: f64,
-    /// Arm coefficient r₁ of cylinder–cylinder contacts.
-    pub pair_arm: f64,
-    /// Arm coefficient r₁ of cylinder–wall contacts.
-    pub wall_arm: f64,
+    /// Arm coefficients of the contacts.
+    pub arms: Arms,
     /// Moment of inertia of a cylinder in m r².
     pub moment_of_inertia: f64,
 }
@@ -43,8 +41,7 @@ impl Material {
         Self {
             law: SpringDashpot::like(0.0, convention, stack.tangential_stiffness()),
             cylinder_friction: stack.cylinder_friction,
-            pair_arm: convention.pair_arm,
-            wall_arm: convention.floor_arm,
+            arms: convention.arms,
             moment_of_inertia: convention.moment_of_inertia,
         }
     }

@@ -14,7 +14,7 @@ pub(super) struct WallContact {
 pub(super) const NO_FORCE: ContactForce<f64> = ContactForce {
     normal: 0.0,
     tangential: 0.0,
-    radius: 0.0,
+    arm: 0.0,
 };
 
 /// The cylinders whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`

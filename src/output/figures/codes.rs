@@ -5,7 +5,7 @@ use super::panel::{Panel, Point, Sample};
 use super::style::{GUIDE, Mark, code_label};
 use crate::code::Code;
 use crate::study::MAX_TOLERANCE;
-use crate::study::yield_force::{Judgement, Row};
+use crate::study::yield_force::Judgement;
 
 /// Errors below the lower end stand at it.
 const ERRORS: (f64, f64) = (1e-10, 3e-2);
@@ -17,20 +17,24 @@ pub(super) fn load_axis(range: (f64, f64)) -> Axis {
 
 /// The codes that have at least one row, in the order of [`Code::ALL`].
 pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
-    let has_row = |code: &Code| judgements.iter().any(|own| own.row.code == *code);
+    let has_row = |code: &Code| judgements.iter().any(|own| own.code == *code);
     Code::ALL.into_iter().filter(has_row).collect()
 }
 
 /// F + 3 of every row that has a yield force. YADE's facets are left out: they do what its box does.
-pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Row) -> f64) {
+pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Judgement) -> f64) {
     mark(panel, judgements, Mark::small, |row| {
         let shown = row.code != Code::YadeFacet;
-        Some((x(row), row.yield_force.filter(|_| shown)? + 3.0))
+        Some((x(row), row.yield_force().filter(|_| shown)? + 3.0))
     });
 }
 
 /// |error| of every row that has one, and the bar.
-pub(super) fn error_panel(axis: Axis, judgements: &[Judgement], x: impl Fn(&Row) -> f64) -> Panel {
+pub(super) fn error_panel(
+    axis: Axis,
+    judgements: &[Judgement],
+    x: impl Fn(&Judgement) -> f64,
+) -> Panel {
     let label = "|F − F_{limit}|/(F_{limit} + 3)";
     let mut panel = Panel::new(axis, Axis::log(label, ERRORS));
     panel.level(GUIDE, MAX_TOLERANCE);
@@ -39,7 +43,7 @@ pub(super) fn error_panel(axis: Axis, judgements: &[Judgement], x: impl Fn(&Row)
         &mut panel,
         judgements,
         |mark| mark,
-        |row| Some((x(row), row.error?.abs())),
+        |row| Some((x(row), row.error()?.abs())),
     );
     panel
 }
@@ -56,10 +60,10 @@ fn mark(
     panel: &mut Panel,
     judgements: &[Judgement],
     size: impl Fn(Mark) -> Mark,
-    point: impl Fn(&Row) -> Option<Point>,
+    point: impl Fn(&Judgement) -> Option<Point>,
 ) {
     for code in present(judgements) {
-        let own = judgements.iter().map(|judgement| &judgement.row);
+        let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
         panel.marks(size(Mark::of(code)), own.filter_map(&point));
     }

@@ -7,7 +7,7 @@ use super::style::{GUIDE, Mark, STIFFNESS_STROKES, code_label};
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::Curves;
-use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES, Row};
+use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
 /// Difference to the paper's convention, as theory has it and as the codes measured it.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
@@ -48,7 +48,7 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
         panel.key(Sample::Line(stroke), &power_of_ten(stiffness));
     }
     for &code in codes {
-        let own = judgements.iter().map(|judgement| &judgement.row);
+        let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
         panel.marks(Mark::of(code), own.filter_map(measured));
         panel.key(Sample::Mark(Mark::of(code)), code_label(code));
@@ -58,8 +58,8 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
 
 /// The measured difference in percent: the error of a row is relative to its own limit + 3, which differs from
 /// the paper's by the model form.
-fn measured(row: &Row) -> Option<(f64, f64)> {
-    let (error, model_form) = row.error.zip(row.model_form)?;
+fn measured(row: &Judgement) -> Option<(f64, f64)> {
+    let (error, model_form) = row.error().zip(row.model_form())?;
     let ratio = (1.0 + error) * (1.0 + model_form);
-    Some((row.mu, 100.0 * (ratio - 1.0)))
+    Some((row.mu(), 100.0 * (ratio - 1.0)))
 }

@@ -10,7 +10,7 @@ use crate::study::yield_force::Judgement;
 
 /// Yield force over the stiffness with the fitted exponents, and how far the codes are from their own limits.
 pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Figure {
-    let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness);
+    let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness());
     codes::key(&mut errors, judgements, (0.05, 0.01));
     let panels = [forces(judgements, exponents, curves), errors];
     let caption = "Fig. 2(b) of the paper. (a) Yield force F = f/(m g) over the stiffness kₙ r/(m g) for floor \
@@ -39,7 +39,7 @@ fn forces(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> 
         panel.line(PERTURBATION, points().map(perturbation));
         panel.words(friction_words(mu), place, Anchor::End);
     }
-    codes::loads(&mut panel, judgements, |row| row.stiffness);
+    codes::loads(&mut panel, judgements, |row| row.stiffness());
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
     fits(&mut panel, exponents);

@@ -7,42 +7,35 @@ use crate::model::Stack;
 use crate::paper::reproduction::{
     Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, TheoryPoint, snapshots,
 };
-use crate::study::Source;
-use crate::study::Verdict;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 use crate::study::regimes::Survey;
-use crate::study::yield_force::{Judgement, Row};
+use crate::study::yield_force::{Judgement, YieldForce, plan};
+use crate::study::{Grounds, Judged, Source, Verdict};
 use crate::theory::RegimeMap;
 
 const FRICTIONS: [f64; 4] = [0.1, 0.2, 0.3, 0.5];
 
 fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
-    let row = Row {
+    let mut study = plan(code, &Stack::paper(mu, 100.0), code.convention());
+    study.limit.yield_force = Some(4.0);
+    study.model_form = Some(-0.01);
+    let mut grounds = Grounds::new();
+    if yield_force.is_some() {
+        grounds.compare(1e-8, 1e-7, 1e-7, None);
+    }
+    Judged {
+        study,
         code,
         version: "1".to_owned(),
         source: Source::Live,
-        mu,
-        stiffness: 100.0,
-        kappa: 2.5,
-        pair_arm: 0.0,
-        floor_arm: 0.0,
-        yield_force,
-        uncertainty: yield_force.map(|force| 1e-7 * force),
-        reference: "quasistatic".to_owned(),
-        reference_force: Some(4.0),
-        error: yield_force.map(|_| 1e-8),
-        tolerance: None,
-        model_form: Some(-0.01),
-        verdict: Verdict::Agrees,
-    };
-    Judgement {
-        row,
-        runs: Vec::new(),
-        slip: None,
-        peak: None,
-        notes: Vec::new(),
-        contradicted: false,
         arms_are_measured: true,
+        finding: Some(YieldForce {
+            runs: Vec::new(),
+            slip: None,
+            peak: None,
+            force: yield_force.map(|force| (force, 1e-7 * force)),
+        }),
+        grounds,
     }
 }
 

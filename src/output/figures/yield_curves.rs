@@ -11,7 +11,7 @@ use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
 /// Yield force of every code and theory, and how far the codes are from their own limits.
 pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let mut errors = error_panel(Axis::friction(), judgements, |row| row.mu);
+    let mut errors = error_panel(Axis::friction(), judgements, |row| row.mu());
     codes::key(&mut errors, judgements, (0.05, 0.01));
     let panels = [forces(judgements, curves), errors];
     let caption = "Fig. 2(a) of the paper. (a) Yield force F = f/(m g) over the floor friction μ for stiffnesses \
@@ -42,7 +42,7 @@ fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
     }
     let [softest, ..] = PAPER_STIFFNESSES;
     panel.line(RIGID, loads(&|point| point.rigid, softest));
-    codes::loads(&mut panel, judgements, |row| row.mu);
+    codes::loads(&mut panel, judgements, |row| row.mu());
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
     panel.key(Sample::Line(RIGID), "rigid");

@@ -33,7 +33,7 @@ pub fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
         let verdicts = judgement.verdicts().into_iter().enumerate();
         suite.add_test_cases(verdicts.map(|(index, verdict)| {
             let name = format!("{} comparison {}", judgement.code, index + 1);
-            TestCase::new(name, status(verdict, &judgement.notes.join("; ")))
+            TestCase::new(name, status(verdict, &judgement.notes().join("; ")))
         }));
     }
     report.add_test_suite(suite);
@@ -44,14 +44,14 @@ pub fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
 }
 
 fn row(judgement: &Judgement) -> TestCase {
-    let row = &judgement.row;
+    let row = judgement;
     let name = format!(
         "{} at mu = {}, stiffness = {}",
         row.code,
-        friction(row.mu),
-        row.stiffness
+        friction(row.mu()),
+        row.stiffness()
     );
-    TestCase::new(name, status(row.verdict, &judgement.notes.join("; ")))
+    TestCase::new(name, status(row.verdict(), &judgement.notes().join("; ")))
 }
 
 fn status(verdict: Verdict, text: &str) -> TestCaseStatus {

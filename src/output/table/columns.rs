@@ -1,8 +1,10 @@
 //! The declaration of a table's columns.
 
 use super::{DataTable, Value};
-use crate::model::{ContactConvention, Stack};
+use crate::code::Code;
+use crate::model::{Arms, Stack};
 use crate::output::number::friction;
+use crate::study::{Source, Verdict};
 
 /// Name, version and origin of a table that programs may read.
 #[derive(Debug, Clone, Copy)]
@@ -107,7 +109,12 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.number("", "1", "", cell).shown(heading)
     }
 
-    /// Shows the column to people, as `heading`.
+    /// Shows the column to people as `heading`, its numbers with these digits.
+    pub(crate) fn shown_as(self, heading: &'static str, digits: fn(f64) -> String) -> Self {
+        self.shown(heading).digits(digits)
+    }
+
+    /// Shows the column to people as `heading`.
     pub(crate) fn shown(mut self, heading: &'static str) -> Self {
         self.current().heading = Some(heading);
         self
@@ -162,19 +169,48 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The arms of a contact convention.
-    pub(crate) fn arms(self, arms: impl Fn(&R) -> ContactConvention + Copy + 'a) -> Self {
-        self.number(
-            "pair_arm",
-            "1",
-            "arm coefficient r₁ of cylinder–cylinder contacts",
-            move |row| arms(row).pair_arm,
-        )
-        .number(
-            "floor_arm",
-            "1",
-            "arm coefficient r₁ of floor contacts",
-            move |row| arms(row).floor_arm,
-        )
+    pub(crate) fn arms(self, arms: impl Fn(&R) -> Arms + Copy + 'a) -> Self {
+        let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
+        let floor = "the same of cylinder–wall contacts";
+        let kinematic = "the same of the surface velocity";
+        self.number("pair_torque_arm", "1", pair, move |row| {
+            arms(row).pair.torque
+        })
+        .number("pair_kinematic_arm", "1", kinematic, move |row| {
+            arms(row).pair.kinematic
+        })
+        .number("floor_torque_arm", "1", floor, move |row| {
+            arms(row).floor.torque
+        })
+        .number("floor_kinematic_arm", "1", kinematic, move |row| {
+            arms(row).floor.kinematic
+        })
+    }
+
+    /// The code that a row is about.
+    pub(crate) fn code(self, code: impl Fn(&R) -> Code + 'a) -> Self {
+        let name = move |row: &R| code(row).as_str();
+        self.text("code", "name of the code", name).shown("code")
+    }
+
+    /// The version of the code; people see it elsewhere.
+    pub(crate) fn version(self, version: impl Fn(&R) -> &str + 'a) -> Self {
+        let text = move |row: &R| Value::from(version(row));
+        self.text("version", "version of the code", text)
+    }
+
+    /// Where the runs of a row come from; people see it on request.
+    pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
+        let meaning =
+            "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";
+        self.text("source", meaning, move |row| source(row).as_str())
+    }
+
+    /// The verdict on a row.
+    pub(crate) fn verdict(self, verdict: impl Fn(&R) -> Verdict + 'a) -> Self {
+        let meaning = "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`; `agrees` alone is a pass";
+        self.text("verdict", meaning, move |row| verdict(row).as_str())
+            .shown("verdict")
     }
 
     /// The table with these `rows`.

@@ -2,8 +2,8 @@
 
 use crate::code::Code;
 use crate::model::{Case, Protocol, Sampling, Stack};
-use crate::runs::RunSummary;
-use crate::runs::{Load, Progress, RunError, SelectedCode, Settings, read_all};
+use crate::runs::{RunError, RunSummary, Workload};
+use crate::study::Campaign;
 use crate::study::yield_force::{PAPER_TIME_STEP, protocol_at_speed};
 use crate::theory::quasistatic_limit;
 use serde::Serialize;
@@ -65,7 +65,7 @@ pub struct Convergence {
 }
 
 /// The runs of one code: those over the wall speed first.
-fn load(code: Code) -> Load {
+fn workload(code: Code) -> Workload {
     let own = |count: usize| match code {
         Code::Native => count,
         _ => count - 1,
@@ -79,7 +79,7 @@ fn load(code: Code) -> Load {
     let cases = speeds
         .chain(steps)
         .filter_map(|(speed, step)| case(code, speed, step));
-    Load {
+    Workload {
         code,
         cases: cases.collect(),
     }
@@ -87,7 +87,7 @@ fn load(code: Code) -> Load {
 
 fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
     let (stack, convention) = (convergence_stack(), code.convention());
-    let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+    let limit = quasistatic_limit(&stack, &convention.arms);
     let protocol = protocol_at_speed(&limit, wall_speed, time_step)?;
     let sampling = Sampling {
         fine_interval: FINE_INTERVAL,
@@ -105,30 +105,25 @@ fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
 }
 
 /// The runs of the study, code by code.
-pub fn convergence_loads(codes: &[Code]) -> Vec<Load> {
-    codes.iter().map(|&code| load(code)).collect()
+pub fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
+    codes.iter().map(|&code| workload(code)).collect()
 }
 
 /// Carries out the study; also returns every summary.
-pub fn converge(
-    codes: &[SelectedCode],
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> (Convergence, Vec<RunSummary>) {
-    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let loads = convergence_loads(&names);
-    let results = read_all(&loads, codes, settings, progress);
+pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
+    let workloads = convergence_workloads(&campaign.names());
+    let results: Vec<Vec<Result<RunSummary, RunError>>> = campaign.read(&workloads);
     let mut study = Convergence {
         wall_speeds: Vec::new(),
         time_steps: Vec::new(),
     };
     let mut summaries = Vec::new();
-    for (load, results) in loads.iter().zip(results) {
-        let speeds = load.cases.iter();
+    for (workload, results) in workloads.iter().zip(results) {
+        let speeds = workload.cases.iter();
         let speeds = speeds.filter(|case| case.protocol.time_step == PAPER_TIME_STEP);
         let speeds = speeds.count().saturating_sub(1);
-        for (index, (case, result)) in load.cases.iter().zip(results).enumerate() {
-            let point = point(load.code, case, &result);
+        for (index, (case, result)) in workload.cases.iter().zip(results).enumerate() {
+            let point = point(workload.code, case, &result);
             if index < speeds {
                 study.wall_speeds.push(point);
             } else {
@@ -142,7 +137,7 @@ pub fn converge(
 
 fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
     let convention = &case.convention;
-    let limit = quasistatic_limit(&case.stack, convention.pair_arm, convention.floor_arm);
+    let limit = quasistatic_limit(&case.stack, &convention.arms);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     let force = |estimate: Option<crate::series::Estimate>| estimate.map(|estimate| estimate.force);
     ConvergencePoint {
@@ -162,10 +157,10 @@ mod tests {
 
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
-        for load in convergence_loads(&Code::ALL) {
-            let native = load.code == Code::Native;
-            assert_eq!(load.cases.len(), if native { 11 } else { 9 });
-            for case in &load.cases {
+        for workload in convergence_workloads(&Code::ALL) {
+            let native = workload.code == Code::Native;
+            assert_eq!(workload.cases.len(), if native { 11 } else { 9 });
+            for case in &workload.cases {
                 case.validate().unwrap();
                 assert!(native || case.total_steps() < 3_000_000);
             }

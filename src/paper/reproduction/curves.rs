@@ -1,7 +1,7 @@
 //! What theory says over the whole range of the figures, without a run.
 
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 use serde::Serialize;
@@ -34,7 +34,7 @@ pub struct TheoryPoint {
 
 impl TheoryPoint {
     fn new(mu: f64, stiffness: f64) -> Self {
-        let predicted = Predictions::new(&Stack::paper(mu, stiffness), 0.0, 0.0);
+        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &Arms::PAPER);
         Self {
             mu,
             stiffness,
@@ -115,8 +115,8 @@ fn model_form() -> Vec<ModelFormPoint> {
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {
                 let stack = Stack::paper(mu, stiffness);
-                let own = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
-                let paper = quasistatic_limit(&stack, 0.0, 0.0);
+                let own = quasistatic_limit(&stack, &convention.arms);
+                let paper = quasistatic_limit(&stack, &Arms::PAPER);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
                     code,

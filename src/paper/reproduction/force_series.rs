@@ -1,9 +1,9 @@
 //! Supplement, figure on the yield force: f(t) at μ = 0.2, 1/ε = 100, at the paper's literal settings.
 
-use crate::code::Code;
-use crate::model::{Case, Stack};
-use crate::runs::RunSummary;
-use crate::runs::{Load, Progress, RunError, SelectedCode, Settings, run_all};
+use crate::code::{Code, Identity, Run};
+use crate::model::{Arms, Case, Stack};
+use crate::runs::{Reading, RunError, RunSummary, Workload};
+use crate::study::Campaign;
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED, protocol_at_speed};
 use crate::theory::quasistatic_limit;
 use serde::Serialize;
@@ -30,37 +30,54 @@ pub fn force_series_stack() -> Stack {
     Stack::paper(0.2, 100.0)
 }
 
+/// The rows of the wall force, and the summary of their run.
+#[derive(Clone)]
+struct ForceRows {
+    rows: Vec<(f64, f64)>,
+    summary: RunSummary,
+}
+
+impl Reading for ForceRows {
+    fn of_run(run: Run) -> Self {
+        let stiffness = run.case.stack.stiffness;
+        let samples = run.series.samples().iter();
+        let rows = samples.map(|row| (row.time, row.wall_force * stiffness));
+        Self {
+            rows: rows.collect(),
+            summary: RunSummary::new(run),
+        }
+    }
+
+    /// A summary has no rows.
+    fn of_summary(_: RunSummary) -> Option<Self> {
+        None
+    }
+
+    fn identity(&self) -> &Identity {
+        self.summary.identity()
+    }
+}
+
 /// Runs the native DEM at the paper's settings; also returns the summary.
 ///
 /// # Errors
 /// If the run fails.
-pub fn force_series(
-    native: &SelectedCode,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Result<(ForceSeries, RunSummary), RunError> {
+pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), RunError> {
     let stack = force_series_stack();
-    let limit = quasistatic_limit(&stack, 0.0, 0.0);
-    let convention = Code::Native.convention();
+    let limit = quasistatic_limit(&stack, &Arms::PAPER);
     let protocol = protocol_at_speed(&limit, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let cases = protocol.map(|protocol| Case {
         stack,
-        convention,
+        convention: Code::Native.convention(),
         protocol,
     });
-    let load = Load {
+    let workload = Workload {
         code: Code::Native,
         cases: cases.into_iter().collect(),
     };
-    let keep = |run: crate::code::Run| {
-        let samples = run.series.samples().iter();
-        let rows = samples.map(|row| (row.time, row.wall_force * stack.stiffness));
-        (rows.collect::<Vec<_>>(), RunSummary::new(run))
-    };
-    let native = std::slice::from_ref(native);
-    let results = run_all(&[load], native, settings, progress, keep);
+    let results = campaign.read(&[workload]);
     let first = results.into_iter().flatten().next();
-    let (rows, summary) = first.expect("a stack that yields is planned")?;
+    let ForceRows { rows, summary } = first.expect("a stack that yields is planned")?;
     let series = ForceSeries {
         rows,
         slip_force: summary.estimates.slip.map(|slip| slip.force),

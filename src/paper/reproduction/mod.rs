@@ -7,7 +7,7 @@ mod scaling;
 mod snapshots;
 
 pub use convergence::{
-    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_loads, convergence_stack,
+    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_stack, convergence_workloads,
 };
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub use force_series::{ForceSeries, force_series, force_series_stack};
@@ -21,15 +21,16 @@ use crate::code::Code;
 use crate::code::Provenance;
 use crate::model::PAPER_STIFFNESS_RATIO;
 use crate::runs::RunSummary;
-use crate::runs::{Progress, Recorded, RunError, SelectedCode, Settings};
+use crate::runs::{Progress, RunError, SelectedCode, Settings};
 use crate::series::SeriesError;
-use crate::study::convention::{Probed, probe_all};
+use crate::study::Campaign;
+use crate::study::convention::Probed;
 use crate::study::preparation::{PreparationStudy, preparation_cases, preparation_studies};
-use crate::study::regimes::{Survey, THREE_DIGITS, examined_stacks, survey};
+use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use crate::study::trajectory::{
-    Trajectory, TrajectoryJudgement, measure_trajectories, plan_trajectory, trajectory_stack,
+    Trajectory, TrajectoryJudgement, plan_trajectory, trajectory_stack,
 };
-use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
+use crate::study::yield_force::{Judgement, Measurement, Profile};
 use crate::theory::{BoundaryPoint, RegimeMap};
 use thiserror::Error;
 
@@ -85,69 +86,62 @@ pub struct Scope<'a> {
     pub codes: &'a [SelectedCode],
     /// Where runs come from and go to.
     pub settings: &'a Settings<'a>,
-    /// The recorded runs that stand in for trajectories.
-    pub trajectories: Recorded,
     /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
     pub literal: bool,
 }
 
-/// Carries out everything; `None` after an interrupt. `examined` is told how many more points of the regime
-/// maps, of `Scope::points`, are done.
+/// Carries out everything; `None` after an interrupt.
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
 pub fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
-    examined: &(dyn Fn(usize) + Sync),
 ) -> Result<Option<Reproduction>, ReproductionError> {
-    let Scope {
-        codes, settings, ..
-    } = scope;
+    let settings = scope.settings;
     let interrupted = || settings.interrupt.requested();
-    let probes = probe_all(codes, settings, progress);
-    let names = codes.iter().map(|who| who.name);
-    let probes: Vec<(Code, Probed)> = names.zip(probes).collect();
+    let campaign = Campaign::new(scope.codes, settings, progress);
     let plan = Plan::new(scope);
-    let measurements = plan.all();
-    let judgements = measure(&measurements, codes, settings, progress);
+    let judgements = campaign.carry_out(plan.all());
     if interrupted() {
         return Ok(None);
     }
-    let of = |part: &[Measurement]| judged(part, &measurements, &judgements);
+    let of = |part: &[Measurement]| judged(part, &judgements);
     let (yield_curves, scaling) = (of(&plan.yield_curves), of(&plan.scaling));
     let literal = of(&plan.literal);
-    let (convergence, mut summaries) = converge(codes, settings, progress);
-    let native = SelectedCode::find(Code::Native);
+    let (convergence, mut summaries) = converge(&campaign);
     if interrupted() {
         return Ok(None);
     }
-    let (force_series, summary) = force_series(&native, settings, progress)?;
+    let (force_series, summary) = force_series(&campaign)?;
     summaries.push(summary);
-    let codes: Vec<Code> = codes.iter().map(|who| who.name).collect();
-    let preparation = preparation_studies(&codes, settings, progress);
+    let preparation = preparation_studies(&campaign, &campaign.names());
     if interrupted() {
         return Ok(None);
     }
     let preparation = preparation?;
-    let trajectories = run_trajectories(scope, &probes, progress);
+    let trajectories = campaign.carry_out(trajectories(scope.codes));
     let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
-    let points = boundary_points(&maps);
-    let survey = survey(&points, settings.threads, settings.interrupt, examined);
+    let plan = SurveyPlan::new(&boundary_points(&maps), &examined_stacks());
+    let survey = survey(&plan, settings, progress);
     if interrupted() {
         return Ok(None);
     }
     let Some(snapshots) = snapshots(settings.interrupt)? else {
         return Ok(None);
     };
-    let runs = judgements.iter().flat_map(|judgement| &judgement.runs);
+    let runs = judgements.iter().flat_map(Judgement::runs);
     let runs = runs.chain(&summaries);
     let provenances = runs.map(|summary| &summary.provenance);
     let prepared = preparation.iter().flat_map(|study| &study.rows);
     let provenances = provenances.chain(prepared.flat_map(|row| &row.provenances));
     Ok(Some(Reproduction {
         provenances: provenances.cloned().collect(),
-        probes,
+        probes: campaign
+            .names()
+            .into_iter()
+            .zip(campaign.into_probes())
+            .collect(),
         exponents: exponents(&scaling),
         yield_curves,
         scaling,
@@ -163,37 +157,17 @@ pub fn reproduce(
     }))
 }
 
-/// How many points of the regime maps are examined.
-pub fn examined_points() -> usize {
-    boundary_points(&RegimeMap::standard(PAPER_STIFFNESS_RATIO)).len() + examined_stacks().len()
-}
-
 fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
     let of_map = |map: &RegimeMap| map.boundary_points(BOUNDARY_POINTS, THREE_DIGITS);
     maps.iter().flat_map(of_map).collect()
 }
 
-fn run_trajectories(
-    scope: &Scope,
-    probes: &[(Code, Probed)],
-    progress: &dyn Progress,
-) -> Vec<TrajectoryJudgement> {
-    let external = scope.codes.iter().map(|who| who.name);
+fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
+    let external = codes.iter().map(|selected| selected.name);
     let external = external.filter(|name| !name.accepts_any_convention());
-    let plans: Vec<Trajectory> = external
+    external
         .map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()))
-        .collect();
-    let settings = Settings {
-        store: scope.settings.store.clone(),
-        recorded: scope.trajectories.clone(),
-        ..*scope.settings
-    };
-    let judged = measure_trajectories(&plans, scope.codes, &settings, progress);
-    let judged = judged.into_iter().map(|judgement| {
-        let probes = probes.iter().map(|(code, probed)| (*code, probed));
-        judgement.unless_contradicted(probes)
-    });
-    judged.collect()
+        .collect()
 }
 
 /// The measurements behind the figures.
@@ -234,17 +208,13 @@ fn is_same(left: &Measurement, right: &Measurement) -> bool {
     (left.code, left.stack, left.method) == (right.code, right.stack, right.method)
 }
 
-/// The judgements on `part` of `measurements`, in the order of the part.
-fn judged(
-    part: &[Measurement],
-    measurements: &[Measurement],
-    judgements: &[Judgement],
-) -> Vec<Judgement> {
+/// Those of `judgements` that are on `part`, in its order.
+fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     let found = part.iter().filter_map(|wanted| {
-        let mut all = measurements.iter().zip(judgements);
-        all.find(|(measurement, _)| is_same(measurement, wanted))
+        let mut all = judgements.iter();
+        all.find(|judgement| is_same(&judgement.study, wanted))
     });
-    found.map(|(_, judgement)| judgement.clone()).collect()
+    found.cloned().collect()
 }
 
 /// Every run of an external code that the report needs and whose series is too large to keep: the summaries
@@ -252,27 +222,27 @@ fn judged(
 ///
 /// # Errors
 /// The first run that fails.
-pub fn readings_to_record(
+pub fn summaries_to_record(
     selected: &SelectedCode,
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<RunSummary>, RunError> {
     let codes = [selected.name];
-    let mut loads = convergence_loads(&codes);
+    let campaign = Campaign::new(std::slice::from_ref(selected), settings, progress);
+    let mut workloads = convergence_workloads(&codes);
     let measurements = [
         Profile::Standard.measurements(&codes),
         scaling_measurements(&codes),
         Profile::Paper.measurements(&codes),
     ];
-    let prepared = preparation_cases(selected.name, settings, progress)?;
+    let prepared = preparation_cases(&campaign, selected.name)?;
     let cases = measurements.into_iter().flatten();
     let cases = cases.flat_map(|measurement| measurement.cases);
     for case in cases.chain(prepared) {
-        if !loads[0].cases.contains(&case) {
-            loads[0].cases.push(case);
+        if !workloads[0].cases.contains(&case) {
+            workloads[0].cases.push(case);
         }
     }
-    let codes = std::slice::from_ref(selected);
-    let results = crate::runs::read_all(&loads, codes, settings, progress);
+    let results = campaign.read(&workloads);
     results.into_iter().flatten().collect()
 }

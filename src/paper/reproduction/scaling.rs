@@ -57,8 +57,8 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
     for mu in SCALING_FRICTIONS {
         for code in Code::ALL {
             let own = judgements.iter().filter(|judgement| {
-                let row = &judgement.row;
-                row.code == code && row.mu == mu && row.stiffness >= FITTED_FROM
+                let row = judgement;
+                row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM
             });
             let points: Vec<Point> = own.filter_map(Point::of).collect();
             if points.len() >= 2 {
@@ -79,13 +79,13 @@ struct Point {
 
 impl Point {
     fn of(judgement: &Judgement) -> Option<Self> {
-        let row = &judgement.row;
-        let load = row.yield_force? + 3.0;
+        let row = judgement;
+        let load = row.yield_force()? + 3.0;
         Some(Self {
-            stiffness: libm::log(row.stiffness),
+            stiffness: libm::log(row.stiffness()),
             load: libm::log(load),
-            uncertainty: row.uncertainty? / load,
-            limit: libm::log(row.reference_force? + 3.0),
+            uncertainty: row.uncertainty()? / load,
+            limit: libm::log(row.reference_force()? + 3.0),
         })
     }
 }

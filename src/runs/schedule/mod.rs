@@ -61,7 +61,12 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Whether nobody recorded the run.
+    /// Whether the run was cut short by an interrupt.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Failed(failure) if failure.is_interrupted())
+    }
+
+    /// Whether no recording of the run exists.
     pub(crate) fn is_unrecorded(&self) -> bool {
         matches!(self, Self::Missing(error) if matches!(**error, RecordedError::Absent { .. }))
     }
@@ -93,17 +98,18 @@ pub trait Progress: Sync {
 }
 
 /// Cases that one code is to run.
-pub trait Workload: Sync {
-    /// Who runs them.
-    fn code(&self) -> Code;
+#[derive(Debug, Clone, PartialEq)]
+pub struct Workload {
+    /// The code.
+    pub code: Code,
     /// The cases.
-    fn cases(&self) -> &[Case];
+    pub cases: Vec<Case>,
 }
 
 /// What `keep` makes of each run, case by case, of every workload. Runs themselves are not held longer
 /// than that, so that memory does not grow with their number.
-pub fn run_all<W: Workload, T: Clone + Send>(
-    workloads: &[W],
+pub fn run_all<T: Clone + Send>(
+    workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,

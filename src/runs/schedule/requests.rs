@@ -36,12 +36,12 @@ impl<'a> RunRequest<'a> {
 }
 
 /// Every run that `workloads` want, once, and which of them every case of every workload is.
-pub(super) fn requests<W: Workload>(workloads: &[W]) -> (Vec<RunRequest<'_>>, Vec<Vec<usize>>) {
+pub(super) fn requests(workloads: &[Workload]) -> (Vec<RunRequest<'_>>, Vec<Vec<usize>>) {
     let mut requests = Vec::new();
     let mut known: HashMap<(Code, String), usize> = HashMap::new();
     let wanted = workloads.iter().map(|workload| {
-        let code = workload.code();
-        let cases = workload.cases().iter().map(|case| {
+        let code = workload.code;
+        let cases = workload.cases.iter().map(|case| {
             let key = (code, case.content_hash());
             *known.entry(key).or_insert_with(|| {
                 requests.push(RunRequest::new(code, case));
@@ -79,7 +79,6 @@ pub(super) fn hand_out<R: Clone>(
 mod tests {
     use super::*;
     use crate::model::{ContactConvention, Preparation, Protocol, Sampling, Stack};
-    use crate::runs::Load;
 
     #[test]
     fn what_two_workloads_want_both_get() {
@@ -114,7 +113,7 @@ mod tests {
     fn a_run_that_several_workloads_want_is_made_once() {
         let cases = |friction: f64| [2e-4, 1e-4].map(|wall_speed| case(friction, wall_speed));
         let (some, others) = (cases(0.2), cases(0.3));
-        let load = |code, cases: [&[Case]; 2]| Load {
+        let load = |code, cases: [&[Case]; 2]| Workload {
             code,
             cases: cases.concat(),
         };

@@ -10,7 +10,9 @@ mod session;
 
 pub use owner::LockOwner;
 
+use super::observations::ObservedRun;
 use crate::code::{Identity, Provenance, Run};
+use crate::dem::{EventRun, Observation};
 use crate::files::{FileError, seal, unseal, write_atomically_via};
 use crate::model::{Case, shown};
 use crate::runs::{Archive, ProbeRecord};
@@ -18,6 +20,11 @@ use session::Session;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
+
+/// Directory of the probes.
+const PROBES: &str = "probes";
+/// Directory of the observations of event runs.
+const OBSERVATIONS: &str = "observations";
 
 /// Why a store cannot be used.
 #[derive(Debug, Error)]
@@ -132,12 +139,10 @@ impl Store {
     /// # Errors
     /// If there is one, but damaged.
     pub fn probe(&self, address: &str) -> Result<Option<ProbeRecord>, FileError> {
-        let path = self.probe_path(address);
-        match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(FileError::reading(&path)(error)),
-            Ok(sealed) => ProbeRecord::parse(unseal(&path, &sealed)?, &path).map(Some),
-        }
+        let path = self.path(PROBES, address);
+        let text = read_sealed(&path)?;
+        text.map(|text| ProbeRecord::parse(&text, &path))
+            .transpose()
     }
 
     /// Keeps a probe.
@@ -145,9 +150,7 @@ impl Store {
     /// # Errors
     /// If it cannot be written.
     pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
-        let path = self.probe_path(address);
-        let sealed = seal(record.to_json().as_bytes());
-        write_atomically_via(self.session.work(), &path, &sealed)
+        self.put_sealed(&self.path(PROBES, address), &record.to_json())
     }
 
     /// Puts the damaged probe under `address` aside, and says where it is now.
@@ -155,10 +158,44 @@ impl Store {
     /// # Errors
     /// If it cannot be moved.
     pub fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
-        let aside = self.aside(address);
-        self.archive
-            .move_away(&self.probe_path(address), &aside)
-            .map(|()| aside)
+        self.put_file_aside(PROBES, address)
+    }
+
+    /// The kept observation of `run`, if there is one.
+    ///
+    /// # Errors
+    /// If there is one, but damaged.
+    pub fn observation(&self, run: &EventRun) -> Result<Option<Observation>, FileError> {
+        let path = self.path(OBSERVATIONS, &run.address());
+        let Some(text) = read_sealed(&path)? else {
+            return Ok(None);
+        };
+        let kept = ObservedRun::parse(&text, &path)?;
+        Ok((kept.run == *run).then_some(kept.observation))
+    }
+
+    /// Keeps the `observation` of `run`.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn put_observation(
+        &self,
+        run: &EventRun,
+        observation: &Observation,
+    ) -> Result<(), FileError> {
+        let kept = ObservedRun {
+            run: *run,
+            observation: *observation,
+        };
+        self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &kept.to_json())
+    }
+
+    /// Puts the damaged observation of `run` into quarantine, and returns its place there.
+    ///
+    /// # Errors
+    /// If it cannot be moved.
+    pub fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
+        self.put_file_aside(OBSERVATIONS, &run.address())
     }
 
     /// Says of each of the runs under `addresses` who else is making it. The others are now this program's to make,
@@ -188,9 +225,21 @@ impl Store {
         self.session.work()
     }
 
-    fn probe_path(&self, address: &str) -> PathBuf {
+    /// The file of one `kind` under `address`.
+    fn path(&self, kind: &str, address: &str) -> PathBuf {
         let name = format!("{address}.json");
-        self.archive.root().join("probes").join(name)
+        self.archive.root().join(kind).join(name)
+    }
+
+    fn put_sealed(&self, path: &Path, content: &str) -> Result<(), FileError> {
+        write_atomically_via(self.session.work(), path, &seal(content.as_bytes()))
+    }
+
+    fn put_file_aside(&self, kind: &str, address: &str) -> Result<PathBuf, FileError> {
+        let aside = self.aside(address);
+        self.archive
+            .move_away(&self.path(kind, address), &aside)
+            .map(|()| aside)
     }
 
     /// A place that is free.
@@ -199,6 +248,15 @@ impl Store {
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| !place.exists());
         free.expect("numbers do not end before places do")
+    }
+}
+
+/// The content of the sealed file at `path`, if there is one.
+fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
+    match std::fs::read(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(FileError::reading(path)(error)),
+        Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::code::{Code, Failure, InstalledCode, RunContext, keep_evidence};
 use crate::code::{Identity, Provenance};
 use crate::files::FileError;
 use crate::model::{ContactTest, sha256_hex, shown};
-use crate::runs::{Answer, ProbeRecord};
+use crate::runs::{Answer, ProbeRecord, in_parallel};
 use crate::runs::{Progress, RecordedError, SelectedCode, Settings};
 use crate::study::Verdict;
 use crate::study::convention::{Finding, probe};
@@ -55,18 +55,9 @@ pub fn probe_all(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Probed> {
-    let mut results = Vec::new();
-    for group in codes.chunks(settings.threads.max(1)) {
-        std::thread::scope(|scope| {
-            let handles: Vec<_> = group
-                .iter()
-                .map(|who| scope.spawn(|| findings(who, settings, progress)))
-                .collect();
-            let joined = handles.into_iter().map(|handle| handle.join());
-            results.extend(joined.map(|result| result.expect("a probe does not panic")));
-        });
-    }
-    results
+    in_parallel(codes, settings.threads, |who| {
+        findings(who, settings, progress)
+    })
 }
 
 fn findings(who: &SelectedCode, settings: &Settings, progress: &dyn Progress) -> Probed {

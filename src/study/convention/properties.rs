@@ -119,9 +119,9 @@ pub fn tangential_properties(
 ) -> Vec<Property> {
     let convention = &test.convention;
     let stiffness = test.tangential_stiffness();
-    let arm = match kind {
-        ContactKind::Pair => convention.pair_arm,
-        ContactKind::Floor | ContactKind::Wall => convention.floor_arm,
+    let arms = match kind {
+        ContactKind::Pair => convention.arms.pair,
+        ContactKind::Floor | ContactKind::Wall => convention.arms.floor,
     };
     let mut properties = vec![
         Property::at(kind, "tangential_stiffness", law.stiffness, stiffness),
@@ -132,9 +132,9 @@ pub fn tangential_properties(
             convention.damping(stiffness),
         ),
         Property::at(kind, "radius", law.radius, 1.0),
-        Property::at(kind, "torque_arm", law.torque_arm, arm),
-        Property::at(kind, "kinematic_arm", law.kinematic_arm, arm),
-        Property::at(kind, "damping_arm", law.damping_arm, arm),
+        Property::at(kind, "torque_arm", law.torque_arm, arms.torque),
+        Property::at(kind, "kinematic_arm", law.kinematic_arm, arms.kinematic),
+        Property::at(kind, "damping_arm", law.damping_arm, arms.kinematic),
     ];
     if kind == ContactKind::Pair {
         let declared = match convention.history_update {

@@ -4,6 +4,7 @@ use super::statistics::{fastest, median};
 use super::target::{BenchError, convention};
 use crate::code::{Code, InstalledCode, RunContext};
 use crate::model::Pyramid;
+use crate::series::PyramidRun;
 
 /// Softer than this the lowest row of a hundred would be pressed flat.
 const STIFFNESS: f64 = 1e5;
@@ -73,10 +74,10 @@ impl PyramidBench {
                     directory: &context.directory.join(directory),
                     ..*context
                 };
-                let run = code.pyramid(&self.pyramid(cost.code, cost.rows), &context)?;
-                let cylinder_steps = cost.timed_steps as f64 * cost.cylinders as f64;
-                cost.nanoseconds
-                    .push(1e9 * run.timed_seconds() / cylinder_steps);
+                let pyramid = self.pyramid(cost.code, cost.rows);
+                for run in code.build(&[pyramid], &context)? {
+                    cost.add(&run);
+                }
             }
         }
         Ok(costs)
@@ -113,6 +114,12 @@ impl PyramidBench {
 }
 
 impl PyramidCost {
+    fn add(&mut self, run: &PyramidRun) {
+        let cylinder_steps = self.timed_steps as f64 * self.cylinders as f64;
+        let nanoseconds = 1e9 * run.timed_seconds() / cylinder_steps;
+        self.nanoseconds.push(nanoseconds);
+    }
+
     /// The median of the repeats, in nanoseconds per step and cylinder; not a number if there is none.
     pub fn median(&self) -> f64 {
         median(&self.nanoseconds)

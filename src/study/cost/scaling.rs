@@ -5,6 +5,7 @@ use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
 use crate::code::{Code, RunContext};
 use crate::model::Case;
+use crate::runs::in_parallel;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -145,14 +146,7 @@ fn on_cores(
     let hand = |core| cases.iter().copied().skip(core).step_by(cores).collect();
     let hands: Vec<Vec<Case>> = (0..cores).map(hand).collect();
     let start = Instant::now();
-    let results: Vec<_> = std::thread::scope(|scope| {
-        let start = |hand: Vec<Case>| scope.spawn(move || lanes.time(&hand, context));
-        let threads: Vec<_> = hands.into_iter().map(start).collect();
-        let joined = threads.into_iter().map(|thread| thread.join());
-        joined
-            .map(|result| result.expect("a run does not panic"))
-            .collect()
-    });
+    let results = in_parallel(&hands, cores, |hand| lanes.time(hand, context));
     let seconds = start.elapsed().as_secs_f64();
     for result in results {
         result?;

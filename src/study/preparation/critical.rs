@@ -1,10 +1,10 @@
 //! A*, the push up to which the bottom cylinders end without contact.
 
-use super::plan::{PreparationPlan, plan_preparation};
+use super::plan::plan_preparation;
 use crate::code::Code;
 use crate::model::Stack;
-use crate::runs::RunSummary;
-use crate::runs::{Progress, RunError, SelectedCode, Settings, read_all};
+use crate::runs::{RunError, RunSummary, Workload};
+use crate::study::Campaign;
 use crate::study::yield_force::MIDDLE_RUN;
 use serde::Serialize;
 
@@ -29,11 +29,10 @@ pub struct CriticalPush {
 /// # Errors
 /// The first run that failed.
 pub fn critical_pushes(
+    campaign: &Campaign,
     stacks: &[Stack],
-    settings: &Settings,
-    progress: &dyn Progress,
 ) -> Result<Vec<Option<CriticalPush>>, RunError> {
-    let mut intervals = first_contacts(stacks, settings, progress)?;
+    let mut intervals = first_contacts(campaign, stacks)?;
     for _ in 0..HALVINGS {
         let open = stacks.iter().zip(&intervals);
         let middles: Vec<(Stack, f64)> = open
@@ -41,7 +40,7 @@ pub fn critical_pushes(
                 interval.map(|(low, high)| (*stack, 0.5 * (low + high)))
             })
             .collect();
-        let answers = touching(&middles, settings, progress)?;
+        let answers = touching(campaign, &middles)?;
         let answered = middles.iter().zip(answers);
         for ((low, high), ((_, middle), touches)) in intervals.iter_mut().flatten().zip(answered) {
             *(if touches { high } else { low }) = *middle;
@@ -59,9 +58,8 @@ pub fn critical_pushes(
 
 /// The last push of the grid without contact and the first with it, for each stack.
 fn first_contacts(
+    campaign: &Campaign,
     stacks: &[Stack],
-    settings: &Settings,
-    progress: &dyn Progress,
 ) -> Result<Vec<Option<(f64, f64)>>, RunError> {
     let count = (LARGEST / GRID) as usize + 1;
     let on_grid = |index: usize, stack: &Stack| GRID * index as f64 * stack.epsilon();
@@ -69,7 +67,7 @@ fn first_contacts(
         .iter()
         .flat_map(|stack| (0..count).map(move |index| (*stack, on_grid(index, stack))));
     let grid: Vec<(Stack, f64)> = grid.collect();
-    let touching = touching(&grid, settings, progress)?;
+    let touching = touching(campaign, &grid)?;
     Ok(stacks
         .iter()
         .zip(touching.chunks(count))
@@ -82,22 +80,18 @@ fn first_contacts(
 
 /// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given
 /// push.
-fn touching(
-    pushed: &[(Stack, f64)],
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Result<Vec<bool>, RunError> {
-    let name = Code::Native;
-    let plans = pushed.iter().map(|(stack, push)| {
-        let mut plan = plan_preparation(name, name, stack, Some(*push));
-        let middle = plan.measurement.cases.get(MIDDLE_RUN).copied();
-        plan.measurement.cases = middle.into_iter().collect();
-        plan
+fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, RunError> {
+    let native = Code::Native;
+    let workloads = pushed.iter().map(|(stack, push)| {
+        let plan = plan_preparation(native, native, stack, Some(*push));
+        Workload {
+            code: native,
+            cases: plan.cases().get(MIDDLE_RUN).copied().into_iter().collect(),
+        }
     });
-    let plans: Vec<PreparationPlan> = plans.collect();
-    let native = [SelectedCode::find(name)];
+    let workloads: Vec<Workload> = workloads.collect();
     let touches = |summary: RunSummary| summary.contact_force.is_some_and(|force| force > 0.0);
-    let results = read_all(&plans, &native, settings, progress);
+    let results = campaign.read_native(&workloads);
     results
         .into_iter()
         .map(|results| {

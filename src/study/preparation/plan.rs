@@ -2,7 +2,6 @@
 
 use crate::code::Code;
 use crate::model::{Case, Preparation, Protocol, Sampling, SideWalls, Stack};
-use crate::runs::Workload;
 use crate::study::yield_force::{Measurement, SHORT_RAMP_RUN, plan};
 
 /// How much further the wall goes than after a gravity ramp: a stack that starts with c > 0 yields later.
@@ -41,12 +40,9 @@ pub struct PreparationPlan {
     pub measurement: Measurement,
 }
 
-impl Workload for PreparationPlan {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
+impl PreparationPlan {
+    /// The runs.
+    pub fn cases(&self) -> &[Case] {
         &self.measurement.cases
     }
 }

@@ -4,13 +4,13 @@ use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::code::Code;
 use crate::code::Provenance;
-use crate::model::{CRITICAL_FRICTION, Case, Stack};
-use crate::runs::RunSummary;
-use crate::runs::{Progress, RunError, SelectedCode, Settings, Workload, read_all};
+use crate::model::{Arms, CRITICAL_FRICTION, Case, Stack};
+use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{
     COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, extrapolate, peak_allowance,
 };
+use crate::study::{Campaign, Evaluation, Ground, Grounds, Judged, Study};
 use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use serde::Serialize;
 
@@ -112,17 +112,16 @@ const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 /// # Errors
 /// See [`study_preparation`].
 pub fn preparation_studies(
+    campaign: &Campaign,
     codes: &[Code],
-    settings: &Settings,
-    progress: &dyn Progress,
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let stacks: Vec<Stack> = STIFFNESSES
         .iter()
         .flat_map(|&stiffness| FRICTIONS.map(|friction| Stack::paper(friction, stiffness)))
         .collect();
     let (first, others) = stacks.split_at(1);
-    let mut studies = study_preparation(first, &PUSHES, codes, settings, progress)?;
-    studies.extend(study_preparation(others, &PUSHES, &[], settings, progress)?);
+    let mut studies = study_preparation(campaign, first, &PUSHES, codes)?;
+    studies.extend(study_preparation(campaign, others, &PUSHES, &[])?);
     Ok(studies)
 }
 
@@ -130,15 +129,11 @@ pub fn preparation_studies(
 ///
 /// # Errors
 /// If a step of the bisection failed.
-pub fn preparation_cases(
-    code: Code,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Result<Vec<Case>, RunError> {
+pub fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
-    let critical = critical_pushes(&[stack], settings, progress)?;
+    let critical = critical_pushes(campaign, &[stack])?;
     let critical = critical.first().and_then(Option::as_ref);
-    let mut plans = plans(&stack, &PUSHES, critical, &[code]);
+    let mut plans = plans_of(&stack, &PUSHES, critical, &[code]);
     plans.retain(|plan| plan.code == code);
     Ok(plans
         .iter()
@@ -154,38 +149,35 @@ pub fn preparation_cases(
 /// # Errors
 /// If a step of the bisection failed. A failed row says so in its note.
 pub fn study_preparation(
+    campaign: &Campaign,
     stacks: &[Stack],
     relative_pushes: &[f64],
     codes: &[Code],
-    settings: &Settings,
-    progress: &dyn Progress,
 ) -> Result<Vec<PreparationStudy>, RunError> {
-    let critical = critical_pushes(stacks, settings, progress)?;
+    let critical = critical_pushes(campaign, stacks)?;
     let mut names = [&[Code::Native], codes].concat();
     names.sort();
     names.dedup();
-    let codes: Vec<SelectedCode> = names.iter().copied().map(SelectedCode::find).collect();
-    let plans: Vec<Vec<PreparationPlan>> = stacks
-        .iter()
-        .zip(&critical)
-        .map(|(stack, critical)| plans(stack, relative_pushes, critical.as_ref(), &names))
-        .collect();
-    let all: Vec<PreparationPlan> = plans.concat();
-    let results = read_all(&all, &codes, settings, progress);
-    let mut rows = all.iter().zip(results).map(|(plan, runs)| row(plan, runs));
-    let studies = stacks.iter().zip(critical).zip(plans);
+    let plans = stacks.iter().zip(&critical);
+    let plans =
+        plans.map(|(stack, critical)| plans_of(stack, relative_pushes, critical.as_ref(), &names));
+    let plans: Vec<Vec<PreparationPlan>> = plans.collect();
+    let counts: Vec<usize> = plans.iter().map(Vec::len).collect();
+    let judged = campaign.carry_out(plans.concat());
+    let mut rows = judged.into_iter().map(PreparationRow::new);
+    let studies = stacks.iter().zip(critical).zip(counts);
     Ok(studies
-        .map(|((stack, found), plans)| PreparationStudy {
+        .map(|((stack, found), count)| PreparationStudy {
             stack: *stack,
-            exact_force: quasistatic_limit(stack, 0.0, 0.0).yield_force,
+            exact_force: quasistatic_limit(stack, &Arms::PAPER).yield_force,
             predicted_critical_push: critical_push(stack),
             critical_push: found,
-            rows: rows.by_ref().take(plans.len()).collect(),
+            rows: rows.by_ref().take(count).collect(),
         })
         .collect())
 }
 
-fn plans(
+fn plans_of(
     stack: &Stack,
     relative_pushes: &[f64],
     critical: Option<&CriticalPush>,
@@ -219,66 +211,107 @@ fn plans(
 
 fn limit_force(plan: &PreparationPlan) -> Option<f64> {
     let convention = plan.convention_of.convention();
-    let arms = (convention.pair_arm, convention.floor_arm);
     match plan.push {
         None => plan.measurement.limit.yield_force,
-        Some(push) if arms == (0.0, 0.0) => pushed_slip_force(&plan.measurement.stack, push),
+        Some(push) if convention.arms == Arms::PAPER => {
+            pushed_slip_force(&plan.measurement.stack, push)
+        }
         Some(_) => None,
     }
 }
 
-fn row(plan: &PreparationPlan, runs: Vec<Result<RunSummary, RunError>>) -> PreparationRow {
-    let mut row = PreparationRow {
-        code: plan.code,
-        convention_of: plan.convention_of,
-        push: plan.push,
-        limit_force: limit_force(plan),
-        contact_force: None,
-        contact_uncertainty: None,
-        yield_force: None,
-        uncertainty: None,
-        estimator: None,
-        note: None,
-        provenances: Vec::new(),
-    };
-    match runs
-        .into_iter()
-        .collect::<Result<Vec<RunSummary>, RunError>>()
-    {
-        Ok(runs) if runs.is_empty() => row.note = Some("nothing yields".to_owned()),
-        Ok(runs) => row.read(plan, &runs),
-        Err(error) => row.note = Some(error.to_string()),
-    }
-    row
+/// What the runs of one preparation show.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparationFinding {
+    /// c between the bottom cylinders when the compression begins, in m g.
+    contact_force: Option<f64>,
+    /// What twice the time step and half the rests change of it, in m g.
+    contact_uncertainty: Option<f64>,
+    /// F at vanishing wall speed with its uncertainty, in m g.
+    yield_force: Option<(f64, f64, Estimator)>,
+    /// Where the runs come from.
+    provenances: Vec<Provenance>,
 }
 
-impl PreparationRow {
-    fn read(&mut self, plan: &PreparationPlan, runs: &[RunSummary]) {
+impl Study for PreparationPlan {
+    type Reading = RunSummary;
+    type Finding = PreparationFinding;
+
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    fn workloads(&self) -> Vec<Workload> {
+        self.measurement.workloads()
+    }
+
+    fn evaluate(&self, runs: Vec<Vec<RunSummary>>) -> Evaluation<PreparationFinding> {
+        let runs: Vec<RunSummary> = runs.into_iter().flatten().collect();
         let contact = |run: usize| runs.get(run)?.contact_force;
         let change = |run: usize| Some((contact(run)? - contact(MIDDLE_RUN)?).abs());
         let changes = change(COARSE_TIME_STEP_RUN).zip(change(SHORT_RAMP_RUN));
-        self.contact_force = contact(MIDDLE_RUN);
-        self.contact_uncertainty = changes.map(|(time_step, rest)| time_step + rest);
-        self.provenances = runs.iter().map(|run| run.provenance.clone()).collect();
+        let yield_force = self.yield_force(&runs);
+        let mut grounds = Grounds::new();
+        if runs.is_empty() {
+            grounds.add(Ground::NoYield(Some("nothing yields".to_owned())));
+        } else if yield_force.is_none() {
+            grounds.add(Ground::NoYield(Some(
+                "the wall force has no peak".to_owned(),
+            )));
+        }
+        Evaluation {
+            finding: PreparationFinding {
+                contact_force: contact(MIDDLE_RUN),
+                contact_uncertainty: changes.map(|(time_step, rest)| time_step + rest),
+                yield_force,
+                provenances: runs.into_iter().map(|run| run.provenance).collect(),
+            },
+            grounds,
+        }
+    }
+}
+
+impl PreparationPlan {
+    /// F with its uncertainty, by slip onset where the peak does not contradict it, by the peak elsewhere;
+    /// `None` without a peak.
+    fn yield_force(&self, runs: &[RunSummary]) -> Option<(f64, f64, Estimator)> {
         let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
-        let steps: Vec<u64> = plan.cases().iter().map(Case::total_steps).collect();
-        let stiffness = plan.measurement.stack.stiffness;
+        let steps: Vec<u64> = self.cases().iter().map(Case::total_steps).collect();
+        let stiffness = self.measurement.stack.stiffness;
         let slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
-        let Some(peak) = extrapolate(&estimates, &steps, stiffness, |run| run.peak) else {
-            self.note = Some("the wall force has no peak".to_owned());
-            return;
-        };
-        let allowance = peak_allowance(&plan.measurement, peak.force).unwrap_or(0.0);
+        let peak = extrapolate(&estimates, &steps, stiffness, |run| run.peak)?;
+        let allowance = peak_allowance(&self.measurement, peak.force).unwrap_or(0.0);
         let peak_uncertainty = peak.budget.total() + allowance;
         let same = slip.filter(|slip| {
             (slip.force - peak.force).abs() <= slip.budget.total() + peak_uncertainty
         });
-        let (force, uncertainty, estimator) = match same {
+        Some(match same {
             Some(slip) => (slip.force, slip.budget.total(), Estimator::SlipOnset),
             None => (peak.force, peak_uncertainty, Estimator::Peak),
-        };
-        self.yield_force = Some(force);
-        self.uncertainty = Some(uncertainty);
-        self.estimator = Some(estimator);
+        })
+    }
+}
+
+impl PreparationRow {
+    fn new(judged: Judged<PreparationPlan, PreparationFinding>) -> Self {
+        let note = judged.notes().join("; ");
+        let plan = judged.study;
+        let finding = judged.finding.as_ref();
+        let force = finding.and_then(|finding| finding.yield_force);
+        Self {
+            code: plan.code,
+            convention_of: plan.convention_of,
+            push: plan.push,
+            limit_force: limit_force(&plan),
+            contact_force: finding.and_then(|finding| finding.contact_force),
+            contact_uncertainty: finding.and_then(|finding| finding.contact_uncertainty),
+            yield_force: force.map(|(force, ..)| force),
+            uncertainty: force.map(|(_, uncertainty, _)| uncertainty),
+            estimator: force.map(|(.., estimator)| estimator),
+            note: (!note.is_empty()).then_some(note),
+            provenances: judged
+                .finding
+                .map_or_else(Vec::new, |finding| finding.provenances),
+        }
     }
 }

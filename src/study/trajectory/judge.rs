@@ -2,7 +2,7 @@
 
 use super::distance::Distance;
 use super::documented::DocumentedOrder;
-use crate::study::Verdict;
+use crate::study::{Ground, Grounds, Verdict};
 use std::f64::consts::LN_2;
 
 /// Largest distance of the wall force up to its peak that agrees, at the finest time step, in units of the
@@ -65,42 +65,37 @@ pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     Some(if coarser_is_better { coarser } else { finer })
 }
 
-/// The verdict on `distances`, coarsest time step first, and what explains it if it is not `agrees`.
+/// What `distances`, coarsest time step first, say for or against the order that is documented for them.
 /// `step_error` is the largest change of the twin itself when its time step is halved; it bounds what
 /// falls irregularly.
 pub fn judge_order(
     documented: DocumentedOrder,
     distances: &[Distance],
     step_error: f64,
-) -> (Verdict, Option<String>) {
+) -> Grounds {
+    let mut grounds = Grounds::new();
     let Some(finest) = distances.last() else {
-        return (Verdict::Missing, None);
+        grounds.add(Ground::Missing("there are no distances".to_owned()));
+        return grounds;
     };
-    let within = |limit: f64, name: &str| {
-        let verdict = Verdict::of(finest.largest, 0.0, limit);
-        let note = format!(
-            "the distance {:.1e} exceeds {name}, {limit:.1e}",
-            finest.largest
-        );
-        (verdict, (verdict != Verdict::Agrees).then_some(note))
+    let (limit, name) = match documented {
+        DocumentedOrder::RoundOff => (finest.round_off, "what rounding can do"),
+        _ => (step_error, "what the time step does to the twin itself"),
     };
-    match documented {
-        DocumentedOrder::RoundOff => within(finest.round_off, "what rounding can do"),
-        DocumentedOrder::Irregular => {
-            within(step_error, "what the time step does to the twin itself")
-        }
-        DocumentedOrder::First | DocumentedOrder::Second => {
-            let bounded = within(step_error, "what the time step does to the twin itself");
-            if bounded.0 != Verdict::Agrees {
-                return bounded;
-            }
-            let order = match documented {
-                DocumentedOrder::First => 1.0,
-                _ => 2.0,
-            };
-            judge_whole_order(order, finest, observed_order(distances))
-        }
+    let note = format!(
+        "the distance {:.1e} exceeds {name}, {limit:.1e}",
+        finest.largest
+    );
+    grounds.compare(finest.largest, 0.0, limit, Some(note));
+    let order = match documented {
+        DocumentedOrder::RoundOff | DocumentedOrder::Irregular => return grounds,
+        DocumentedOrder::First => 1.0,
+        DocumentedOrder::Second => 2.0,
+    };
+    if grounds.verdict() == Verdict::Agrees {
+        judge_whole_order(order, finest, observed_order(distances), &mut grounds);
     }
+    grounds
 }
 
 /// Distances below this many times what rounding can do have noise above [`ORDER_TOLERANCE`] in their order.
@@ -110,29 +105,26 @@ fn judge_whole_order(
     expected: f64,
     finest: &Distance,
     observed: Option<ObservedOrder>,
-) -> (Verdict, Option<String>) {
+    grounds: &mut Grounds,
+) {
     let Some(seen) = observed else {
-        let vanished = finest.largest <= finest.round_off;
-        let note = "too few time steps for an order".to_owned();
-        return if vanished {
-            (Verdict::Agrees, None)
-        } else {
-            (Verdict::Inconclusive, Some(note))
-        };
+        if finest.largest > finest.round_off {
+            grounds.add(Ground::Doubt("too few time steps for an order".to_owned()));
+        }
+        return;
     };
-    let verdict = Verdict::of(seen.order - expected, seen.uncertainty(), ORDER_TOLERANCE);
     // So close to rounding there is nothing left whose order could be seen.
     let near = finest.largest <= NEAR_ROUND_OFF * finest.round_off;
-    let vanished = verdict == Verdict::Inconclusive && seen.noise > ORDER_TOLERANCE && near;
-    if verdict == Verdict::Agrees || vanished {
-        return (Verdict::Agrees, None);
+    let error = seen.order - expected;
+    if near && seen.noise > ORDER_TOLERANCE && error.abs() <= seen.uncertainty() {
+        return;
     }
     let note = format!(
         "the order is {:.2} ± {:.2}, documented is {expected}",
         seen.order,
         seen.uncertainty()
     );
-    (verdict, Some(note))
+    grounds.compare(error, seen.uncertainty(), ORDER_TOLERANCE, Some(note));
 }
 
 #[cfg(test)]
@@ -152,7 +144,7 @@ mod tests {
     }
 
     fn verdict(order: DocumentedOrder, distances: &[Distance]) -> Verdict {
-        judge_order(order, distances, 1e-3).0
+        judge_order(order, distances, 1e-3).verdict()
     }
 
     #[test]
@@ -231,11 +223,11 @@ mod tests {
     fn what_falls_irregularly_must_stay_below_the_error_of_the_step() {
         let small = distances(|h| 1e-5 * h.powi(3), 0.0);
         assert_eq!(
-            judge_order(DocumentedOrder::Irregular, &small, 1e-6).0,
+            judge_order(DocumentedOrder::Irregular, &small, 1e-6).verdict(),
             Verdict::Agrees
         );
         assert_eq!(
-            judge_order(DocumentedOrder::Irregular, &small, 1e-8).0,
+            judge_order(DocumentedOrder::Irregular, &small, 1e-8).verdict(),
             Verdict::Differs
         );
     }

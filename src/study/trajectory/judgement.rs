@@ -3,30 +3,20 @@
 use super::distance::{Branch, Distance, Quantity};
 use super::documented::{Documented, DocumentedOrder};
 use super::judge::order_between;
-use super::plan::Twin;
-use crate::code::Code;
-use crate::study::Source;
-use crate::study::Verdict;
-use crate::study::convention::{Probed, contradictions, is_contradicted};
+use super::plan::{Trajectory, Twin};
+use crate::study::{Grounds, Judged, Verdict};
 
-/// What is said of one code.
+/// What the runs of a code show beside those of its twins.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TrajectoryJudgement {
-    /// The code.
-    pub code: Code,
-    /// Its version.
-    pub version: String,
-    /// Live or recorded.
-    pub source: Source,
+pub struct TrajectoryFinding {
     /// Times of the peak, of the loss of the wall and of the landing; `None` if there is no comparison.
     pub times: Option<[f64; 3]>,
-    /// Every quantity on every branch with every twin; none if a run is not there or shows no yield.
+    /// Every quantity on every branch with every twin; none if a run shows no yield.
     pub comparisons: Vec<Comparison>,
-    /// What stands in place of the comparisons where there are none.
-    pub verdict: Verdict,
-    /// What explains that verdict.
-    pub notes: Vec<String>,
 }
+
+/// A code that has been compared with its twins.
+pub type TrajectoryJudgement = Judged<Trajectory, TrajectoryFinding>;
 
 /// One quantity on one branch with one twin.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,49 +33,39 @@ pub struct Comparison {
     pub distances: Vec<Distance>,
     /// Largest change of the twin itself when its time step is halved.
     pub step_error: f64,
-    /// What follows.
-    pub verdict: Verdict,
-    /// What explains a verdict other than `agrees`.
-    pub note: Option<String>,
+    /// What speaks for and against it.
+    pub grounds: Grounds,
 }
 
 impl TrajectoryJudgement {
-    /// The verdict on every comparison, or the one in their place.
-    pub fn verdicts(&self) -> Vec<Verdict> {
-        if self.comparisons.is_empty() {
-            return vec![self.verdict];
+    /// The comparisons; none where a run is not there or the convention of the twin is not that of the code.
+    pub fn comparisons(&self) -> &[Comparison] {
+        match &self.finding {
+            Some(finding) if self.grounds.is_judged() => &finding.comparisons,
+            _ => &[],
         }
-        self.comparisons
-            .iter()
-            .map(|comparison| comparison.verdict)
-            .collect()
     }
 
-    /// Takes the judgement back where the twin has a convention that the code does not have, or is not known to
-    /// have: `probes` are those of the codes.
-    pub fn unless_contradicted<'a>(
-        mut self,
-        probes: impl IntoIterator<Item = (Code, &'a Probed)>,
-    ) -> Self {
-        let mut probes = probes.into_iter();
-        let own = probes.find(|(code, _)| *code == self.code);
-        let Some((_, probed)) = own.filter(|_| !self.comparisons.is_empty()) else {
-            return self;
-        };
-        if let Some(first) = contradictions(probed).first() {
-            self.notes.push(format!("not judged: {first}"));
-            self.comparisons.clear();
-            self.verdict = if is_contradicted(probed) {
-                Verdict::Differs
-            } else {
-                Verdict::Inconclusive
-            };
+    /// Times of the peak, of the loss of the wall and of the landing; `None` if there is no comparison.
+    pub fn times(&self) -> Option<[f64; 3]> {
+        self.finding.as_ref()?.times
+    }
+
+    /// The verdict on every comparison, or the one in their place.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        match self.comparisons() {
+            [] => vec![self.verdict()],
+            comparisons => comparisons.iter().map(Comparison::verdict).collect(),
         }
-        self
     }
 }
 
 impl Comparison {
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        self.grounds.verdict()
+    }
+
     /// The order between the two finest time steps; `None` if there is nothing but rounding.
     pub fn last_order(&self) -> Option<f64> {
         let [.., coarser, finest] = self.distances.as_slice() else {

@@ -5,18 +5,17 @@
 //! contact move the series. If the twin does what the code does, what is left is round-off, or falls with
 //! the time step at the order that the known difference in the algorithms has.
 
-mod carry_out;
+mod compare;
 mod distance;
 mod documented;
 mod judge;
 mod judgement;
 mod plan;
 
-pub use carry_out::measure_trajectories;
 pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
 pub use documented::{Documented, DocumentedOrder, documented};
 pub use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
-pub use judgement::{Comparison, TrajectoryJudgement};
+pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement};
 pub use plan::{
     TIME_STEPS, Trajectory, Twin, TwinRuns, WALL_SPEED, plan_trajectory, trajectory_stack,
 };

@@ -4,7 +4,6 @@ use crate::code::Code;
 use crate::model::{
     Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack,
 };
-use crate::runs::Workload;
 use crate::theory::quasistatic_limit;
 use serde::{Deserialize, Serialize};
 
@@ -85,16 +84,6 @@ pub struct Trajectory {
     pub twins: Vec<TwinRuns>,
 }
 
-impl Workload for Trajectory {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
-}
-
 /// Plans the trajectories of `stack` by `code` and by native twins that take on the convention `declared`
 /// for it. Nothing is planned where the stack does not yield.
 pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -> Trajectory {
@@ -140,7 +129,7 @@ fn twin_runs(twin: Twin, cases: Vec<Case>) -> Option<TwinRuns> {
 
 /// One protocol per time step; none where nothing yields.
 fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
-    let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
+    let limit = quasistatic_limit(stack, &convention.arms);
     let Some(travel) = limit.yield_force.and(limit.wall_travel) else {
         return Vec::new();
     };

@@ -1,6 +1,6 @@
 //! What stands behind a row, and what it does not prove.
 
-use super::row::Row;
+use super::judgement::Judgement;
 use crate::code::Code;
 use crate::study::Source;
 
@@ -20,8 +20,8 @@ impl Evidence {
     pub const ALL: [Self; 3] = [Self::ClosedForm, Self::IndependentCode, Self::RecordedRun];
 
     /// The evidence of a row.
-    pub fn of(row: &Row) -> Self {
-        match (row.source, row.code) {
+    pub fn of(judgement: &Judgement) -> Self {
+        match (judgement.source, judgement.code) {
             (Source::Recorded, _) => Self::RecordedRun,
             (Source::Live, Code::Native) => Self::ClosedForm,
             (Source::Live, _) => Self::IndependentCode,

@@ -3,8 +3,9 @@
 use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
-use crate::runs::Workload;
+use crate::model::{
+    Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack,
+};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -87,16 +88,6 @@ pub struct Measurement {
     pub cases: Vec<Case>,
 }
 
-impl Workload for Measurement {
-    fn code(&self) -> Code {
-        self.code
-    }
-
-    fn cases(&self) -> &[Case] {
-        &self.cases
-    }
-}
-
 /// Plans the measurement of `stack` with `code` under `convention`.
 pub fn plan(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
     planned(code, stack, convention, Method::Extrapolated)
@@ -146,8 +137,8 @@ fn planned(
     convention: ContactConvention,
     method: Method,
 ) -> Measurement {
-    let limit = quasistatic_limit(stack, convention.pair_arm, convention.floor_arm);
-    let paper = quasistatic_limit(stack, 0.0, 0.0);
+    let limit = quasistatic_limit(stack, &convention.arms);
+    let paper = quasistatic_limit(stack, &Arms::PAPER);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
@@ -297,7 +288,7 @@ pub fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Opti
             floor_friction,
             ..*stack
         };
-        let limit = quasistatic_limit(&stack, convention.pair_arm, convention.floor_arm);
+        let limit = quasistatic_limit(&stack, &convention.arms);
         limit.event == Event::FloorSlip && limit.yield_force.is_some()
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();

@@ -4,6 +4,7 @@ use super::extrapolate::extrapolate;
 use super::plan::Measurement;
 use crate::runs::{Progress, RunError, SelectedCode, Settings, run_all};
 use crate::series::YieldEstimates;
+use crate::study::Study;
 
 /// A yield force computed with more digits.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +33,7 @@ pub fn measure_with_twin(
     };
     let stack = measurement.stack;
     let results = run_all(
-        std::slice::from_ref(measurement),
+        &measurement.workloads(),
         &[twin],
         settings,
         progress,

@@ -8,7 +8,7 @@ fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> Followed
         stiffness_ratio,
         ..Stack::paper(0.3, stiffness)
     };
-    followed_path(&stack, -0.5, -0.5, bottom)
+    followed_path(&stack, &Arms::reciprocal(-0.5, -0.5), bottom)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::super::events::{Event, Path, PathPoint, locate};
 use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
 use super::outcome::{CriticalState, LoadingPhase};
-use crate::model::Stack;
+use crate::model::{Arms, Stack};
 
 /// The path of equilibria, with c > 0 where the bottom cylinders touch. Floor friction and cylinder
 /// friction decide how far a stack gets on it, and nothing else.
@@ -29,7 +29,7 @@ impl EquilibriumPath {
         let open = ClosedForm::whole(stack);
         let closes = locate(&open, Event::ContactCloses, stack).is_some();
         let path = if closes {
-            let followed = followed_path(stack, 0.0, 0.0, BottomContact::Followed);
+            let followed = followed_path(stack, &Arms::PAPER, BottomContact::Followed);
             CoursePath::Closing(followed)
         } else {
             CoursePath::Open(open)

@@ -4,11 +4,11 @@ use super::super::events::Event;
 use super::equilibrium_path::EquilibriumPath;
 use super::release::Release;
 use crate::model::Stack;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// When something happens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LoadingPhase {
     /// While gravity grows, before there is a wall.

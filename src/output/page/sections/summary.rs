@@ -3,7 +3,7 @@
 use super::super::document::{Block, PageTable, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::output::DataTable;
 use crate::output::number::{percent, significant};
 use crate::output::table::Columns;
@@ -161,7 +161,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, 0.0, 0.0)));
+    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &Arms::PAPER)));
     let mut columns = Columns::<(Stack, Predictions)>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",
@@ -187,12 +187,12 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
     for code in Code::ALL {
         columns = columns
             .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
-                let mut rows = judgements.iter().map(|judgement| &judgement.row);
+                let mut rows = judgements.iter();
                 let own = rows.find(|row| {
-                    let place = (row.mu, row.stiffness);
+                    let place = (row.mu(), row.stiffness());
                     row.code == code && place == (stack.floor_friction, stack.stiffness)
                 });
-                own.and_then(|row| row.yield_force)
+                own.and_then(|row| row.yield_force())
             })
             .shown(code.as_str())
             .digits(seven_digits);

@@ -29,13 +29,13 @@ impl Agreement {
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
         let codes = Code::ALL.into_iter();
         let all = codes.map(|code| {
-            let rows = judgements.iter().map(|judgement| &judgement.row);
+            let rows = judgements.iter();
             let rows: Vec<_> = rows.filter(|row| row.code == code).collect();
-            let agreeing = rows.iter().filter(|row| row.verdict == Verdict::Agrees);
-            let errors = rows.iter().filter_map(|row| row.error.map(f64::abs));
+            let agreeing = rows.iter().filter(|row| row.verdict() == Verdict::Agrees);
+            let errors = rows.iter().filter_map(|row| row.error().map(f64::abs));
             let shares = rows
                 .iter()
-                .filter_map(|row| Some(row.error?.abs() / row.tolerance?));
+                .filter_map(|row| Some(row.error()?.abs() / row.tolerance()?));
             Self {
                 code,
                 agreeing: agreeing.count(),

@@ -48,8 +48,8 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &
 fn recorded(judgements: &[Judgement]) -> Option<String> {
     let mut codes: Vec<&str> = judgements
         .iter()
-        .filter(|judgement| judgement.row.source == Source::Recorded)
-        .map(|judgement| judgement.row.code.as_str())
+        .filter(|judgement| judgement.source == Source::Recorded)
+        .map(|judgement| judgement.code.as_str())
         .collect();
     codes.sort_unstable();
     codes.dedup();
@@ -67,17 +67,17 @@ fn unjudged(reproduction: &Reproduction) -> Vec<String> {
         .yield_curves
         .iter()
         .chain(&reproduction.scaling);
-    let open = rows
-        .filter(|judgement| !matches!(judgement.row.verdict, Verdict::Agrees | Verdict::Differs));
+    let open =
+        rows.filter(|judgement| !matches!(judgement.verdict(), Verdict::Agrees | Verdict::Differs));
     open.map(|judgement| {
-        let row = &judgement.row;
+        let row = judgement;
         format!(
             "{} at μ = {}, stiffness {} was not judged, {}: {}.",
             row.code,
-            friction(row.mu),
-            row.stiffness,
-            row.verdict,
-            judgement.notes.join("; ")
+            friction(row.mu()),
+            row.stiffness(),
+            row.verdict(),
+            judgement.notes().join("; ")
         )
     })
     .collect()

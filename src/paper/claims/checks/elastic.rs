@@ -1,7 +1,7 @@
 //! Eqs. (6) to (10) and (12), and what is said around them.
 
 use super::Check;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
@@ -184,7 +184,7 @@ fn stiff_limit_of_dem(paper: &PaperTheory) -> Finding {
 
 fn small_displacements(_: &PaperTheory) -> Finding {
     let displacements = [0.2, 0.3, 0.5].map(|mu| {
-        let limit = quasistatic_limit(&Stack::paper(mu, 1e8), 0.0, 0.0);
+        let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &Arms::PAPER);
         (mu, limit.z.unwrap_or(f64::NAN))
     });
     let listed: Vec<String> = displacements
@@ -202,7 +202,7 @@ fn small_displacements(_: &PaperTheory) -> Finding {
 fn slip_above_critical(_: &PaperTheory) -> Finding {
     let frictions = [0.27, 0.3, 0.4, 0.5];
     let forces =
-        frictions.map(|mu| quasistatic_limit(&Stack::paper(mu, 1e2), 0.0, 0.0).yield_force);
+        frictions.map(|mu| quasistatic_limit(&Stack::paper(mu, 1e2), &Arms::PAPER).yield_force);
     let yields = forces.iter().flatten().count();
     let evidence = format!(
         "the exact quasi-static limit at 1/epsilon = 1e2 yields at the floor for {yields} of {} frictions above mu_c \
@@ -241,7 +241,7 @@ fn elastic_equation_of_dem(_: &PaperTheory) -> Finding {
     let (deviation, mu, stiffness) = over_figure(load);
     let at = |mu: f64| {
         let stack = Stack::paper(mu, 1e4);
-        let exact = quasistatic_limit(&stack, 0.0, 0.0)
+        let exact = quasistatic_limit(&stack, &Arms::PAPER)
             .yield_force
             .unwrap_or(f64::NAN);
         100.0 * (load(&stack) / (exact + 3.0) - 1.0)
@@ -258,17 +258,18 @@ fn elastic_equation_of_dem(_: &PaperTheory) -> Finding {
 }
 
 fn arm_of_dem(_: &PaperTheory) -> Finding {
-    let change = |mu: f64, stiffness: f64, pair: f64, floor: f64| {
+    let half_way = Arms::reciprocal(-0.5, -1.0);
+    let change = |mu: f64, stiffness: f64| {
         let stack = Stack::paper(mu, stiffness);
-        let force = |pair, floor| {
-            quasistatic_limit(&stack, pair, floor)
+        let force = |arms| {
+            quasistatic_limit(&stack, arms)
                 .floor_slip_force
                 .unwrap_or(f64::NAN)
         };
-        force(pair, floor) / force(0.0, 0.0) - 1.0
+        force(&half_way) / force(&Arms::PAPER) - 1.0
     };
-    let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness, -0.5, -1.0));
-    let below = change(0.2, 1e4, -0.5, -1.0);
+    let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness));
+    let below = change(0.2, 1e4);
     let evidence = format!(
         "exact quasi-static limit with the contact point on the undeformed floor and half-way between cylinders \
          (r1 = -1 and -1/2) against r1 = 0: F changes by {:+.1} %, {:+.1} %, {:+.1} % at mu = 0.3, 1/epsilon = 1e2, 1e3, 1e4, and \

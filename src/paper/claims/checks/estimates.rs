@@ -1,7 +1,7 @@
 //! Orders of magnitude of the concluding remarks, and the cylinders of the movies.
 
 use super::Check;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::paper::claims::finding::{Finding, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::theory::{floor_slip_force, quasistatic_limit};
@@ -129,7 +129,7 @@ fn stiffness_range(paper: &PaperTheory) -> Finding {
             stiffness_ratio: paper.stiffness_ratio,
             ..Stack::paper(0.3, stiffness)
         };
-        quasistatic_limit(&stack, 0.0, 0.0)
+        quasistatic_limit(&stack, &Arms::PAPER)
             .yield_force
             .unwrap_or(f64::NAN)
     });

@@ -1,7 +1,7 @@
 //! Setup and rigid cylinders: Eqs. (1) to (4), and the supplement's repetition of the first three.
 
 use super::Check;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::paper::claims::finding::{Finding, imbalance, relative, worse, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{Forces, equilibrium, turned};
@@ -129,7 +129,7 @@ fn coulomb_slip(paper: &PaperTheory) -> Finding {
     let mut deviations = Vec::new();
     for mu in [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.5] {
         for stiffness in [1e2, 1e3, 1e4] {
-            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), 0.0, 0.0);
+            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &Arms::PAPER);
             if let (Some(tangent), Some(z), Some(force)) =
                 (limit.tangent, limit.z, limit.floor_slip_force)
             {
@@ -154,7 +154,7 @@ fn bottom_contact_open(paper: &PaperTheory) -> Finding {
                 stiffness_ratio: paper.stiffness_ratio,
                 ..Stack::paper(mu, stiffness)
             };
-            let limit = quasistatic_limit(&stack, 0.0, 0.0);
+            let limit = quasistatic_limit(&stack, &Arms::PAPER);
             let outward = limit.y.unwrap_or(f64::NAN) * stiffness;
             lowest = if outward.is_nan() {
                 f64::NAN

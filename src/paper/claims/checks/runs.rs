@@ -153,10 +153,10 @@ fn leapfrog(paper: &PaperTheory) -> Finding {
 
 /// Rows of the native DEM that have a force.
 fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
-    let rows = judgements.iter().map(|judgement| &judgement.row);
+    let rows = judgements.iter();
     let native = rows.filter(|row| row.code == Code::Native);
     native
-        .filter_map(|row| Some((row.mu, row.stiffness, row.yield_force?)))
+        .filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)))
         .collect()
 }
 

@@ -1,0 +1,244 @@
+//! The way of every study: which runs it needs, where they come from, what follows from them.
+
+use super::convention::{
+    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
+};
+use super::verdict::{Ground, Grounds, Source, Verdict};
+use crate::code::{Code, Identity};
+use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
+use std::sync::OnceLock;
+
+/// A study of one subject: the runs that it needs, and what follows from them.
+pub trait Study {
+    /// What is kept of each run.
+    type Reading: Reading;
+    /// What the runs say.
+    type Finding;
+
+    /// The code that is judged.
+    fn code(&self) -> Code;
+
+    /// The runs that the study needs; those of the judged code come first.
+    fn workloads(&self) -> Vec<Workload>;
+
+    /// What follows from the runs, in the order of the workloads and their cases. Every run is there.
+    fn evaluate(&self, runs: Vec<Vec<Self::Reading>>) -> Evaluation<Self::Finding>;
+}
+
+/// What follows from the runs of a study.
+pub struct Evaluation<F> {
+    /// What the runs say.
+    pub finding: F,
+    /// What speaks for and against it.
+    pub grounds: Grounds,
+}
+
+/// A study that has been carried out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged<S, F> {
+    /// What was asked.
+    pub study: S,
+    /// The code that is judged.
+    pub code: Code,
+    /// Its version.
+    pub version: String,
+    /// Whether its runs are live or recorded.
+    pub source: Source,
+    /// Whether the probe has measured its torque arms, and they are as declared.
+    pub arms_are_measured: bool,
+    /// What the runs say; `None` if one of them is not there.
+    pub finding: Option<F>,
+    /// What speaks for and against it.
+    pub grounds: Grounds,
+}
+
+impl<S, F> Judged<S, F> {
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        self.grounds.verdict()
+    }
+
+    /// What explains it.
+    pub fn notes(&self) -> Vec<&str> {
+        self.grounds.notes()
+    }
+}
+
+/// Carries out studies: the codes that take part, the runs that exist, and the conventions that were measured.
+pub struct Campaign<'a> {
+    codes: &'a [SelectedCode],
+    settings: &'a Settings<'a>,
+    progress: &'a dyn Progress,
+    probes: OnceLock<Vec<Probed>>,
+}
+
+impl<'a> Campaign<'a> {
+    /// A campaign with `codes`.
+    pub fn new(
+        codes: &'a [SelectedCode],
+        settings: &'a Settings<'a>,
+        progress: &'a dyn Progress,
+    ) -> Self {
+        Self {
+            codes,
+            settings,
+            progress,
+            probes: OnceLock::new(),
+        }
+    }
+
+    /// The codes that take part.
+    pub fn codes(&self) -> &'a [SelectedCode] {
+        self.codes
+    }
+
+    /// Their names.
+    pub fn names(&self) -> Vec<Code> {
+        self.codes.iter().map(|selected| selected.name).collect()
+    }
+
+    /// Where runs come from and go to.
+    pub fn settings(&self) -> &'a Settings<'a> {
+        self.settings
+    }
+
+    /// What the probe found out about each code, in their order; measured once.
+    pub fn probes(&self) -> &[Probed] {
+        self.probes
+            .get_or_init(|| probe_all(self.codes, self.settings, self.progress))
+    }
+
+    /// The same, for a caller that has no further use of the campaign.
+    pub fn into_probes(self) -> Vec<Probed> {
+        self.probes();
+        self.probes.into_inner().unwrap_or_default()
+    }
+
+    /// What is kept of each run of `workloads`.
+    pub fn read<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
+        read_all(workloads, self.codes, self.settings, self.progress)
+    }
+
+    /// The same for workloads of the native code, which need not take part in the campaign.
+    pub fn read_native<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
+        let native = [SelectedCode::find(Code::Native)];
+        read_all(workloads, &native, self.settings, self.progress)
+    }
+
+    /// Carries out `studies` and judges each. The order is kept; those that an interrupt has cut short are left
+    /// out.
+    pub fn carry_out<S: Study>(&self, studies: Vec<S>) -> Vec<Judged<S, S::Finding>> {
+        self.probes();
+        let workloads: Vec<Vec<Workload>> = studies.iter().map(S::workloads).collect();
+        let mut results = self.read(&workloads.concat()).into_iter();
+        let judged = studies.into_iter().zip(workloads).map(|(study, own)| {
+            let results = results.by_ref().take(own.len()).collect();
+            self.judge(study, results)
+        });
+        judged.flatten().collect()
+    }
+
+    fn judge<S: Study>(
+        &self,
+        study: S,
+        results: Vec<Vec<Result<S::Reading, RunError>>>,
+    ) -> Option<Judged<S, S::Finding>> {
+        let code = study.code();
+        let place = self.codes.iter().position(|own| own.name == code);
+        let probed = place.and_then(|place| self.probes().get(place));
+        let unprobed = probed.and_then(|probed| probed.as_ref().err());
+        let mut errors = results
+            .iter()
+            .flatten()
+            .filter_map(|run| run.as_ref().err());
+        if errors.any(RunError::is_interrupted)
+            || unprobed.is_some_and(|error| error.is_interrupted())
+        {
+            return None;
+        }
+        let installed = place.and_then(|place| self.codes[place].code.as_deref());
+        let mut judged = Judged {
+            version: installed.map_or_else(String::new, |one| one.identity().version.clone()),
+            source: installed.map_or(Source::Recorded, |_| Source::Live),
+            arms_are_measured: probed.is_some_and(arms_are_measured),
+            study,
+            code,
+            finding: None,
+            grounds: Grounds::new(),
+        };
+        let identities: Vec<Identity> = identities(results.first());
+        judged.name_version(&identities);
+        match complete(results) {
+            Ok(runs) => {
+                let evaluation = judged.study.evaluate(runs);
+                judged.finding = Some(evaluation.finding);
+                judged.grounds = evaluation.grounds;
+                // Where nothing yields in theory nothing has been run, and there is nothing to take back.
+                if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
+                    judged.grounds.hold_to_probe(probed, &identities);
+                }
+            }
+            Err(missing) => judged.grounds = missing,
+        }
+        Some(judged)
+    }
+}
+
+/// The programs that made the runs of the judged code.
+fn identities<R: Reading>(own: Option<&Vec<Result<R, RunError>>>) -> Vec<Identity> {
+    let runs = own
+        .into_iter()
+        .flatten()
+        .filter_map(|run| run.as_ref().ok());
+    runs.map(|run| run.identity().clone()).collect()
+}
+
+/// All runs, or why some of them are not there.
+fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Grounds> {
+    let mut grounds = Grounds::new();
+    for error in results
+        .iter()
+        .flatten()
+        .filter_map(|run| run.as_ref().err())
+    {
+        let note = error.to_string();
+        grounds.add(match error {
+            RunError::Failed(_) => Ground::Failed(note),
+            RunError::Missing(_) => Ground::Missing(note),
+        });
+    }
+    let complete = results.into_iter().map(|own| own.into_iter().collect());
+    let complete: Result<_, RunError> = complete.collect();
+    complete.map_err(|_| grounds)
+}
+
+impl<S, F> Judged<S, F> {
+    /// The version of the runs, or all versions if there are several.
+    fn name_version(&mut self, identities: &[Identity]) {
+        let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
+        versions.dedup();
+        if !versions.is_empty() {
+            self.version = versions.join(", ");
+        }
+    }
+}
+
+impl Grounds {
+    /// Takes a judgement back whose reference belongs to a convention that the code does not have, or is not
+    /// known to have: `probed` says what was measured, `identities` are the programs that made the runs.
+    fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity]) {
+        let mut contradictions = contradictions(probed);
+        contradictions.extend(other_program(probed, identities.iter()));
+        let Some(first) = contradictions.first() else {
+            return;
+        };
+        let further = match contradictions.len() {
+            1 => String::new(),
+            count => format!(" (and {} more: tristack probe)", count - 1),
+        };
+        self.add(Ground::NotJudged {
+            note: format!("not judged: {first}{further}"),
+            contradicted: is_contradicted(probed),
+        });
+    }
+}

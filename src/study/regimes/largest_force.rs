@@ -1,0 +1,144 @@
+//! The largest force that a stack bears: the runs that measure it, and the comparison with theory.
+
+use super::loading::loading;
+use crate::dem::{EventRun, Loading, Observation, Until};
+use crate::model::Stack;
+use crate::series::{Estimate, YieldEstimates};
+use crate::study::MAX_TOLERANCE;
+use crate::study::Verdict;
+use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
+use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
+use crate::theory::{FailureMode, Outcome};
+
+/// Travel of the wall in units of the predicted travel to the end of the path: far enough beyond it for a force with a
+/// peak to have fallen.
+const FURTHER: f64 = 1.1;
+
+/// How much slower the runs are than those of the crosscheck, which need not resolve the peak.
+const SLOWER: f64 = 8.0;
+
+/// Number of runs of one stack.
+const RUNS: usize = SHORT_RAMP_RUN + 1;
+
+/// The largest force of a stack, in theory and in the DEM.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Examination {
+    /// The stack.
+    pub stack: Stack,
+    /// What theory predicts.
+    pub claimed: Outcome,
+    /// The peak of the wall force at vanishing speed; `None` where the stack falls or the force has no peak.
+    pub peak: Option<Extrapolation>,
+    /// The uncertainty of the peak, in m g.
+    pub uncertainty: Option<f64>,
+    /// (peak − theory)/(F + 3), where both have one.
+    pub error: Option<f64>,
+    /// Whether the stack stands and the peak is as claimed, or absent as claimed.
+    pub verdict: Verdict,
+}
+
+/// The runs of one stack, as the crosscheck has them: three speeds, a coarse time step, a short ramp.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PeakPlan {
+    stack: Stack,
+    claimed: Outcome,
+    /// In the order that [`extrapolate`] expects.
+    pub(super) runs: Vec<EventRun>,
+}
+
+impl PeakPlan {
+    /// The runs of `stack`; `None` if theory makes no prediction.
+    pub(super) fn new(stack: &Stack) -> Option<Self> {
+        let claimed = Outcome::of(stack)?;
+        let run = |loading| EventRun {
+            stack: *stack,
+            loading,
+            until: Until::EndOfTravel,
+        };
+        Some(Self {
+            stack: *stack,
+            claimed,
+            runs: loadings(stack, &claimed).into_iter().map(run).collect(),
+        })
+    }
+
+    /// Compares the peaks of the `observations` of all runs, in their order, with theory.
+    pub(super) fn evaluate(&self, observations: &[Observation]) -> Examination {
+        let estimates: Vec<YieldEstimates> = observations.iter().map(estimates).collect();
+        let steps: Vec<u64> = observations.iter().map(|run| run.steps).collect();
+        let peak = extrapolate(&estimates, &steps, self.stack.stiffness, |run| run.peak);
+        let slowest = observations[SPEEDS.len() - 1].peak_force;
+        let uncertainty = peak.map(|peak| peak.budget.total() + wrong_order(&peak, slowest));
+        let both = peak.zip(self.claimed.largest_force);
+        let error = both.map(|(peak, force)| (peak.force - force) / (force + 3.0));
+        Examination {
+            stack: self.stack,
+            claimed: self.claimed,
+            peak,
+            uncertainty,
+            error,
+            verdict: self.verdict(observations, error, uncertainty),
+        }
+    }
+
+    fn verdict(
+        &self,
+        observations: &[Observation],
+        error: Option<f64>,
+        uncertainty: Option<f64>,
+    ) -> Verdict {
+        let complete = observations.iter().all(|observation| observation.complete);
+        let falls = self.claimed.failure_mode == FailureMode::Collapses;
+        let as_claimed = observations.iter().all(|run| run.stands != falls);
+        match (error, uncertainty, self.claimed.largest_force) {
+            _ if !complete => Verdict::Inconclusive,
+            _ if !as_claimed => Verdict::Differs,
+            // Contacts that open and slide on the way make the approach to the peak irregular: the uncertainty is
+            // too large to be a tolerance.
+            (Some(error), Some(uncertainty), Some(force)) => {
+                Verdict::of(error, uncertainty / (force + 3.0), MAX_TOLERANCE)
+            }
+            (None, None, None) => Verdict::Agrees,
+            _ => Verdict::Differs,
+        }
+    }
+}
+
+fn loadings(stack: &Stack, claimed: &Outcome) -> [Loading; RUNS] {
+    let end = claimed.end.unwrap_or(claimed.last);
+    let at_speed = |speed: f64| loading(stack, &end, speed / SLOWER, FURTHER);
+    let middle = at_speed(SPEEDS[MIDDLE_RUN]);
+    std::array::from_fn(|run| match run {
+        COARSE_TIME_STEP_RUN => Loading {
+            time_step: (2.0 * middle.time_step).min(stack.longest_time_step()),
+            ..middle
+        },
+        SHORT_RAMP_RUN => Loading {
+            gravity_rate: 2.0 * middle.gravity_rate,
+            ..middle
+        },
+        speed => at_speed(SPEEDS[speed]),
+    })
+}
+
+/// Uncertainty of an approach that is not quite of first order in the speed: the excess of the slowest run over the
+/// limit, times the deviation of the observed order from 1. Contact 2–3 opens over some time, which makes the approach
+/// less regular than that of a yield with c = 0.
+fn wrong_order(peak: &Extrapolation, slowest: f64) -> f64 {
+    let order = peak.order.observed.unwrap_or(ConvergenceOrder::EXPECTED);
+    (slowest - peak.force).abs() * (order - ConvergenceOrder::EXPECTED).abs()
+}
+
+/// The peak of one run; none where the force is largest at the very end.
+fn estimates(observation: &Observation) -> YieldEstimates {
+    YieldEstimates {
+        slip: None,
+        peak: observation.peaked.then_some(Estimate {
+            force: observation.peak_force,
+            // Every step is observed, and the force is flat at its maximum.
+            sampling: 0.0,
+            sensitivity: 1.0,
+        }),
+        sliding_friction: None,
+    }
+}

@@ -1,0 +1,258 @@
+//! A code beside its twins: runs in, comparisons out.
+
+use super::distance::{Branch, Distance, Milestones, Quantity};
+use super::documented::documented;
+use super::judge::{FORCE_TOLERANCE, judge_order};
+use super::judgement::{Comparison, TrajectoryFinding};
+use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
+use crate::code::{Code, Identity, Run};
+use crate::model::Case;
+use crate::runs::{Reading, RunSummary, Workload};
+use crate::series::Sample;
+use crate::study::{Evaluation, Ground, Grounds, Study};
+
+/// What is kept of a run: who made it, and its rows.
+#[derive(Debug, Clone)]
+pub struct Rows {
+    identity: Identity,
+    samples: Vec<Sample>,
+}
+
+impl Reading for Rows {
+    fn of_run(run: Run) -> Self {
+        Self {
+            identity: run.provenance.identity,
+            samples: run.series.samples().to_vec(),
+        }
+    }
+
+    /// A summary has no rows.
+    fn of_summary(_: RunSummary) -> Option<Self> {
+        None
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.identity
+    }
+}
+
+impl Study for Trajectory {
+    type Reading = Rows;
+    type Finding = TrajectoryFinding;
+
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    fn workloads(&self) -> Vec<Workload> {
+        let own = Workload {
+            code: self.code,
+            cases: self.cases.clone(),
+        };
+        let twins = self.twins.iter().map(|runs| Workload {
+            code: Code::Native,
+            cases: runs.all().copied().collect(),
+        });
+        std::iter::once(own).chain(twins).collect()
+    }
+
+    fn evaluate(&self, runs: Vec<Vec<Rows>>) -> Evaluation<TrajectoryFinding> {
+        let samples = runs
+            .iter()
+            .map(|own| own.iter().map(|run| run.samples.as_slice()).collect());
+        let samples: Vec<Vec<&[Sample]>> = samples.collect();
+        let mut finding = TrajectoryFinding {
+            times: None,
+            comparisons: Vec::new(),
+        };
+        let mut grounds = Grounds::new();
+        match self.pairs(&samples) {
+            Some(pairs) => {
+                finding.times = pairs.first().map(Pair::times);
+                finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();
+                hold_full_twin_to_the_other(&mut finding.comparisons);
+            }
+            None => grounds.add(Ground::NoYield(Some(
+                "a twin shows no peak of the wall force followed by a landing of cylinder 1"
+                    .to_owned(),
+            ))),
+        }
+        Evaluation { finding, grounds }
+    }
+}
+
+impl Trajectory {
+    /// The code beside each of its twins; `None` if one of them does not collapse, or nothing was planned.
+    fn pairs<'a>(&'a self, samples: &[Vec<&'a [Sample]>]) -> Option<Vec<Pair<'a>>> {
+        let (own, twins) = samples.split_first()?;
+        let pairs = self.twins.iter().zip(twins);
+        let pairs = pairs.map(|(runs, twin)| Pair::new(self.code, runs, own, twin));
+        let pairs: Vec<Pair> = pairs.collect::<Option<_>>()?;
+        (!pairs.is_empty()).then_some(pairs)
+    }
+}
+
+/// In the collapse the update of the springs shows, in both twins at the same order. The twin that has
+/// the update of the code must be the closer one.
+fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
+    let largest =
+        |comparison: &Comparison| comparison.distances.last().map(|finest| finest.largest);
+    let (full, others): (Vec<&mut Comparison>, Vec<&mut Comparison>) = comparisons
+        .iter_mut()
+        .filter(|comparison| comparison.branch == Branch::Collapse)
+        .partition(|comparison| comparison.twin == Twin::Full);
+    for (comparison, other) in full.into_iter().zip(others) {
+        let both = largest(comparison).zip(largest(other));
+        if let Some((own, other)) = both.filter(|(own, other)| own > other) {
+            comparison.grounds.add(Ground::Violation(format!(
+                "the twin is further away, {own:.1e}, than one whose springs turn with the contact, {other:.1e}"
+            )));
+        }
+    }
+}
+
+/// A code and one of its twins.
+struct Pair<'a> {
+    code: Code,
+    runs: &'a TwinRuns,
+    /// Series of the code, one per time step.
+    series: Vec<&'a [Sample]>,
+    /// Series of the twin at the same time steps.
+    twin: Vec<&'a [Sample]>,
+    halved: &'a [Sample],
+    disturbed: &'a [Sample],
+    milestones: Milestones,
+}
+
+impl<'a> Pair<'a> {
+    /// `twin` holds the series of `runs` in their order; `None` if the twin does not collapse.
+    fn new(
+        code: Code,
+        runs: &'a TwinRuns,
+        series: &[&'a [Sample]],
+        twin: &[&'a [Sample]],
+    ) -> Option<Self> {
+        let (twin, [halved, disturbed]) = twin.split_last_chunk()?;
+        Some(Self {
+            code,
+            runs,
+            series: series.to_vec(),
+            milestones: Milestones::read(twin.last()?)?,
+            twin: twin.to_vec(),
+            halved,
+            disturbed,
+        })
+    }
+
+    /// Every quantity on every branch.
+    fn comparisons(&self) -> Vec<Comparison> {
+        let branches = Branch::ALL.into_iter().flat_map(|branch| {
+            let quantities = branch.quantities().iter();
+            quantities.map(move |&quantity| self.compare(quantity, branch))
+        });
+        branches.collect()
+    }
+
+    fn finest(&self) -> &'a [Sample] {
+        self.twin.last().copied().unwrap_or_default()
+    }
+
+    fn times(&self) -> [f64; 3] {
+        let Milestones { peak, lost, landed } = self.milestones;
+        [peak, lost, landed].map(|row| self.finest()[row].time)
+    }
+
+    fn compare(&self, quantity: Quantity, branch: Branch) -> Comparison {
+        let growth = self.growth(quantity, branch);
+        let series = self.series.iter().zip(&self.twin).zip(&self.runs.cases);
+        let distances = series.map(|((series, twin), case)| Distance {
+            round_off: growth * round_off(case),
+            ..self.between(quantity, branch, case.protocol.time_step, series, twin)
+        });
+        let distances: Vec<Distance> = distances.collect();
+        let step_error = self.step_error(quantity, branch);
+        let documented = documented(self.code, self.runs.twin, quantity, branch);
+        let grounds = judge_order(documented.order, &distances, step_error);
+        let mut comparison = Comparison {
+            twin: self.runs.twin,
+            quantity,
+            branch,
+            documented,
+            distances,
+            step_error,
+            grounds,
+        };
+        comparison.hold_force_to_tolerance();
+        comparison
+    }
+
+    fn between(
+        &self,
+        quantity: Quantity,
+        branch: Branch,
+        time_step: f64,
+        left: &[Sample],
+        right: &[Sample],
+    ) -> Distance {
+        let unit = match quantity {
+            Quantity::WallForce => self.finest()[self.milestones.peak].wall_force,
+            _ => 1.0,
+        };
+        let rows = self.milestones.rows(branch);
+        Distance::between(
+            quantity,
+            unit,
+            time_step,
+            (&left[rows.clone()], &right[rows]),
+        )
+    }
+
+    /// Largest change of the twin when a time step is halved. Where it converges that is the change of the
+    /// coarsest; where it does not, any of them may be.
+    fn step_error(&self, quantity: Quantity, branch: Branch) -> f64 {
+        let finer = self.twin.iter().skip(1).copied().chain([self.halved]);
+        let changes = self
+            .twin
+            .iter()
+            .zip(finer)
+            .map(|(coarse, fine)| self.between(quantity, branch, 0.0, coarse, fine).largest);
+        changes.fold(0.0, f64::max)
+    }
+
+    /// Factor by which a displacement of the wall grows until it is seen, from the twin with a wall that is
+    /// slightly faster; in the unit of the quantity per r, at least 1 of a length.
+    fn growth(&self, quantity: Quantity, branch: Branch) -> f64 {
+        let Some((case, twin)) = self.runs.cases.first().zip(self.twin.first()) else {
+            return f64::INFINITY;
+        };
+        let distance = self.between(quantity, branch, 0.0, self.disturbed, twin);
+        let end = self.milestones.rows(branch).end - 1;
+        let displacement = DISTURBANCE * case.protocol.wall_speed * self.finest()[end].time;
+        (distance.largest / displacement).max(1.0)
+    }
+}
+
+/// What rounding can do to a position of a run, if it always errs to the same side: half a unit in the last
+/// place of a coordinate between 2 and 4 in every step, in the code and in its twin.
+fn round_off(case: &Case) -> f64 {
+    2.0 * f64::EPSILON * case.protocol.schedule().total_steps() as f64
+}
+
+impl Comparison {
+    /// The wall force must also be close to that of the twin in itself, up to its peak.
+    fn hold_force_to_tolerance(&mut self) {
+        let judged = self.quantity == Quantity::WallForce && self.branch == Branch::Compression;
+        if let Some(finest) = self.distances.last().filter(|_| judged) {
+            let note = format!(
+                "the wall force deviates by {:.1e} of its peak, accepted is {FORCE_TOLERANCE:e}",
+                finest.largest
+            );
+            self.grounds.compare(
+                finest.largest,
+                finest.round_off,
+                FORCE_TOLERANCE,
+                Some(note),
+            );
+        }
+    }
+}

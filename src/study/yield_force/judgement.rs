@@ -1,0 +1,301 @@
+//! The yield force that the runs of a measurement show, held against the exact limit.
+
+use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
+use super::plan::{Measurement, Method};
+use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
+use crate::code::Code;
+use crate::model::Case;
+use crate::runs::{RunSummary, Workload};
+use crate::series::YieldEstimates;
+use crate::study::{Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, Study, Verdict, tolerance};
+
+/// What the runs of a measurement show.
+#[derive(Debug, Clone, PartialEq)]
+pub struct YieldForce {
+    /// What was read off each run, in the order of the cases.
+    pub runs: Vec<RunSummary>,
+    /// The slip onset at vanishing wall speed.
+    pub slip: Option<Extrapolation>,
+    /// The peak at vanishing wall speed.
+    pub peak: Option<Extrapolation>,
+    /// F with its uncertainty, in m g: by slip onset, by the peak where there is none, or by the peak of one run
+    /// where the paper is followed literally.
+    pub force: Option<(f64, f64)>,
+}
+
+/// A judged measurement: a row of a crosscheck and what stands behind it.
+pub type Judgement = Judged<Measurement, YieldForce>;
+
+impl Study for Measurement {
+    type Reading = RunSummary;
+    type Finding = YieldForce;
+
+    fn code(&self) -> Code {
+        self.code
+    }
+
+    fn workloads(&self) -> Vec<Workload> {
+        vec![Workload {
+            code: self.code,
+            cases: self.cases.clone(),
+        }]
+    }
+
+    fn evaluate(&self, runs: Vec<Vec<RunSummary>>) -> Evaluation<YieldForce> {
+        let runs = runs.into_iter().flatten().collect();
+        let mut reader = Reader::new(self, runs);
+        match self.limit.yield_force.filter(|_| !self.cases.is_empty()) {
+            None => reader
+                .grounds
+                .add(Ground::NoYield(self.limit.reason.clone())),
+            Some(reference) => match self.method {
+                Method::Extrapolated => reader.extrapolate(reference),
+                Method::Literal => reader.take_literally(reference),
+            },
+        }
+        Evaluation {
+            finding: reader.finding,
+            grounds: reader.grounds,
+        }
+    }
+}
+
+impl Judgement {
+    /// Floor friction μ.
+    pub fn mu(&self) -> f64 {
+        self.study.stack.floor_friction
+    }
+
+    /// Stiffness 1/ε.
+    pub fn stiffness(&self) -> f64 {
+        self.study.stack.stiffness
+    }
+
+    /// Distance of the limit under the convention of the code from the one under the paper's, relative to F + 3.
+    pub fn model_form(&self) -> Option<f64> {
+        self.study.model_form
+    }
+
+    /// F at vanishing wall speed, in m g.
+    pub fn yield_force(&self) -> Option<f64> {
+        self.finding.as_ref()?.force.map(|(force, _)| force)
+    }
+
+    /// Its uncertainty in m g.
+    pub fn uncertainty(&self) -> Option<f64> {
+        self.finding
+            .as_ref()?
+            .force
+            .map(|(_, uncertainty)| uncertainty)
+    }
+
+    /// The exact limit under the convention of the code, in m g.
+    pub fn reference_force(&self) -> Option<f64> {
+        self.study.limit.yield_force
+    }
+
+    /// (yield force − reference force)/(reference force + 3); `None` where that is not judged.
+    pub fn error(&self) -> Option<f64> {
+        self.grounds.deviation().map(|(error, _)| error)
+    }
+
+    /// Largest error that agrees; `None` where nothing is judged.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.grounds.deviation().map(|(_, tolerance)| tolerance)
+    }
+
+    /// What was read off each run, in the order of the cases; nothing if one of them is not there.
+    pub fn runs(&self) -> &[RunSummary] {
+        self.finding.as_ref().map_or(&[], |finding| &finding.runs)
+    }
+
+    /// The slip onset at vanishing wall speed.
+    pub fn slip(&self) -> Option<&Extrapolation> {
+        self.finding.as_ref()?.slip.as_ref()
+    }
+}
+
+/// Reads the yield force of one measurement and collects the grounds for its verdict.
+struct Reader<'a> {
+    measurement: &'a Measurement,
+    estimates: Vec<YieldEstimates>,
+    finding: YieldForce,
+    grounds: Grounds,
+}
+
+impl<'a> Reader<'a> {
+    fn new(measurement: &'a Measurement, runs: Vec<RunSummary>) -> Self {
+        Self {
+            measurement,
+            estimates: runs.iter().map(|run| run.estimates).collect(),
+            finding: YieldForce {
+                runs,
+                slip: None,
+                peak: None,
+                force: None,
+            },
+            grounds: Grounds::new(),
+        }
+    }
+
+    /// The yield force at vanishing wall speed, by slip onset, which the peak must not contradict.
+    fn extrapolate(&mut self, reference: f64) {
+        let measurement = self.measurement;
+        let stiffness = measurement.stack.stiffness;
+        let steps: Vec<u64> = measurement.cases.iter().map(Case::total_steps).collect();
+        let slip = extrapolate(&self.estimates, &steps, stiffness, |run| run.slip);
+        let peak = extrapolate(&self.estimates, &steps, stiffness, |run| run.peak);
+        (self.finding.slip, self.finding.peak) = (slip, peak);
+        let Some((peak, allowance)) = peak.zip(peak_allowance(measurement, reference)) else {
+            return self.find_no_yield();
+        };
+        let peak_uncertainty = peak.budget.total() + allowance;
+        let Some(slip) = slip else {
+            self.compare(peak.force, peak_uncertainty, reference);
+            self.doubt("no onset of slip was found before the peak; judged by the peak".to_owned());
+            return self.doubt_deep_wall(reference);
+        };
+        self.compare(slip.force, slip.budget.total(), reference);
+        self.doubt_friction();
+        self.doubt_equal_runs();
+        self.doubt_rough_touch();
+        self.doubt_order(&slip);
+        self.hold_to_peak(&slip, &peak, peak_uncertainty);
+    }
+
+    /// The yield force as the paper reads it: the peak at one wall speed. A second run, twice as fast, shows
+    /// what the speed costs.
+    fn take_literally(&mut self, reference: f64) {
+        let peaks: Option<Vec<_>> = self.estimates.iter().map(|run| run.peak).collect();
+        let allowance = peak_allowance(self.measurement, reference);
+        let (Some([slow, fast]), Some(allowance)) = (peaks.as_deref(), allowance) else {
+            return self.find_no_yield();
+        };
+        let change = (fast.force - slow.force).abs();
+        let uncertainty = TWO_GRIDS * change + slow.sampling + allowance;
+        self.compare(slow.force, uncertainty, reference);
+        self.doubt_friction();
+        if self.grounds.verdict() == Verdict::Inconclusive {
+            let excess = (slow.force - reference) / reference;
+            self.grounds.add(Ground::Remark(format!(
+                "under-resolved: at the paper's wall speed and time step the peak is {excess:+.1e} of the \
+                 limit away from it, and changes by {:.1e} of it when the wall is twice as fast",
+                change / reference
+            )));
+        }
+    }
+
+    /// Enters a yield force and holds it against the limit.
+    fn compare(&mut self, force: f64, uncertainty: f64, reference: f64) {
+        self.finding.force = Some((force, uncertainty));
+        let load = reference + 3.0;
+        let relative = uncertainty / load;
+        let error = (force - reference) / load;
+        self.grounds
+            .compare(error, relative, tolerance(relative), None);
+    }
+
+    fn doubt(&mut self, note: String) {
+        self.grounds.add(Ground::Doubt(note));
+    }
+
+    fn find_no_yield(&mut self) {
+        let last = self.finding.runs.iter().map(|run| run.last_force);
+        let highest = last.fold(0.0, f64::max);
+        self.grounds.add(Ground::NoYield(Some(format!(
+            "no slip followed by a peak within the planned wall travel; the wall force ends at {highest:.6}"
+        ))));
+    }
+
+    fn doubt_friction(&mut self) {
+        let asked = self.measurement.stack.floor_friction;
+        let mut measured = self.estimates.iter().filter_map(|run| run.sliding_friction);
+        if let Some(other) =
+            measured.find(|friction| (friction / asked - 1.0).abs() > SAME_FRICTION)
+        {
+            self.doubt(format!(
+                "the floor slides at |t|/n = {other}, not at mu = {asked}"
+            ));
+        }
+    }
+
+    fn doubt_equal_runs(&mut self) {
+        if self.estimates[MIDDLE_RUN] == self.estimates[SHORT_RAMP_RUN] {
+            self.doubt(
+                "two runs that differ in their preparation gave the same bits: a series is that of another \
+                 case, or the code takes no notice of the preparation"
+                    .to_owned(),
+            );
+        }
+    }
+
+    /// A floor that slides at the first touch moves the yield force by some 1e-6 at the speeds of such plans,
+    /// which must not count as a disagreement.
+    fn doubt_rough_touch(&mut self) {
+        if !self.measurement.is_gentle {
+            self.grounds.add(Ground::Blur {
+                up_to: MAX_TOLERANCE,
+                note: ROUGH_TOUCH.to_owned(),
+            });
+        }
+    }
+
+    fn doubt_order(&mut self, slip: &Extrapolation) {
+        if !slip.order.is_expected() {
+            self.doubt(format!(
+                "the slip onset converges with order {:.2} in the wall speed, not {}",
+                slip.order.observed.unwrap_or(f64::NAN),
+                ConvergenceOrder::EXPECTED
+            ));
+        }
+    }
+
+    fn hold_to_peak(&mut self, slip: &Extrapolation, peak: &Extrapolation, peak_uncertainty: f64) {
+        let together = slip.budget.total() + peak_uncertainty;
+        if (peak.force - slip.force).abs() > together {
+            self.doubt(format!(
+                "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainties {together:.1e}",
+                slip.force, peak.force
+            ));
+        }
+    }
+
+    /// A code that lets a wall go once it has passed the centre of a cylinder cannot follow a wall force above
+    /// k_n r; its series has no onset then, and says nothing about the yield.
+    fn doubt_deep_wall(&mut self, reference: f64) {
+        let stack = &self.measurement.stack;
+        if reference < stack.stiffness {
+            return;
+        }
+        let depth = reference * stack.epsilon();
+        self.grounds.add(Ground::Undecidable(format!(
+            "at the yield the wall is {depth:.2} r deep in cylinder 1, beyond its centre, where codes let go"
+        )));
+    }
+}
+
+/// Why nothing is decided where the planned walls are too fast.
+const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor slides for a moment, and a gentle \
+                           wall would take more than 3e6 steps";
+
+/// Safety factor of the grid convergence index where two runs do not show the order of convergence (ASME
+/// V&V 20, section 2-4.1; P. J. Roache, J. Fluids Eng. 116, 405 (1994)).
+const TWO_GRIDS: f64 = 3.0;
+
+/// A friction measured this close, relatively, to the one asked for is the same: codes cap the force at
+/// μ n itself, some through tan(atan μ), so that only roundings of 1e-16 are between them.
+const SAME_FRICTION: f64 = 1e-9;
+
+/// The peak is grainy: it comes while the floor slips and sticks from step to step, which may hide up to
+/// two steps of load in each run. The extrapolation adds them up with the weights 1/3, 2 and 8/3 at speeds
+/// of 1, 1/2 and 1/4 of the fastest: four steps at the fastest speed.
+const GRAINY_STEPS: f64 = 4.0;
+
+/// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
+/// `reference`; `None` where nothing is planned.
+pub fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
+    let travel = measurement.limit.wall_travel?;
+    let fastest = &measurement.cases.first()?.protocol;
+    let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
+    Some(GRAINY_STEPS * load_per_step)
+}

@@ -1,7 +1,7 @@
 //! Nanoseconds per step and cylinder of pyramids: native, LAMMPS and LIGGGHTS, those that are installed.
 
 use tristack::code::{Code, Interrupt, RunContext};
-use tristack::output::{pyramid_rows, pyramid_table};
+use tristack::output::pyramids;
 use tristack::study::cost::{BenchError, PyramidBench};
 
 fn main() -> Result<(), BenchError> {
@@ -13,6 +13,6 @@ fn main() -> Result<(), BenchError> {
     };
     let directory = tempfile::tempdir().expect("a directory for temporary files");
     let costs = bench.measure(&RunContext::new(directory.path(), &Interrupt::new()))?;
-    print!("{}", pyramid_table(&pyramid_rows(&costs)).terminal());
+    print!("{}", pyramids(&costs).shown().terminal());
     Ok(())
 }

@@ -1,18 +1,16 @@
 //! `tristack bench`.
 
-use super::options::{CodeParser, Format, selected_codes, writable};
+use super::options::{CodeParser, Format, selected_codes, writable, write_all};
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::{Code, RunContext};
-use crate::files::{FileError, write_atomically};
+use crate::files::FileError;
 use crate::output::{
-    BenchRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows, bench_table,
-    performance_svg, pyramid_rows, pyramid_table, scaling_table,
+    DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
-use crate::study::cost::{BenchTarget, PyramidBench, ScalingBench, StackBench};
+use crate::study::cost::{BenchTarget, PyramidBench, ScalingBench, StackBench, StackCost};
 use clap::Args;
-use serde::Serialize;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What a step and a yield force cost, code by code
 ///
@@ -43,7 +41,7 @@ pub struct Arguments {
 }
 
 /// Measures, prints and writes.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = timed_codes(&arguments.codes)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
@@ -52,8 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let directory = tempfile::tempdir().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
     let measured = match arguments.pyramids {
-        true => measure_pyramids(arguments, codes, &context),
-        false => measure_stack(arguments, &codes, &context),
+        true => measure_pyramids(arguments, command, codes, &context),
+        false => measure_stack(arguments, command, &codes, &context),
     };
     match measured {
         Err(_) if INTERRUPT.requested() => Ok(ExitStatus::Interrupted),
@@ -75,6 +73,7 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
 
 fn measure_stack(
     arguments: &Arguments,
+    command: &str,
     codes: &[Code],
     context: &RunContext,
 ) -> Result<Vec<u8>, CliError> {
@@ -84,10 +83,10 @@ fn measure_stack(
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let rows = bench_rows(&bench.measure(context)?);
-    let mut output = printed(arguments.format, &rows, || bench_table(&rows).terminal());
+    let costs = bench.measure(context)?;
+    let mut output = printed(arguments.format, crate::output::bench(&costs), command);
     if arguments.scaling || arguments.out.is_some() {
-        let further = measure_scaling(arguments, &rows, context)?;
+        let further = measure_scaling(arguments, command, &costs, context)?;
         if arguments.format == Format::Table {
             output.extend(further.into_bytes());
         }
@@ -98,7 +97,8 @@ fn measure_stack(
 /// Measures and writes what goes beyond the rows, and returns it for people.
 fn measure_scaling(
     arguments: &Arguments,
-    rows: &[BenchRow],
+    command: &str,
+    costs: &[StackCost],
     context: &RunContext,
 ) -> Result<String, CliError> {
     let default = ScalingBench::default();
@@ -106,31 +106,33 @@ fn measure_scaling(
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let scaling = bench.measure(context)?;
+    let measured = bench.measure(context)?;
     if let Some(directory) = &arguments.out {
-        let all = [scaling.cases.as_slice(), &scaling.cores].concat();
-        let markdown = bench_markdown(rows, &scaling);
-        let svg = performance_svg(rows, &scaling);
-        write(directory, "bench.csv", &bench_csv(rows))?;
-        write(directory, "bench.json", bench_json(rows).as_bytes())?;
-        write(directory, "bench.md", markdown.as_bytes())?;
-        write(directory, "scaling.csv", &bench_csv(&all))?;
-        write(directory, "performance.svg", svg.as_bytes())?;
+        let all = measured.cases.iter().chain(&measured.cores);
+        let rows = crate::output::bench(costs);
+        let files = [
+            ("bench.csv", rows.csv()),
+            ("bench.json", json(&[rows], command)),
+            ("bench.md", bench_markdown(costs, &measured).into_bytes()),
+            ("scaling.csv", scaling(all).csv()),
+            (
+                "performance.svg",
+                performance_svg(costs, &measured).into_bytes(),
+            ),
+        ];
+        write_all(directory, &files)?;
     }
-    let (cases, cores) = (scaling_table(&scaling.cases), scaling_table(&scaling.cores));
+    let (cases, cores) = (scaling(&measured.cases), scaling(&measured.cores));
     Ok(format!(
         "native lanes on one core:\n{}native lanes, planned runs:\n{}",
-        cases.terminal(),
-        cores.terminal()
+        cases.shown().terminal(),
+        cores.shown().terminal()
     ))
-}
-
-fn write(directory: &Path, name: &str, content: &[u8]) -> Result<(), FileError> {
-    write_atomically(&directory.join(name), content)
 }
 
 fn measure_pyramids(
     arguments: &Arguments,
+    command: &str,
     mut codes: Vec<Code>,
     context: &RunContext,
 ) -> Result<Vec<u8>, CliError> {
@@ -144,16 +146,12 @@ fn measure_pyramids(
         ..default
     };
     let costs = bench.measure(context)?;
-    let rows = pyramid_rows(&costs);
-    Ok(printed(arguments.format, &rows, || {
-        pyramid_table(&rows).terminal()
-    }))
+    Ok(printed(arguments.format, pyramids(&costs), command))
 }
 
-fn printed<R: Serialize>(format: Format, rows: &[R], table: impl Fn() -> String) -> Vec<u8> {
-    match format {
-        Format::Table => format!("{}\n{}", bench_machine(), table()).into_bytes(),
-        Format::Json => bench_json(rows).into_bytes(),
-        Format::Csv => bench_csv(rows),
-    }
+fn printed(format: Format, rows: DataTable, command: &str) -> Vec<u8> {
+    let tables = [rows];
+    format.render(&tables, command, || {
+        format!("{}\n{}", bench_machine(), tables[0].shown().terminal())
+    })
 }

@@ -3,7 +3,7 @@
 use super::options::Format;
 use super::{CliError, ExitStatus};
 use crate::code::Code;
-use crate::output::{Inventory, inventory_csv, inventory_json, inventory_table};
+use crate::output::{Inventory, inventory};
 use clap::Args;
 
 /// What is installed, in which version, with which contact convention
@@ -16,12 +16,12 @@ pub struct Arguments {
 }
 
 /// Prints every code that tristack knows.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let inventory = Code::all().into_iter().map(Inventory::take);
-    let inventory: Vec<Inventory> = inventory.collect();
-    super::print(&match arguments.format {
-        Format::Table => inventory_table(&inventory).into_bytes(),
-        Format::Json => inventory_json(&inventory).into_bytes(),
-        Format::Csv => inventory_csv(&inventory),
-    })
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    let found = Code::all()
+        .into_iter()
+        .map(Inventory::take)
+        .collect::<Vec<_>>();
+    let tables = [inventory(&found)];
+    let people = || tables[0].shown().terminal();
+    super::print(&arguments.format.render(&tables, command, people))
 }

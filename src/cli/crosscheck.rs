@@ -1,20 +1,17 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{CodeParser, Format, RunOptions, selected_codes, writable};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
-use crate::files::{FileError, write_atomically};
-use crate::output::{
-    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
-};
+use crate::files::FileError;
+use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
-
 use crate::study::yield_force::{Judgement, Measurement, Profile};
 use crate::study::{Campaign, Source, Verdict};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::{Path, PathBuf};
 
 /// The main job: run, compare, judge, write tables
@@ -52,7 +49,7 @@ pub struct Arguments {
 }
 
 /// Runs the crosscheck, prints and writes its rows.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if let Some(row) = &arguments.explain {
         return explain(row, &arguments.run);
     }
@@ -74,41 +71,24 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(measurements);
     drop(reporter);
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write(directory, &judgements, &command_line(arguments))?;
+        write(directory, &judgements, command)?;
     }
-    super::print(&match arguments.format {
-        Format::Table if judgements.is_empty() => Vec::new(),
-        Format::Table => crosscheck_table(&judgements).into_bytes(),
-        Format::Json => crosscheck_json(&judgements).into_bytes(),
-        Format::Csv => crosscheck_csv(&judgements),
-    })?;
+    let tables = [crosscheck(&judgements)];
+    let people = || crosscheck_text(&judgements);
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&judgements, planned, &codes))
 }
 
 fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), FileError> {
-    write_atomically(
-        &directory.join("crosscheck.csv"),
-        &crosscheck_csv(judgements),
-    )?;
-    write_atomically(&directory.join("budget.csv"), &budget_csv(judgements))?;
-    write_atomically(
-        &directory.join("crosscheck.json"),
-        crosscheck_json(judgements).as_bytes(),
-    )?;
-    let page = crosscheck_markdown(judgements, command);
-    write_atomically(&directory.join("crosscheck.md"), page.as_bytes())
-}
-
-/// The command that gives the same rows again; where it writes them does not matter.
-fn command_line(arguments: &Arguments) -> String {
-    let profile = arguments.profile.to_possible_value();
-    let profile = profile.as_ref().map_or("", |value| value.get_name());
-    let mut line = format!("tristack crosscheck --profile {profile}");
-    if !arguments.codes.is_empty() {
-        let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
-        line += &format!(" --codes {}", names.join(","));
-    }
-    line
+    let rows = crosscheck(judgements);
+    let page = crosscheck_markdown(judgements, command).into_bytes();
+    let files = [
+        ("crosscheck.csv", rows.csv()),
+        ("budget.csv", budget(judgements).csv()),
+        ("crosscheck.json", json(&[rows], command)),
+        ("crosscheck.md", page),
+    ];
+    write_all(directory, &files)
 }
 
 /// Says on standard error what the rows amount to, and returns the exit status.

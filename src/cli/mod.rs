@@ -2,6 +2,7 @@
 
 mod bench;
 mod codes;
+mod command_line;
 mod crosscheck;
 mod error;
 mod explain;
@@ -83,26 +84,29 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::
 /// # Errors
 /// If the input is wrong or an code that was asked for does not deliver.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, CliError> {
-    let cli = match Cli::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
         Err(error) => return options::report_usage(&error),
     };
     if !matches!(cli.command, Command::Guard(_)) {
         interrupt::listen();
     }
+    let command = command_line::command_line(&arguments);
+    let command = command.as_str();
     match cli.command {
-        Command::Theory(arguments) => theory::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Sweep(arguments) => sweep::run(&arguments),
-        Command::Crosscheck(arguments) => crosscheck::run(&arguments),
-        Command::Trajectories(arguments) => trajectories::run(&arguments),
-        Command::Codes(arguments) => codes::run(&arguments),
-        Command::Probe(arguments) => probe::run(&arguments),
+        Command::Theory(arguments) => theory::run(&arguments, command),
+        Command::Simulate(arguments) => simulate::run(&arguments, command),
+        Command::Sweep(arguments) => sweep::run(&arguments, command),
+        Command::Crosscheck(arguments) => crosscheck::run(&arguments, command),
+        Command::Trajectories(arguments) => trajectories::run(&arguments, command),
+        Command::Codes(arguments) => codes::run(&arguments, command),
+        Command::Probe(arguments) => probe::run(&arguments, command),
         Command::Record(arguments) => record::run(&arguments),
-        Command::Regimes(arguments) => regimes::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
-        Command::Predict(arguments) => predict::run(&arguments),
-        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Regimes(arguments) => regimes::run(&arguments, command),
+        Command::Report(arguments) => report::run(&arguments, command),
+        Command::Predict(arguments) => predict::run(&arguments, command),
+        Command::Bench(arguments) => bench::run(&arguments, command),
         Command::Guard(arguments) => guard::run(&arguments),
     }
 }

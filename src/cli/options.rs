@@ -2,11 +2,12 @@
 
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, ManifestError};
-use crate::files::FileError;
+use crate::files::{FileError, write_atomically};
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
     PAPER_STIFFNESS_RATIO, Stack,
 };
+use crate::output::{DataTable, json};
 use crate::runs::Store;
 use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -29,6 +30,24 @@ pub enum Format {
     Json,
     /// For spreadsheets.
     Csv,
+}
+
+impl Format {
+    /// `tables`, the results of `command`, in this format; `people` makes the one for people, which is empty if
+    /// the tables are. CSV has the first table alone.
+    pub fn render(
+        self,
+        tables: &[DataTable],
+        command: &str,
+        people: impl FnOnce() -> String,
+    ) -> Vec<u8> {
+        match self {
+            Self::Table if tables.iter().all(DataTable::is_empty) => Vec::new(),
+            Self::Table => people().into_bytes(),
+            Self::Json => json(tables, command),
+            Self::Csv => tables.first().map_or_else(Vec::new, DataTable::csv),
+        }
+    }
 }
 
 /// Everything of a stack but friction and stiffness.
@@ -266,6 +285,13 @@ pub fn writable(directory: &Path) -> Result<(), FileError> {
     std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
     tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
     Ok(())
+}
+
+/// Writes every one of `files`, by name and content, to `directory`.
+pub fn write_all(directory: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), FileError> {
+    files
+        .iter()
+        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content))
 }
 
 /// Reads `--mu`: a number, or the word `critical`.

@@ -5,7 +5,7 @@ use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
 };
-use crate::output::{forecast_csv, forecast_json, forecast_table};
+use crate::output::{forecast_text, forecasts};
 use clap::{ArgGroup, Args};
 
 /// ε, regime and yield force of cylinders that one can hold, in SI units
@@ -73,7 +73,7 @@ pub struct Arguments {
 }
 
 /// Prints the forecast.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let cylinder = Cylinder {
         youngs_modulus: arguments.youngs,
         poisson_ratio: arguments.poisson,
@@ -91,10 +91,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         mu_d: arguments.stack.mu_d,
         kappa: arguments.stack.kappa,
     };
-    let forecast = Forecast::new(&experiment, arguments.contact).map_err(as_flag)?;
-    super::print(&match arguments.format {
-        Format::Table => forecast_table(&forecast).into_bytes(),
-        Format::Json => forecast_json(&forecast).into_bytes(),
-        Format::Csv => forecast_csv(&forecast),
-    })
+    let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
+    let people = || forecast_text(&found[0]);
+    super::print(
+        &arguments
+            .format
+            .render(&[forecasts(&found)], command, people),
+    )
 }

@@ -5,7 +5,7 @@ use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
-use crate::output::{probe_csv, probe_json, probe_table};
+use crate::output::{probe, probe_by_code};
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
 use crate::study::convention::Finding;
@@ -32,7 +32,7 @@ pub struct Arguments {
 }
 
 /// Probes, and prints the findings.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = selected_codes(&arguments.codes)?;
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
@@ -43,11 +43,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         .flatten()
         .flat_map(|probe| probe.findings.clone())
         .collect();
-    super::print(&match arguments.format {
-        Format::Table => probe_table(&findings).into_bytes(),
-        Format::Json => probe_json(&findings).into_bytes(),
-        Format::Csv => probe_csv(&findings),
-    })?;
+    let people = || probe_by_code(&findings).terminal();
+    super::print(
+        &arguments
+            .format
+            .render(&[probe(&findings)], command, people),
+    )?;
     Ok(conclude(&codes, &probed, &findings))
 }
 

@@ -3,7 +3,7 @@
 use super::options::{CodeParser, RunOptions, reference_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
-use super::trajectories::trajectories;
+use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::code::Run;
@@ -88,8 +88,8 @@ fn record(
         worst = worst.max(record_runs(&plans, &selected, settings, place)?);
     }
     if wanted(Set::Trajectories) {
-        let plans = trajectories(std::iter::once(name));
-        let plans: Vec<Workload> = plans
+        let planned = plans(std::iter::once(name));
+        let plans: Vec<Workload> = planned
             .iter()
             .filter_map(|plan| plan.workloads().into_iter().next())
             .collect();

@@ -1,14 +1,13 @@
 //! `tristack regimes`.
 
-use super::options::{Format, RunOptions, as_flag, writable};
+use super::options::{Format, RunOptions, as_flag, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::files::{FileError, write_atomically};
+use crate::files::FileError;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
-    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, regimes_svg, survey_json,
-    survey_table,
+    boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
 use crate::study::Verdict;
 use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
@@ -46,7 +45,7 @@ pub struct Arguments {
 }
 
 /// Examines every boundary, prints and writes the result.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let maps = checked_maps(arguments)?;
     if let Some(directory) = &arguments.out {
         writable(directory)?;
@@ -63,13 +62,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         return Ok(ExitStatus::Interrupted);
     }
     if let Some(directory) = &arguments.out {
-        write(directory, &maps, &survey, &command_line(arguments))?;
+        write(directory, &maps, &survey, command)?;
     }
-    super::print(&match arguments.format {
-        Format::Table => survey_table(&survey).into_bytes(),
-        Format::Json => survey_json(&survey).into_bytes(),
-        Format::Csv => boundaries_csv(&survey),
-    })?;
+    let tables = [
+        boundaries(&survey.confirmations),
+        largest_forces(&survey.examinations),
+    ];
+    let people = || survey_text(&survey);
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&survey))
 }
 
@@ -101,25 +101,16 @@ fn write(
     command: &str,
 ) -> Result<(), FileError> {
     let files = [
-        ("regimes.csv", regimes_csv(maps, GRID.0, GRID.1)),
-        ("boundaries.csv", boundaries_csv(survey)),
-        ("largest_forces.csv", largest_forces_csv(survey)),
+        ("regimes.csv", regimes(maps, GRID.0, GRID.1).csv()),
+        ("boundaries.csv", boundaries(&survey.confirmations).csv()),
+        (
+            "largest_forces.csv",
+            largest_forces(&survey.examinations).csv(),
+        ),
         ("regimes.md", regimes_markdown(survey, command).into_bytes()),
         ("regimes.svg", regimes_svg(maps, survey).into_bytes()),
     ];
-    for (name, content) in files {
-        write_atomically(&directory.join(name), &content)?;
-    }
-    Ok(())
-}
-
-/// The command that gives the same rows again.
-fn command_line(arguments: &Arguments) -> String {
-    let mut line = "tristack regimes".to_owned();
-    if arguments.kappa != PAPER_STIFFNESS_RATIO {
-        line += &format!(" --kappa {}", arguments.kappa);
-    }
-    line + &format!(" --points {}", arguments.points)
+    write_all(directory, &files)
 }
 
 /// Prints a summary on standard error, and returns the exit status.

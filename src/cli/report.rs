@@ -40,7 +40,7 @@ pub struct Arguments {
 }
 
 /// Reproduces the paper and writes the report.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let mut codes = arguments.codes.clone();
     if !codes.is_empty() && !codes.contains(&Code::NATIVE) {
         codes.push(Code::NATIVE);
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Err(error) => return Err(error.into()),
     };
     let claims = judge(&register, &PaperTheory::printed(), &reproduced);
-    let origin = origin(arguments, &codes);
+    let origin = origin(arguments, command, &codes);
     let files = report_files(&reproduced, &claims, &origin);
     write(&arguments.out, &files)?;
     Ok(conclude(&arguments.out, &reproduced, &claims))
@@ -77,19 +77,11 @@ fn interrupted() -> ExitStatus {
     ExitStatus::Interrupted
 }
 
-/// How the report came about; where it is written does not matter.
-fn origin(arguments: &Arguments, codes: &[SelectedCode]) -> Origin {
-    let mut command = "tristack report".to_owned();
-    if !arguments.codes.is_empty() {
-        let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
-        command += &format!(" --codes {}", names.join(","));
-    }
-    if arguments.literal {
-        command += " --literal";
-    }
+/// How the report came about.
+fn origin(arguments: &Arguments, command: &str, codes: &[SelectedCode]) -> Origin {
     let absent = codes.iter().filter(|who| who.code.is_none());
     Origin {
-        command,
+        command: command.to_owned(),
         recorded: absent.map(|who| who.name).collect(),
         literal: arguments.literal,
     }

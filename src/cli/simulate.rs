@@ -9,10 +9,8 @@ use crate::code::{Code, Failure, FailureKind, InstalledCode, RunContext, keep_ev
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
 use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
-use crate::output::{
-    Simulation, is_vtk_row, run_svg, simulation_csv, simulation_json, simulation_table, vtk_series,
-};
-use crate::series::{Frames, YieldEstimates};
+use crate::output::{Simulation, is_vtk_row, json, run_svg, simulations, vtk_series};
+use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
 use crate::theory::quasistatic_limit;
@@ -93,7 +91,7 @@ pub struct Arguments {
 }
 
 /// Runs one case and prints both estimators.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
     if let Some(directory) = &arguments.vtk {
@@ -133,16 +131,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             return Err(failure.into());
         }
     };
-    let simulation = Simulation::new(&run, YieldEstimates::read(&run.series, &case.stack));
+    let simulated = [Simulation::new(&run)];
+    let tables = [simulations(&simulated)];
     if let Some(directory) = &arguments.out {
-        write(directory, &run, &simulation)?;
+        write(directory, &run, &json(&tables, command))?;
     }
     draw(arguments, &run)?;
-    super::print(&match arguments.format {
-        Format::Table => simulation_table(&simulation).into_bytes(),
-        Format::Json => simulation_json(&simulation).into_bytes(),
-        Format::Csv => simulation_csv(&simulation),
-    })
+    let people = || tables[0].transposed(&["value"]).terminal();
+    super::print(&arguments.format.render(&tables, command, people))
 }
 
 /// Draws what was asked for.
@@ -290,10 +286,7 @@ fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
     Ok(())
 }
 
-fn write(directory: &Path, run: &Run, simulation: &Simulation) -> Result<(), FileError> {
+fn write(directory: &Path, run: &Run, summary: &[u8]) -> Result<(), FileError> {
     write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
-    write_atomically(
-        &directory.join(SUMMARY),
-        simulation_json(simulation).as_bytes(),
-    )
+    write_atomically(&directory.join(SUMMARY), summary)
 }

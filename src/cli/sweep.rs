@@ -9,7 +9,7 @@ use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::files::write_atomically;
-use crate::output::{crosscheck_csv, crosscheck_json, crosscheck_table};
+use crate::output::{crosscheck, crosscheck_text, json};
 use crate::study::Campaign;
 use crate::study::yield_force::{Judgement, Measurement, plan};
 use clap::Args;
@@ -102,7 +102,7 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 }
 
 /// Measures the curve, prints and writes its rows.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(arguments.code)?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
@@ -135,20 +135,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     drop(campaign);
     drop(reporter);
-    let (csv, json) = (
-        crosscheck_csv(&judgements),
-        crosscheck_json(&judgements).into_bytes(),
-    );
+    let tables = [crosscheck(&judgements)];
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write_atomically(&directory.join("sweep.csv"), &csv)?;
-        write_atomically(&directory.join("sweep.json"), &json)?;
+        write_atomically(&directory.join("sweep.csv"), &tables[0].csv())?;
+        write_atomically(&directory.join("sweep.json"), &json(&tables, command))?;
     }
-    super::print(&match arguments.format {
-        Format::Table if judgements.is_empty() => Vec::new(),
-        Format::Table => crosscheck_table(&judgements).into_bytes(),
-        Format::Json => json,
-        Format::Csv => csv,
-    })?;
+    let people = || crosscheck_text(&judgements);
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&judgements, stacks.len(), &codes))
 }
 

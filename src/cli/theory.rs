@@ -3,7 +3,7 @@
 use super::options::{ArmOptions, Format, StackOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
-use crate::output::{theory_csv, theory_json, theory_table};
+use crate::output::{theories_by_stack, theory};
 use crate::theory::Predictions;
 use clap::Args;
 
@@ -35,7 +35,7 @@ pub struct Arguments {
 }
 
 /// Prints the predictions for every combination of friction and stiffness.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(Code::NATIVE)?;
     let stacks = arguments
         .stack
@@ -44,11 +44,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let predictions = predictions.map(|stack| Predictions::new(stack, &convention.arms));
     let predictions: Vec<Predictions> =
         predictions.take_while(|_| !INTERRUPT.requested()).collect();
-    super::print(&match arguments.format {
-        Format::Table => theory_table(&predictions).into_bytes(),
-        Format::Json => theory_json(&predictions).into_bytes(),
-        Format::Csv => theory_csv(&predictions),
-    })?;
+    let people = || theories_by_stack(&predictions);
+    let tables = [theory(&predictions)];
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(match predictions.len() == stacks.len() {
         true => ExitStatus::Success,
         false => ExitStatus::Interrupted,

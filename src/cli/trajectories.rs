@@ -1,15 +1,13 @@
 //! `tristack trajectories`.
 
-use super::options::{CodeParser, Format, RunOptions, selected_codes, writable};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
-use crate::files::{FileError, write_atomically};
+use crate::files::FileError;
 use crate::model::InvalidValue;
-use crate::output::{
-    trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
-};
+use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
 use crate::study::trajectory::{
     Trajectory, TrajectoryJudgement, plan_trajectory, trajectory_stack,
@@ -41,14 +39,14 @@ pub struct Arguments {
 }
 
 /// Runs and compares, prints and writes the rows.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes)?;
     let mut codes = selected_codes(&arguments.codes)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
-    let plans = trajectories(codes.iter().map(|selected| selected.name));
+    let plans = plans(codes.iter().map(|selected| selected.name));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
@@ -56,19 +54,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(plans);
     drop(reporter);
     if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write(directory, &judgements, &command_line(arguments))?;
+        write(directory, &judgements, command)?;
     }
-    super::print(&match arguments.format {
-        Format::Table if judgements.is_empty() => Vec::new(),
-        Format::Table => trajectories_table(&judgements).into_bytes(),
-        Format::Json => trajectories_json(&judgements).into_bytes(),
-        Format::Csv => trajectories_csv(&judgements),
-    })?;
+    let tables = [trajectories(&judgements)];
+    let people = || trajectories_text(&judgements);
+    super::print(&arguments.format.render(&tables, command, people))?;
     Ok(conclude(&judgements, planned, &codes))
 }
 
 /// The plans of the codes, each beside the convention that is declared for it.
-pub(super) fn trajectories(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
+pub(super) fn plans(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
     let stack = trajectory_stack();
     names
         .map(|name| plan_trajectory(name, &stack, name.convention()))
@@ -95,23 +90,14 @@ fn write(
     judgements: &[TrajectoryJudgement],
     command: &str,
 ) -> Result<(), FileError> {
-    let put = |name: &str, content: &[u8]| write_atomically(&directory.join(name), content);
-    put("trajectories.csv", &trajectories_csv(judgements))?;
-    put(
-        "trajectories.json",
-        trajectories_json(judgements).as_bytes(),
-    )?;
-    let page = trajectories_markdown(judgements, command);
-    put("trajectories.md", page.as_bytes())
-}
-
-/// The command that gives the same rows again; where it writes them does not matter.
-fn command_line(arguments: &Arguments) -> String {
-    let names: Vec<&str> = arguments.codes.iter().map(|name| name.as_str()).collect();
-    if names.is_empty() {
-        return "tristack trajectories".to_owned();
-    }
-    format!("tristack trajectories --codes {}", names.join(","))
+    let rows = trajectories(judgements);
+    let page = trajectories_markdown(judgements, command).into_bytes();
+    let files = [
+        ("trajectories.csv", rows.csv()),
+        ("trajectories.json", json(&[rows], command)),
+        ("trajectories.md", page),
+    ];
+    write_all(directory, &files)
 }
 
 /// Says on standard error what the comparisons amount to, and returns the exit status.

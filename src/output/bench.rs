@@ -1,79 +1,116 @@
 //! What steps and yield forces cost, in every format.
 
-use super::number::{optional, plain};
-use super::table::Table;
-use crate::code::Code;
-use crate::code::machine;
+use super::number::plain;
+use super::table::{Columns, DataTable};
+use crate::code::{Code, machine};
 use crate::dem::LaneWidth;
 use crate::study::cost::{BenchTarget, PyramidCost, Scaling, ScalingRow, StackCost};
-use serde::Serialize;
 
 const BYTES_PER_MEGABYTE: f64 = 1e6;
 
-/// What the stack costs one target.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BenchRow {
-    /// Who: `native-scalar`, `native-lanes`, or an code.
-    pub code: &'static str,
-    /// Its version.
-    pub version: String,
-    /// Wall time per step and case in nanoseconds, the median of the runs.
-    pub ns_per_step: f64,
-    /// Steps that were timed in each run, of all its cases together.
-    pub steps: u64,
-    /// How often it was measured.
-    pub runs: usize,
-    /// `ns_per_step` over that of native lanes.
-    pub ratio: Option<f64>,
-    /// Start and end in seconds, the median of the runs.
-    pub start_up_seconds: f64,
-    /// Stacks whose yield force is known, per second and core, start included.
-    pub yield_forces_per_second: f64,
-    /// How many times as many of these native lanes make.
-    pub yield_force_ratio: Option<f64>,
-    /// Largest distance of these yield forces from the exact limit, relative to F + 3.
-    pub largest_error: f64,
-    /// Largest resident memory in megabytes; that of native is all of this process.
-    pub peak_megabytes: Option<f64>,
-}
+/// A cost beside that of native lanes, where these were measured.
+type StackRow<'a> = (&'a StackCost, Option<&'a StackCost>);
+/// A cost beside that of native with the same pyramid.
+type PyramidRow<'a> = (&'a PyramidCost, Option<&'a PyramidCost>);
 
-/// The rows of `costs`.
-pub fn bench_rows(costs: &[StackCost]) -> Vec<BenchRow> {
+/// Each of `costs` beside that of native lanes.
+pub(super) fn beside_lanes(costs: &[StackCost]) -> Vec<StackRow<'_>> {
     let mut all = costs.iter();
     let lanes = all.find(|cost| cost.target == BenchTarget::NativeLanes);
-    let row = |cost: &StackCost| BenchRow {
-        code: cost.target.as_str(),
-        version: cost.version.clone(),
-        ns_per_step: cost.median(),
-        steps: cost.steps,
-        runs: cost.nanoseconds.len(),
-        ratio: lanes.map(|lanes| cost.median() / lanes.median()),
-        start_up_seconds: cost.start_up(),
-        yield_forces_per_second: cost.yield_forces_per_second(),
-        yield_force_ratio: lanes
-            .map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second()),
-        largest_error: cost.largest_error,
-        peak_megabytes: cost
-            .peak_bytes
-            .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE),
-    };
-    costs.iter().map(row).collect()
+    costs.iter().map(|cost| (cost, lanes)).collect()
 }
 
-/// One line a row of any kind.
-pub fn bench_csv<R: Serialize>(rows: &[R]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
+/// How many times the cost of a step in native lanes this is.
+pub(super) fn times_lanes((cost, lanes): &StackRow) -> Option<f64> {
+    lanes.map(|lanes| cost.median() / lanes.median())
 }
 
-/// Rows of any kind as a list of objects.
-pub fn bench_json<R: Serialize>(rows: &[R]) -> String {
-    serde_json::to_string_pretty(rows).expect("plain rows have a JSON form") + "\n"
+/// What the stack costs, one row a target.
+pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
+    Columns::<StackRow>::new(
+        "bench",
+        "A row is the cost of a step and of a yield force by one code on one core.",
+        "`tristack bench` (bench.csv, bench.json)",
+    )
+    .text(
+        "code",
+        "`native-scalar`, `native-lanes`, or the name of a code",
+        |(cost, _)| cost.target.as_str(),
+    )
+    .shown("code")
+    .text("version", "its version", |(cost, _)| cost.version.clone())
+    .shown("version")
+    .number(
+        "ratio",
+        "1",
+        "`ns_per_step` over that of native lanes",
+        times_lanes,
+    )
+    .shown("times native-lanes")
+    .digits(plain)
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and case, the median of the runs",
+        |(cost, _)| cost.median(),
+    )
+    .shown("ns per step and case")
+    .digits(plain)
+    .number(
+        "steps",
+        "1",
+        "steps timed in each run, of all its cases together",
+        |(cost, _)| cost.steps,
+    )
+    .number("runs", "1", "how often it was measured", |(cost, _)| {
+        cost.nanoseconds.len()
+    })
+    .number(
+        "start_up_seconds",
+        "s",
+        "start and end, the median of the runs",
+        |(cost, _)| cost.start_up(),
+    )
+    .shown("start s")
+    .digits(plain)
+    .number(
+        "yield_forces_per_second",
+        "1/s",
+        "yield forces per second and core, start included",
+        |(cost, _)| cost.yield_forces_per_second(),
+    )
+    .shown("yield forces per s")
+    .digits(plain)
+    .number(
+        "yield_force_ratio",
+        "1",
+        "how many times as many native lanes make",
+        |(cost, lanes)| {
+            lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
+        },
+    )
+    .shown("times fewer")
+    .digits(plain)
+    .number(
+        "largest_error",
+        "1",
+        "largest distance of these yield forces from the exact limit, relative to F + 3",
+        |(cost, _)| cost.largest_error,
+    )
+    .shown("largest error")
+    .digits(|error| format!("{error:.0e}"))
+    .number(
+        "peak_megabytes",
+        "MB",
+        "largest resident memory; that of native is all of this process",
+        |(cost, _)| {
+            cost.peak_bytes
+                .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
+        },
+    )
+    .shown("MB")
+    .digits(|megabytes| format!("{megabytes:.0}"))
+    .rows(beside_lanes(costs))
 }
 
 /// The machine that everything is measured on, and how many cases its vectors hold.
@@ -82,126 +119,99 @@ pub fn bench_machine() -> String {
     format!("{}, {lanes} lanes a vector", machine())
 }
 
-/// For people, ratios first.
-pub fn bench_table(rows: &[BenchRow]) -> Table {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "times native-lanes>",
-        "ns per step and case>",
-        "start s>",
-        "yield forces per s>",
-        "times fewer>",
-        "largest error>",
-        "MB>",
-    ]);
-    for row in rows {
-        table.push(vec![
-            row.code.to_owned(),
-            row.version.clone(),
-            optional(row.ratio, plain),
-            plain(row.ns_per_step),
-            plain(row.start_up_seconds),
-            plain(row.yield_forces_per_second),
-            optional(row.yield_force_ratio, plain),
-            format!("{:.0e}", row.largest_error),
-            optional(row.peak_megabytes, |megabytes| format!("{megabytes:.0}")),
-        ]);
-    }
-    table
-}
-
-/// How lanes scale, for people.
-pub fn scaling_table(rows: &[ScalingRow]) -> Table {
-    let mut table = Table::new(&[
-        "cases>",
-        "cores>",
-        "ns per step and case>",
-        "times as fast>",
-    ]);
-    for row in rows {
-        table.push(vec![
-            row.cases.to_string(),
-            row.cores.to_string(),
-            plain(row.ns_per_step),
-            plain(row.speedup),
-        ]);
-    }
-    table
+/// How lanes scale.
+pub fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<'a> {
+    Columns::<&ScalingRow>::new(
+        "scaling",
+        "A row is the cost of a step in native lanes with some number of cases and cores.",
+        "`tristack bench` (scaling.csv)",
+    )
+    .number("cases", "1", "number of cases", |row| row.cases)
+    .shown("cases")
+    .number("cores", "1", "number of cores", |row| row.cores)
+    .shown("cores")
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and case, the median of the repeats",
+        |row| row.ns_per_step,
+    )
+    .shown("ns per step and case")
+    .digits(plain)
+    .number(
+        "speedup",
+        "1",
+        "how many times as fast as the first row",
+        |row| row.speedup,
+    )
+    .shown("times as fast")
+    .digits(plain)
+    .rows(rows)
 }
 
 /// Both tables with the machine and what they are, as Markdown.
-pub fn bench_markdown(rows: &[BenchRow], scaling: &Scaling) -> String {
+pub fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String {
     format!(
         "Machine: {}.\n\n{}\nNumber of cases on one core, in lanes:\n\n{}\n\
          Number of cores, planned runs in lanes:\n\n{}",
         bench_machine(),
-        bench_table(rows).markdown(),
-        scaling_table(&scaling.cases).markdown(),
-        scaling_table(&scaling.cores).markdown()
+        bench(costs).shown().markdown(),
+        scaling(&measured.cases).shown().markdown(),
+        scaling(&measured.cores).shown().markdown()
     )
 }
 
-/// What a pyramid costs one code.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PyramidRow {
-    /// Who.
-    pub code: Code,
-    /// Its version.
-    pub version: String,
-    /// Number of cylinders.
-    pub cylinders: usize,
-    /// Wall time per step and cylinder in nanoseconds, the median of the runs.
-    pub ns_per_step: f64,
-    /// The same of the fastest run.
-    pub fastest_ns_per_step: f64,
-    /// Steps that were timed in each run.
-    pub steps: u64,
-    /// How often it was measured.
-    pub runs: usize,
-    /// How many times the cost of native this is, run by run.
-    pub ratio: Option<f64>,
-}
-
-/// The rows of `costs`, in which those of one pyramid stand together.
-pub fn pyramid_rows(costs: &[PyramidCost]) -> Vec<PyramidRow> {
+/// What pyramids cost; in `costs` those of one pyramid stand together.
+pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {
         let mut all = costs.iter();
         let native = all.find(|cost| cost.code == Code::NATIVE);
-        costs.iter().map(move |cost| PyramidRow {
-            code: cost.code,
-            version: cost.version.clone(),
-            cylinders: cost.cylinders,
-            ns_per_step: cost.median(),
-            fastest_ns_per_step: cost.fastest(),
-            steps: cost.timed_steps,
-            runs: cost.nanoseconds.len(),
-            ratio: native.map(|native| cost.ratio_to(native)),
-        })
+        costs.iter().map(move |cost| (cost, native))
     });
-    rows.collect()
-}
-
-/// For people, ratios first.
-pub fn pyramid_table(rows: &[PyramidRow]) -> Table {
-    let mut table = Table::new(&[
-        "cylinders>",
-        "code",
-        "times native>",
-        "ns per step and cylinder>",
-        "fastest>",
-    ]);
-    for row in rows {
-        table.push(vec![
-            row.cylinders.to_string(),
-            row.code.to_string(),
-            optional(row.ratio, plain),
-            plain(row.ns_per_step),
-            plain(row.fastest_ns_per_step),
-        ]);
-    }
-    table
+    Columns::<PyramidRow>::new(
+        "pyramids",
+        "A row is the cost of a step of a pyramid of cylinders by one code on one core.",
+        "`tristack bench --pyramids`",
+    )
+    .number("cylinders", "1", "number of cylinders", |(cost, _)| {
+        cost.cylinders
+    })
+    .shown("cylinders")
+    .text("code", "name of the code", |(cost, _)| cost.code.as_str())
+    .shown("code")
+    .text("version", "its version", |(cost, _)| cost.version.clone())
+    .number(
+        "ratio",
+        "1",
+        "how many times the cost of native this is, run by run",
+        |(cost, native)| native.map(|native| cost.ratio_to(native)),
+    )
+    .shown("times native")
+    .digits(plain)
+    .number(
+        "ns_per_step",
+        "ns",
+        "wall time per step and cylinder, the median of the runs",
+        |(cost, _)| cost.median(),
+    )
+    .shown("ns per step and cylinder")
+    .digits(plain)
+    .number(
+        "fastest_ns_per_step",
+        "ns",
+        "the same of the fastest run",
+        |(cost, _)| cost.fastest(),
+    )
+    .shown("fastest")
+    .digits(plain)
+    .number("steps", "1", "steps timed in each run", |(cost, _)| {
+        cost.timed_steps
+    })
+    .number("runs", "1", "how often it was measured", |(cost, _)| {
+        cost.nanoseconds.len()
+    })
+    .rows(rows)
 }
 
 #[cfg(test)]
@@ -224,11 +234,13 @@ mod tests {
     #[test]
     fn ratios_are_to_native_lanes() {
         let liggghts = BenchTarget::External(Code::named("liggghts").unwrap());
-        let rows = bench_rows(&[cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)]);
-        assert_eq!([rows[0].ratio, rows[1].ratio], [Some(1.0), Some(250.0)]);
-        assert_eq!(rows[1].yield_force_ratio, Some(250.0));
-        let alone = bench_rows(&[cost(liggghts, 2500.0)]);
-        assert_eq!(alone[0].ratio, None);
-        assert!(bench_table(&alone).markdown().contains("| liggghts |"));
+        let costs = [cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)];
+        let ratios = beside_lanes(&costs)
+            .iter()
+            .map(times_lanes)
+            .collect::<Vec<_>>();
+        assert_eq!(ratios, [Some(1.0), Some(250.0)]);
+        assert_eq!(times_lanes(&beside_lanes(&costs[1..])[0]), None);
+        assert!(bench(&costs).shown().markdown().contains("| liggghts |"));
     }
 }

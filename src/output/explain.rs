@@ -1,9 +1,13 @@
 //! The whole chain from runs to verdict for one row.
 
 use super::number::{friction, optional, relative, significant};
-use super::table::Table;
-use crate::model::Preparation;
-use crate::study::yield_force::{ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce};
+use super::table::Columns;
+use crate::model::{Case, Preparation};
+use crate::runs::RunSummary;
+use crate::series::Estimate;
+use crate::study::yield_force::{
+    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce,
+};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
 /// What stands behind `judgement`, for a terminal. `twin` is the same number computed with more digits.
@@ -47,49 +51,38 @@ fn question(judgement: &Judgement) -> String {
 }
 
 fn runs(judgement: &Judgement) -> String {
-    let mut table = Table::new(&[
-        "run>",
-        "wall speed>",
-        "time step>",
-        "ramp>",
-        "steps>",
-        "slip onset>",
-        "peak>",
-        "sampling>",
-        "amplified>",
-    ]);
-    for (index, (case, run)) in judgement
-        .study
-        .cases
-        .iter()
-        .zip(judgement.runs())
-        .enumerate()
-    {
-        let ramp = match case.protocol.preparation {
+    let runs = judgement.study.cases.iter().zip(judgement.runs());
+    let runs = runs.enumerate();
+    let force =
+        |estimate: Option<Estimate>| optional(estimate, |estimate| significant(estimate.force, 11));
+    let table = Columns::<(usize, (&Case, &RunSummary))>::for_people()
+        .right("run", |(index, _)| (index + 1).to_string())
+        .right("wall speed", |(_, (case, _))| {
+            format!("{:.3e}", case.protocol.wall_speed)
+        })
+        .right("time step", |(_, (case, _))| {
+            case.protocol.time_step.to_string()
+        })
+        .right("ramp", |(_, (case, _))| match case.protocol.preparation {
             Preparation::GravityRamp { ramp_time, .. } => ramp_time.to_string(),
             Preparation::SideWalls(_) => "-".to_owned(),
-        };
-        let force = |estimate: Option<crate::series::Estimate>| {
-            optional(estimate, |estimate| significant(estimate.force, 11))
-        };
-        table.push(vec![
-            (index + 1).to_string(),
-            format!("{:.3e}", case.protocol.wall_speed),
-            case.protocol.time_step.to_string(),
-            ramp,
-            case.total_steps().to_string(),
-            force(run.estimates.slip),
-            force(run.estimates.peak),
-            optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling)),
+        })
+        .right("steps", |(_, (case, _))| case.total_steps().to_string())
+        .right("slip onset", |(_, (_, run))| force(run.estimates.slip))
+        .right("peak", |(_, (_, run))| force(run.estimates.peak))
+        .right("sampling", |(_, (_, run))| {
+            optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling))
+        })
+        .right("amplified", |(_, (_, run))| {
             optional(run.estimates.slip, |slip| {
                 format!("{:.0} x", slip.sensitivity)
-            }),
-        ]);
-    }
+            })
+        })
+        .rows(runs);
     format!(
         "2. Runs: slip onset (judged) and peak of F = f/(m g), with the distance between interpolations of \
          two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}\n",
-        table.terminal()
+        table.shown().terminal()
     )
 }
 
@@ -114,31 +107,19 @@ fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
     let load = judgement
         .reference_force()
         .map_or(f64::NAN, |force| force + 3.0);
-    let how = [
-        "parabola minus straight line",
-        "run 4 minus run 2 (time step doubled)",
-        "run 5 minus run 2 (gravity ramp halved)",
-        "distance between interpolations, weighted",
-        "random walk of rounding, amplified, weighted",
-        "half a unit of the 17th digit, amplified, weighted",
-        "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
-    ];
-    let mut table = Table::new(&["part of u_num", "how", "m g>", "of F + 3>"]);
-    let mut line = |name: &str, how: &str, value: f64| {
-        table.push(vec![
-            name.to_owned(),
-            how.to_owned(),
-            format!("{value:.1e}"),
-            format!("{:.1e}", value / load),
-        ]);
-    };
-    for ((name, value), how) in slip.budget.parts().into_iter().zip(how) {
-        line(name, how, value);
-    }
-    line("total", "sum, as if all conspired", slip.budget.total());
+    let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
+    let total = ("total", "sum, as if all conspired", slip.budget.total());
+    let table = Columns::<(&str, &str, f64)>::for_people()
+        .left("part of u_num", |(name, ..)| name.to_string())
+        .left("how", |(_, how, _)| how.to_string())
+        .right("m g", |(.., value)| format!("{value:.1e}"))
+        .right("of F + 3", move |(.., value)| {
+            format!("{:.1e}", value / load)
+        })
+        .rows(parts.into_iter().chain([total]));
     format!(
         "4. Numerical uncertainty of S (ASME V&V 20):\n{}\n",
-        table.terminal()
+        table.shown().terminal()
     )
 }
 

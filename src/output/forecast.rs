@@ -1,72 +1,139 @@
 //! What an experiment will show, in SI units.
 
-use super::number::{friction, optional, rounded, significant};
-use super::table::Table;
-use crate::experiment::{ContactEstimate, Force, ForceRange, Forecast, Forecasted};
-use serde::Serialize;
+use super::number::{friction, rounded, significant};
+use super::table::{Columns, DataTable, Value};
+use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
 
-/// As one object.
-pub fn forecast_json(forecast: &Forecast) -> String {
-    serde_json::to_string_pretty(forecast).expect("plain data has a JSON form") + "\n"
-}
+type Row<'a> = (&'a Forecast, &'a Forecasted);
 
-#[derive(Serialize)]
-struct FlatRow {
-    contact: ContactEstimate,
-    mu: f64,
-    mass: f64,
-    weight: f64,
-    normal_stiffness: f64,
-    epsilon: f64,
-    stiffness: f64,
-    event: String,
-    overlap: f64,
-    yield_force: Option<f64>,
-    yield_force_newton: Option<f64>,
-    perturbation: Option<f64>,
-    perturbation_newton: Option<f64>,
-    paper_formula_newton: f64,
-    largest_force_newton: Option<f64>,
-    lowest_newton: Option<f64>,
-    highest_newton: Option<f64>,
-}
-
-/// One line an estimate of the contact; the range is that of all of them.
-pub fn forecast_csv(forecast: &Forecast) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let weights = |force: Option<Force>| force.map(|force| force.weights);
+/// One row an estimate of the contact.
+pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
+    let rows = forecasts.iter().flat_map(|all| {
+        let estimates = all.estimates.iter();
+        estimates.map(move |own| (all, own))
+    });
     let newton = |force: Option<Force>| force.map(|force| force.newton);
-    for estimate in &forecast.estimates {
-        let row = FlatRow {
-            contact: estimate.contact,
-            mu: forecast.experiment.mu,
-            mass: forecast.mass,
-            weight: forecast.weight,
-            normal_stiffness: estimate.normal_stiffness,
-            epsilon: estimate.epsilon,
-            stiffness: estimate.stiffness,
-            event: estimate.event.to_string(),
-            overlap: estimate.overlap,
-            yield_force: weights(estimate.yield_force),
-            yield_force_newton: newton(estimate.yield_force),
-            perturbation: weights(estimate.perturbation),
-            perturbation_newton: newton(estimate.perturbation),
-            paper_formula_newton: estimate.paper_formula.newton,
-            largest_force_newton: newton(estimate.largest_force),
-            lowest_newton: forecast.range.lowest,
-            highest_newton: forecast.range.highest,
-        };
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
+    let weights = |force: Option<Force>| force.map(|force| force.weights);
+    experiment(Columns::<Row>::new(
+        "forecast",
+        "A row is one estimate of the contact of real cylinders and what follows from it; `range_lowest` and \
+         `range_highest` are over all rows.",
+        "`tristack predict`",
+    ))
+    .text("contact", "the estimate of the contact", |(_, own)| own.contact.as_str())
+    .text("chosen", "whether it is the one that was asked for", |(all, own)| {
+        all.contact == own.contact
+    })
+    .number("normal_stiffness", "N/m", "k_n", |(_, own)| own.normal_stiffness)
+    .shown("k_n")
+    .digits(|number| significant(number, 4))
+    .number("epsilon", "1", "ε = m g/(k_n r)", |(_, own)| own.epsilon)
+    .shown("epsilon = m g/(k_n r)")
+    .digits(|number| significant(number, 4))
+    .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |(_, own)| own.stiffness)
+    .shown("stiffness 1/epsilon")
+    .digits(|number| significant(number, 4))
+    .text("event", "what comes first on the path of equilibria", |(_, own)| own.event.to_string())
+    .shown("first event")
+    .text("reason", "what that means, where it is no yield", |(_, own)| own.reason.clone())
+    .number("overlap", "r", "overlap of the contacts between the cylinders then", |(_, own)| own.overlap)
+    .shown("overlap then")
+    .digits(|number| significant(number, 3))
+    .number("yield_force", "m g", "exact quasi-static yield force", move |(_, own)| {
+        weights(own.yield_force)
+    })
+    .shown("yield force, exact limit")
+    .digits(|number| significant(number, 6))
+    .number("yield_force_newton", "N", "the same", move |(_, own)| newton(own.yield_force))
+    .shown("yield force, exact limit")
+    .digits(|number| significant(number, 4))
+    .number("perturbation", "m g", "the paper's perturbation result", move |(_, own)| {
+        weights(own.perturbation)
+    })
+    .number("perturbation_newton", "N", "the same", move |(_, own)| newton(own.perturbation))
+    .shown("paper's perturbation")
+    .digits(|number| significant(number, 4))
+    .number("paper_formula", "m g", "the paper's f = m g/ε, meant for μ > μ_c", |(_, own)| {
+        own.paper_formula.weights
+    })
+    .number("paper_formula_newton", "N", "the same", |(_, own)| own.paper_formula.newton)
+    .shown("paper's f = m g/epsilon, mu > mu_c")
+    .digits(|number| significant(number, 4))
+    .number(
+        "largest_force",
+        "m g",
+        "largest force that the stack carries, whatever ends it; absent where it grows without a peak",
+        move |(_, own)| weights(own.largest_force),
+    )
+    .number("largest_force_newton", "N", "the same", move |(_, own)| newton(own.largest_force))
+    .shown("largest force")
+    .digits(|number| significant(number, 4))
+    .number(
+        "range_lowest",
+        "N",
+        "lowest of the largest forces over all estimates and all μ within its uncertainty",
+        |(all, _)| all.range.lowest,
+    )
+    .number("range_highest", "N", "the highest; absent if one of them has no peak", |(all, _)| {
+        all.range.highest
+    })
+    .rows(rows)
+}
+
+/// What is known of the cylinders.
+fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
+    let own = |(forecast, _): &Row| -> Experiment { forecast.experiment };
+    columns
+        .number("mu", "1", "floor friction μ", move |row| own(row).mu)
+        .number(
+            "mu_uncertainty",
+            "1",
+            "what μ is known to, as ±",
+            move |row| own(row).mu_uncertainty,
+        )
+        .number(
+            "mu_d",
+            "1",
+            "friction μ_d between the cylinders",
+            move |row| own(row).mu_d,
+        )
+        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| {
+            own(row).kappa
+        })
+        .text(
+            "regime",
+            "on which side of μ_c the floor is",
+            |(forecast, _)| Value::word(forecast.regime),
+        )
+        .number("youngs_modulus", "Pa", "Young's modulus E", move |row| {
+            own(row).cylinder.youngs_modulus
+        })
+        .number("poisson_ratio", "1", "Poisson's ratio ν", move |row| {
+            own(row).cylinder.poisson_ratio
+        })
+        .number("density", "kg/m³", "density ρ", move |row| {
+            own(row).cylinder.density
+        })
+        .number("radius", "m", "radius r", move |row| {
+            own(row).cylinder.radius
+        })
+        .number("length", "m", "length l along the axis", move |row| {
+            own(row).cylinder.length
+        })
+        .number("mass", "kg", "mass m", |(forecast, _)| forecast.mass)
+        .number("weight", "N", "weight m g", |(forecast, _)| forecast.weight)
 }
 
 /// The estimates side by side, for people.
-pub fn forecast_table(forecast: &Forecast) -> String {
+pub fn forecast_text(forecast: &Forecast) -> String {
+    let names: Vec<&str> = forecast
+        .estimates
+        .iter()
+        .map(|own| own.contact.as_str())
+        .collect();
     let mut lines = vec![heading(forecast)];
-    lines.push(estimates(&forecast.estimates).terminal());
+    let table = forecasts(std::slice::from_ref(forecast));
+    lines.push(table.transposed(&names).terminal());
     lines.push(conclusion(forecast));
     for contact in ContactEstimate::ALL {
         lines.push(format!("{contact}: {}\n", contact.formula()));
@@ -101,43 +168,6 @@ fn plus_minus(uncertainty: f64) -> String {
     } else {
         String::new()
     }
-}
-
-fn estimates(estimates: &[Forecasted]) -> Table {
-    let mut table = Table::new(&[
-        "quantity",
-        "paper-scaling>",
-        "line-contact>",
-        "hertz>",
-        "unit",
-    ]);
-    let mut line = |name: &str, unit: &str, cell: &dyn Fn(&Forecasted) -> String| {
-        let cells = estimates.iter().map(cell);
-        let name = std::iter::once(name.to_owned());
-        table.push(name.chain(cells).chain([unit.to_owned()]).collect());
-    };
-    let newton = |force: Option<Force>| optional(force, |force| significant(force.newton, 4));
-    line("k_n", "N/m", &|one| significant(one.normal_stiffness, 4));
-    line("epsilon = m g/(k_n r)", "", &|one| {
-        significant(one.epsilon, 4)
-    });
-    line("stiffness 1/epsilon", "", &|one| {
-        significant(one.stiffness, 4)
-    });
-    line("first event", "", &|one| one.event.to_string());
-    line("overlap then", "r", &|one| significant(one.overlap, 3));
-    line("yield force, exact limit", "m g", &|one| {
-        optional(one.yield_force, |force| significant(force.weights, 6))
-    });
-    line("yield force, exact limit", "N", &|one| {
-        newton(one.yield_force)
-    });
-    line("paper's perturbation", "N", &|one| newton(one.perturbation));
-    line("paper's f = m g/epsilon, mu > mu_c", "N", &|one| {
-        newton(Some(one.paper_formula))
-    });
-    line("largest force", "N", &|one| newton(one.largest_force));
-    table
 }
 
 /// The force by the estimate that counts, between those by all of them.

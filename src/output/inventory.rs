@@ -1,91 +1,77 @@
 //! The codes that tristack knows, as they are installed here.
 
-use super::table::Table;
-use crate::code::{Code, TaskKind};
-use crate::model::{Arms, ContactArms};
-use serde::Serialize;
+use super::table::{Columns, DataTable};
+use crate::code::{Code, Identity, TaskKind};
+use crate::model::ContactArms;
 
-/// One code.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// One code, and its program where it is installed.
 pub struct Inventory {
-    /// Its name.
-    pub code: Code,
-    /// Whether it can run here.
-    pub installed: bool,
-    /// Its version.
-    pub version: Option<String>,
-    /// Distribution package and version.
-    pub package: Option<String>,
-    /// Arm coefficients of its contacts; a default that a case may change for `native`.
-    #[serde(flatten, serialize_with = "Arms::serialize_flat")]
-    pub arms: Arms,
-    /// SHA-256 of the deck.
-    pub deck_hash: String,
-    /// How to install it.
-    pub install: &'static str,
+    code: Code,
+    identity: Option<Identity>,
 }
 
 impl Inventory {
     /// Looks for `code` on this machine.
     pub fn take(code: Code) -> Self {
         let found = code.find();
-        let identity = found.as_ref().map(|found| found.identity());
         Self {
             code,
-            installed: identity.is_some(),
-            version: identity.map(|identity| identity.version.clone()),
-            package: identity.and_then(|identity| identity.package.clone()),
-            arms: code.convention().arms,
-            deck_hash: code.files_hash(TaskKind::Stack),
-            install: code.installation_hint(),
+            identity: found.map(|found| found.identity().clone()),
+        }
+    }
+
+    fn version(&self) -> Option<String> {
+        let identity = self.identity.as_ref();
+        identity.map(|identity| identity.version.clone())
+    }
+
+    fn package(&self) -> Option<String> {
+        let identity = self.identity.as_ref();
+        identity.and_then(|identity| identity.package.clone())
+    }
+
+    /// Arms for people; of a code that takes any, they are a default.
+    fn arms(&self, arms: ContactArms) -> String {
+        match self.code.accepts_any_convention() {
+            true => format!("{arms} (any)"),
+            false => arms.to_string(),
         }
     }
 }
 
-/// As a list of objects.
-pub fn inventory_json(inventory: &[Inventory]) -> String {
-    serde_json::to_string_pretty(inventory).expect("plain data has a JSON form") + "\n"
-}
-
-/// One line an code.
-pub fn inventory_csv(inventory: &[Inventory]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for code in inventory {
-        writer
-            .serialize(code)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
-}
-
-/// For people.
-pub fn inventory_table(inventory: &[Inventory]) -> String {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "package",
-        "pair arm>",
-        "floor arm>",
-        "deck",
-    ]);
-    for code in inventory {
-        let absent = format!("not installed ({})", code.install);
-        let shown = |arms: ContactArms| {
-            let free = code.code.accepts_any_convention();
-            if free {
-                format!("{arms} (any)")
-            } else {
-                arms.to_string()
-            }
-        };
-        table.push(vec![
-            code.code.to_string(),
-            code.version.clone().unwrap_or(absent),
-            code.package.clone().unwrap_or_else(|| "-".to_owned()),
-            shown(code.arms.pair),
-            shown(code.arms.floor),
-            code.deck_hash[..12].to_owned(),
-        ]);
-    }
-    table.terminal()
+/// One row a code.
+pub fn inventory(codes: &[Inventory]) -> DataTable<'_> {
+    Columns::<&Inventory>::new(
+        "codes",
+        "A row is a code that tristack knows, as it is installed on this machine.",
+        "`tristack codes`",
+    )
+    .code(|own| own.code)
+    .text("installed", "whether it can run here", |own| {
+        own.identity.is_some()
+    })
+    .text("version", "its version", |own| own.version())
+    .shown("version")
+    .cell(|own| {
+        let absent = || format!("not installed ({})", own.code.installation_hint());
+        own.version().unwrap_or_else(absent)
+    })
+    .text("package", "distribution package and its version", |own| {
+        own.package()
+    })
+    .shown("package")
+    .arms(|own| own.code.convention().arms)
+    .right("pair arm", |own| own.arms(own.code.convention().arms.pair))
+    .right("floor arm", |own| {
+        own.arms(own.code.convention().arms.floor)
+    })
+    .text("deck_hash", "SHA-256 of the deck", |own| {
+        own.code.files_hash(TaskKind::Stack)
+    })
+    .shown("deck")
+    .cell(|own| own.code.files_hash(TaskKind::Stack)[..12].to_owned())
+    .text("install", "how to install it", |own| {
+        own.code.installation_hint()
+    })
+    .rows(codes)
 }

@@ -5,6 +5,7 @@ mod crosscheck;
 mod explain;
 mod figures;
 mod forecast;
+mod formats;
 mod inventory;
 mod number;
 mod page;
@@ -16,30 +17,22 @@ mod theory;
 mod trajectory;
 mod vtk;
 
-pub use bench::{
-    BenchRow, PyramidRow, bench_csv, bench_json, bench_machine, bench_markdown, bench_rows,
-    bench_table, pyramid_rows, pyramid_table, scaling_table,
-};
-pub use crosscheck::{
-    budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_rows,
-    crosscheck_table,
-};
+pub use bench::{bench, bench_machine, bench_markdown, pyramids, scaling};
+pub use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub use explain::explanation;
 pub use figures::{
     Figure, StackPanel, figures, performance_svg, regimes_svg, representative_panels, run_svg,
 };
-pub use forecast::{forecast_csv, forecast_json, forecast_table};
-pub use inventory::{Inventory, inventory_csv, inventory_json, inventory_table};
+pub use forecast::{forecast_text, forecasts};
+pub use formats::formats_page;
+pub use inventory::{Inventory, inventory};
 pub use number::{friction, significant};
 pub use page::{Origin, ReportFile, report_files};
-pub use probe::{probe_csv, probe_json, probe_markdown, probe_table};
-pub use regimes::{
-    boundaries_csv, largest_forces_csv, regimes_csv, regimes_markdown, survey_json, survey_table,
-};
-pub use simulation::{Simulation, simulation_csv, simulation_json, simulation_table};
-pub use table::Table;
-pub use theory::{theory_csv, theory_json, theory_table};
-pub use trajectory::{
-    trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
-};
+pub use probe::{probe, probe_by_code};
+pub use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
+pub use simulation::{Simulation, simulations};
+pub(crate) use table::json;
+pub use table::{DataTable, Table};
+pub use theory::{theories_by_stack, theory};
+pub use trajectory::{trajectories, trajectories_markdown, trajectories_text};
 pub use vtk::{VtkFile, is_vtk_row, vtk_series};

@@ -50,6 +50,29 @@ pub fn friction(value: f64) -> String {
     }
 }
 
+/// A small distance: two digits and an exponent.
+pub fn small(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:.1e}")
+}
+
+/// An uncertainty: one digit and an exponent.
+pub fn one_digit(value: f64) -> String {
+    format!("{value:.0e}")
+}
+
+/// A fraction in percent, with its sign.
+pub fn percent(value: f64) -> String {
+    format!("{:+.2} %", 100.0 * value)
+}
+
+/// A cell for a text that may be empty.
+pub fn or_dash(text: &str) -> String {
+    if text.is_empty() { "-" } else { text }.to_owned()
+}
+
 /// A cell for a value that may be absent.
 pub fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), format)

@@ -1,61 +1,51 @@
 //! What the probe found, in every format.
 
 use super::number::significant;
-use super::table::Table;
+use super::table::{Columns, DataTable, Table};
 use crate::code::Code;
 use crate::study::Verdict;
 use crate::study::convention::Finding;
 
-/// One line a finding.
-pub fn probe_csv(findings: &[Finding]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for finding in findings {
-        writer
-            .serialize(finding)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
+/// One row a finding.
+pub fn probe(findings: &[Finding]) -> DataTable<'_> {
+    Columns::<&Finding>::new(
+        "probe",
+        "A row is one property of the contacts of a code, as micro-tests measure it and as the code declares it.",
+        "`tristack probe`, `tristack report` (tables/conventions.csv)",
+    )
+    .text("code", "the code that was probed", |own| own.code.as_str())
+    .text("version", "its version", |own| own.version.clone())
+    .text("property", "name of the property", |own| own.property.clone())
+    .number("measured", "1", "what was measured; absent if it could not be", |own| own.measured)
+    .number("uncertainty", "1", "three standard errors; absent with the measured value", |own| {
+        own.uncertainty
+    })
+    .number("declared", "1", "what the code declares", |own| own.declared)
+    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| own.verdict.as_str())
+    .rows(findings)
 }
 
-/// As a list of objects.
-pub fn probe_json(findings: &[Finding]) -> String {
-    serde_json::to_string_pretty(findings).expect("plain rows have a JSON form") + "\n"
-}
-
-/// For a terminal: one line a property, one column an code.
-pub fn probe_table(findings: &[Finding]) -> String {
-    probe_rows(findings).terminal()
-}
-
-/// The same for a page.
-pub fn probe_markdown(findings: &[Finding]) -> String {
-    probe_rows(findings).markdown()
-}
-
-/// One row a property, one column an code.
-pub fn probe_rows(findings: &[Finding]) -> Table {
+/// For people: one line a property, one column a code.
+pub fn probe_by_code(findings: &[Finding]) -> Table {
     let mut codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
     codes.sort();
     codes.dedup();
-    let mut columns = vec!["property"];
-    columns.extend(codes.iter().map(|code| code.as_str()));
     let mut properties: Vec<&str> = Vec::new();
     for finding in findings {
         if !properties.contains(&finding.property.as_str()) {
             properties.push(&finding.property);
         }
     }
-    let mut table = Table::new(&columns);
-    for property in properties {
-        let mut cells = vec![property.to_owned()];
-        for &code in &codes {
+    let mut columns =
+        Columns::for_people().left("property", |property: &&str| property.to_string());
+    for code in codes {
+        columns = columns.left(code.as_str(), move |property| {
             let mut own = findings.iter();
-            let found = own.find(|finding| finding.code == code && finding.property == property);
-            cells.push(found.map_or_else(|| "-".to_owned(), cell));
-        }
-        table.push(cells);
+            let found = own.find(|one| one.code == code && one.property == *property);
+            found.map_or_else(|| "-".to_owned(), cell)
+        });
     }
-    table
+    columns.rows(properties).shown()
 }
 
 /// Measured value and, in brackets, its uncertainty; the declaration where they are not the same.

@@ -1,7 +1,7 @@
 //! The regime map and what the DEM says of it, in every format.
 
 use super::number::{optional, relative, significant};
-use super::table::Table;
+use super::table::{Columns, DataTable, Table, Value};
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
@@ -9,137 +9,37 @@ use crate::study::yield_force::Evidence;
 use crate::theory::{
     Across, Axis, EquilibriumPath, Event, FailureMode, LoadingPhase, Outcome, Regime, RegimeMap,
 };
-use serde::Serialize;
-
-/// One stack of the map.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct MapRow {
-    map: &'static str,
-    mu: f64,
-    stiffness: f64,
-    mu_d: f64,
-    kappa: f64,
-    event: Event,
-    stage: LoadingPhase,
-    force: f64,
-    #[serde(rename = "T")]
-    tangent: f64,
-    largest_force: Option<f64>,
-    failure_mode: FailureMode,
-    then: Event,
-}
-
-/// One point of a boundary.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct BoundaryRow {
-    map: &'static str,
-    across: &'static str,
-    mu: f64,
-    stiffness: f64,
-    mu_d: f64,
-    kappa: f64,
-    distance: f64,
-    below: String,
-    above: String,
-    below_observed: Option<String>,
-    above_observed: Option<String>,
-    below_verdict: Verdict,
-    above_verdict: Verdict,
-    verdict: Verdict,
-}
-
-/// The largest force of one stack.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct ForceRow {
-    mu: f64,
-    stiffness: f64,
-    mu_d: f64,
-    kappa: f64,
-    event: Event,
-    failure_mode: FailureMode,
-    largest_force: Option<f64>,
-    observed_force: Option<f64>,
-    uncertainty: Option<f64>,
-    error: Option<f64>,
-    verdict: Verdict,
-}
-
-impl MapRow {
-    fn new(axis: Axis, stack: &Stack, outcome: &Outcome) -> Self {
-        Self {
-            map: axis.as_str(),
-            mu: stack.floor_friction,
-            stiffness: stack.stiffness,
-            mu_d: stack.cylinder_friction,
-            kappa: stack.stiffness_ratio,
-            event: outcome.first.event,
-            stage: outcome.first.stage,
-            force: outcome.first.force,
-            tangent: outcome.first.tangent,
-            largest_force: outcome.largest_force,
-            failure_mode: outcome.failure_mode,
-            then: outcome.last.event,
-        }
-    }
-}
-
-impl BoundaryRow {
-    fn new(confirmation: &Confirmation) -> Self {
-        let point = &confirmation.point;
-        let [below, above] = point.sides.map(|outcome| outcome.regime().to_string());
-        let observed = |regime: Option<Regime>| regime.map(|regime| regime.to_string());
-        let [first, second] = confirmation.sides;
-        Self {
-            map: point.map.as_str(),
-            across: across_name(point.across),
-            mu: point.stack.floor_friction,
-            stiffness: point.stack.stiffness,
-            mu_d: point.stack.cylinder_friction,
-            kappa: point.stack.stiffness_ratio,
-            distance: point.distance,
-            below,
-            above,
-            below_observed: observed(first.observed),
-            above_observed: observed(second.observed),
-            below_verdict: first.verdict,
-            above_verdict: second.verdict,
-            verdict: confirmation.verdict(),
-        }
-    }
-}
-
-impl ForceRow {
-    fn new(examination: &Examination) -> Self {
-        let stack = &examination.stack;
-        Self {
-            mu: stack.floor_friction,
-            stiffness: stack.stiffness,
-            mu_d: stack.cylinder_friction,
-            kappa: stack.stiffness_ratio,
-            event: examination.claimed.first.event,
-            failure_mode: examination.claimed.failure_mode,
-            largest_force: examination.claimed.largest_force,
-            observed_force: examination.peak.map(|peak| peak.force),
-            uncertainty: examination.uncertainty,
-            error: examination.error,
-            verdict: examination.verdict,
-        }
-    }
-}
-
-fn across_name(across: Across) -> &'static str {
-    match across {
-        Across::Friction => "mu",
-        Across::Axis(axis) => axis.as_str(),
-    }
-}
 
 /// The map as a grid of `columns` values on the axis by `rows` floor frictions.
-pub fn regimes_csv(maps: &[RegimeMap], columns: usize, rows: usize) -> Vec<u8> {
-    lines(maps.iter().flat_map(|map| grid(map, columns, rows)))
+pub fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
+    Columns::<(Axis, Stack, Outcome)>::new(
+        "regimes",
+        "A row is one stack of a regime map and what happens first on its way up in load.",
+        "`tristack regimes` (regimes.csv)",
+    )
+    .text("map", "what varies besides μ", |(axis, ..)| axis.as_str())
+    .stack(|(_, stack, _)| *stack)
+    .text("event", "the first event", |(.., outcome)| Value::word(outcome.first.event))
+    .text("stage", "when it comes: `own-weight` or `wall`", |(.., outcome)| {
+        Value::word(outcome.first.stage)
+    })
+    .number("force", "m g", "wall force F then; 0 under own weight", |(.., outcome)| outcome.first.force)
+    .number("T", "1", "T = tan(ψ/2) then", |(.., outcome)| outcome.first.tangent)
+    .number("largest_force", "m g", "largest F that the stack carries", |(.., outcome)| {
+        outcome.largest_force
+    })
+    .text("failure_mode", "what the first event does", |(.., outcome)| {
+        Value::word(outcome.failure_mode)
+    })
+    .text(
+        "then",
+        "the first slip or wall contact; another event than the first where contact 2–3 closes before it",
+        |(.., outcome)| Value::word(outcome.last.event),
+    )
+    .rows(maps.iter().flat_map(|map| grid(map, columns, rows)))
 }
 
-fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<MapRow> {
+fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, Outcome)> {
     let mut grid = Vec::new();
     for value in map.axis_values(columns) {
         let path = EquilibriumPath::new(&map.axis.set(&map.base, value));
@@ -147,48 +47,113 @@ fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<MapRow> {
         let stacks = stacks.map(|friction| map.stack(value, friction));
         grid.extend(stacks.filter_map(|stack| {
             let outcome = Outcome::on(&path, &stack)?;
-            Some(MapRow::new(map.axis, &stack, &outcome))
+            Some((map.axis, stack, outcome))
         }));
     }
     grid
 }
 
-/// The boundary points with every digit.
-pub fn boundaries_csv(survey: &Survey) -> Vec<u8> {
-    lines(survey.confirmations.iter().map(BoundaryRow::new))
-}
-
-/// The largest forces with every digit.
-pub fn largest_forces_csv(survey: &Survey) -> Vec<u8> {
-    lines(survey.examinations.iter().map(ForceRow::new))
-}
-
-fn lines(rows: impl Iterator<Item = impl Serialize>) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
-}
-
-/// Boundaries and largest forces as one object.
-pub fn survey_json(survey: &Survey) -> String {
-    #[derive(Serialize)]
-    struct Both {
-        boundaries: Vec<BoundaryRow>,
-        largest_forces: Vec<ForceRow>,
-    }
-    let both = Both {
-        boundaries: survey.confirmations.iter().map(BoundaryRow::new).collect(),
-        largest_forces: survey.examinations.iter().map(ForceRow::new).collect(),
+/// The boundary points.
+pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
+    let claimed = |own: &Confirmation, side: usize| own.point.sides[side].regime().to_string();
+    let observed = |own: &Confirmation, side: usize| {
+        let regime = own.sides[side].observed;
+        regime.map(|regime| regime.to_string())
     };
-    serde_json::to_string_pretty(&both).expect("plain rows have a JSON form") + "\n"
+    Columns::<&Confirmation>::new(
+        "boundaries",
+        "A row is one point of a boundary of a regime map, and what the native DEM shows on both sides of it.",
+        "`tristack regimes` (boundaries.csv)",
+    )
+    .text("map", "what varies besides μ", |own| own.point.map.as_str())
+    .text("across", "what changes across the boundary", |own| match own.point.across {
+        Across::Friction => "mu",
+        Across::Axis(axis) => axis.as_str(),
+    })
+    .stack(|own| own.point.stack)
+    .number("distance", "1", "relative distance of the neighbours below and above", |own| {
+        own.point.distance
+    })
+    .text("below", "what theory says of the neighbour below", move |own| claimed(own, 0))
+    .text("above", "the same of the one above", move |own| claimed(own, 1))
+    .text("below_observed", "what the DEM shows below; absent if nothing happened", move |own| {
+        observed(own, 0)
+    })
+    .text("above_observed", "the same above", move |own| observed(own, 1))
+    .text("below_verdict", "verdict on the neighbour below", |own| own.sides[0].verdict.as_str())
+    .text("above_verdict", "the same above", |own| own.sides[1].verdict.as_str())
+    .text("verdict", "the worse of the two", |own| own.verdict().as_str())
+    .rows(confirmations)
+}
+
+/// The largest forces.
+pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
+    let or_why = |own: &Examination, force: Option<f64>| {
+        let without = || match own.claimed.failure_mode {
+            FailureMode::Collapses => "falls".to_owned(),
+            _ => "grows".to_owned(),
+        };
+        force.map_or_else(without, |force| significant(force, 7))
+    };
+    let observed = |own: &Examination| own.peak.map(|peak| peak.force);
+    Columns::<&Examination>::new(
+        "largest_forces",
+        "A row is the largest force that one stack carries, by theory and in the native DEM.",
+        "`tristack regimes` (largest_forces.csv)",
+    )
+    .stack(|own| own.stack)
+    .again("mu")
+    .digits(|mu| significant(mu, 4))
+    .again("mu_d")
+    .shown("mu_d")
+    .again("kappa")
+    .shown("kappa")
+    .text("event", "the first event", |own| {
+        Value::word(own.claimed.first.event)
+    })
+    .shown("first event")
+    .cell(|own| own.claimed.regime().to_string())
+    .text("failure_mode", "what it does", |own| {
+        Value::word(own.claimed.failure_mode)
+    })
+    .number(
+        "largest_force",
+        "m g",
+        "largest F by theory; absent if it falls, or grows without a peak",
+        |own| own.claimed.largest_force,
+    )
+    .shown("theory")
+    .cell(move |own| or_why(own, own.claimed.largest_force))
+    .number(
+        "observed_force",
+        "m g",
+        "peak of F in the DEM at vanishing wall speed",
+        move |own| observed(own),
+    )
+    .shown("DEM")
+    .cell(move |own| or_why(own, observed(own)))
+    .number("uncertainty", "m g", "uncertainty of the peak", |own| {
+        own.uncertainty
+    })
+    .shown("±")
+    .digits(|uncertainty| format!("{uncertainty:.0e}"))
+    .number(
+        "error",
+        "1",
+        "(observed_force − largest_force)/(largest_force + 3)",
+        |own| own.error,
+    )
+    .shown("error")
+    .digits(relative)
+    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| {
+        own.verdict.as_str()
+    })
+    .shown("verdict")
+    .rows(examinations)
 }
 
 /// Boundaries and largest forces for a terminal.
-pub fn survey_table(survey: &Survey) -> String {
+pub fn survey_text(survey: &Survey) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.terminal());
     format!(
         "Boundaries in mu, and how many of their neighbours at a relative distance of {THREE_DIGITS:e} are in \
@@ -236,18 +201,19 @@ fn what_events_do() -> String {
             FailureMode::Softens,
         ),
     ];
-    let mut table = Table::new(&["event", "what it does"]);
-    for (event, failure_mode) in events {
-        table.push(vec![event.to_owned(), failure_mode.to_string()]);
-    }
-    table.markdown()
+    Columns::<(&str, FailureMode)>::for_people()
+        .left("event", |(event, _)| event.to_string())
+        .left("what it does", |(_, mode)| mode.to_string())
+        .rows(events)
+        .shown()
+        .markdown()
 }
 
 fn tables(survey: &Survey) -> [Table; 3] {
     [
         friction_table(survey),
         line_table(survey),
-        force_table(survey),
+        largest_forces(&survey.examinations).shown(),
     ]
 }
 
@@ -270,75 +236,72 @@ fn groups<Key: PartialEq>(
 }
 
 fn friction_table(survey: &Survey) -> Table {
-    let mut table = Table::new(&[
-        "map",
-        "at>",
-        "own weight up to mu>",
-        "floor slip up to mu>",
-        "beyond it",
-        "DEM>",
-    ]);
+    type Group<'a> = ((Axis, f64), Vec<&'a Confirmation>);
     let key = |confirmation: &Confirmation| {
         let point = &confirmation.point;
         (point.across == Across::Friction).then(|| (point.map, point.map.get(&point.stack)))
     };
-    for ((axis, value), members) in groups(survey, key) {
-        let friction = |own_weight: bool| {
-            let point = members
-                .iter()
-                .map(|member| &member.point)
-                .find(|point| (point.sides[0].last.stage == LoadingPhase::OwnWeight) == own_weight);
-            point.map(|point| point.stack.floor_friction)
-        };
-        let beyond = members
-            .last()
-            .map(|member| member.point.sides[1].last.event);
-        table.push(vec![
-            format!("mu, {}", axis.as_str()),
-            significant(value, 4),
-            optional(friction(true), |mu| significant(mu, 6)),
-            optional(friction(false), |mu| significant(mu, 6)),
-            beyond.map_or_else(String::new, |event| event.to_string()),
-            tally(&members),
-        ]);
-    }
-    table
+    let friction = |members: &[&Confirmation], own_weight: bool| {
+        let mut points = members.iter().map(|member| &member.point);
+        let point = points
+            .find(|point| (point.sides[0].last.stage == LoadingPhase::OwnWeight) == own_weight);
+        optional(point, |point| significant(point.stack.floor_friction, 6))
+    };
+    let beyond = |members: &[&Confirmation]| {
+        let last = members.last();
+        last.map_or_else(String::new, |member| {
+            member.point.sides[1].last.event.to_string()
+        })
+    };
+    Columns::<Group>::for_people()
+        .left("map", |((axis, _), _)| format!("mu, {}", axis.as_str()))
+        .right("at", |((_, value), _)| significant(*value, 4))
+        .right("own weight up to mu", move |(_, members)| {
+            friction(members, true)
+        })
+        .right("floor slip up to mu", move |(_, members)| {
+            friction(members, false)
+        })
+        .left("beyond it", move |(_, members)| beyond(members))
+        .right("DEM", |(_, members)| tally(members))
+        .rows(groups(survey, key))
+        .shown()
 }
 
 fn line_table(survey: &Survey) -> Table {
-    let mut table = Table::new(&["map", "boundary", "below", "above", "from mu>", "DEM>"]);
+    type Group<'a> = (
+        (Axis, String, [(Event, LoadingPhase); 2]),
+        Vec<&'a Confirmation>,
+    );
     let key = |confirmation: &Confirmation| {
         let point = &confirmation.point;
         let Across::Axis(axis) = point.across else {
             return None;
         };
-        let last = point.sides.map(|side| (side.first.event, side.first.stage));
-        let line = format!(
-            "{} = {}",
-            axis.as_str(),
-            significant(axis.get(&point.stack), 6)
-        );
-        Some((axis, line, last))
+        let first = point.sides.map(|side| (side.first.event, side.first.stage));
+        let value = significant(axis.get(&point.stack), 6);
+        Some((axis, format!("{} = {value}", axis.as_str()), first))
     };
-    for ((axis, line, _), members) in groups(survey, key) {
-        let [below, above] = members[0].point.sides.map(|side| {
-            Regime {
-                last: side.first.event,
-                last_stage: side.first.stage,
-                ..side.regime()
-            }
-            .to_string()
-        });
-        table.push(vec![
-            format!("mu, {}", axis.as_str()),
-            line,
-            below,
-            above,
-            significant(members[0].point.stack.floor_friction, 3),
-            tally(&members),
-        ]);
-    }
-    table
+    let first = |members: &[&Confirmation], side: usize| {
+        let side = members[0].point.sides[side];
+        let regime = Regime {
+            last: side.first.event,
+            last_stage: side.first.stage,
+            ..side.regime()
+        };
+        regime.to_string()
+    };
+    Columns::<Group>::for_people()
+        .left("map", |((axis, ..), _)| format!("mu, {}", axis.as_str()))
+        .left("boundary", |((_, line, _), _)| line.clone())
+        .left("below", move |(_, members)| first(members, 0))
+        .left("above", move |(_, members)| first(members, 1))
+        .right("from mu", |(_, members)| {
+            significant(members[0].point.stack.floor_friction, 3)
+        })
+        .right("DEM", |(_, members)| tally(members))
+        .rows(groups(survey, key))
+        .shown()
 }
 
 /// How many of the neighbours are what they should be.
@@ -346,40 +309,4 @@ fn tally(members: &[&Confirmation]) -> String {
     let sides = members.iter().flat_map(|member| &member.sides);
     let agree = sides.filter(|side| side.verdict == Verdict::Agrees).count();
     format!("{agree} of {}", 2 * members.len())
-}
-
-fn force_table(survey: &Survey) -> Table {
-    let mut table = Table::new(&[
-        "mu>",
-        "mu_d>",
-        "stiffness>",
-        "kappa>",
-        "first event",
-        "theory>",
-        "DEM>",
-        "±>",
-        "error>",
-        "verdict",
-    ]);
-    for examination in &survey.examinations {
-        let row = ForceRow::new(examination);
-        let force = |force: f64| significant(force, 7);
-        let without = || match examination.claimed.failure_mode {
-            FailureMode::Collapses => "falls".to_owned(),
-            _ => "grows".to_owned(),
-        };
-        table.push(vec![
-            significant(row.mu, 4),
-            row.mu_d.to_string(),
-            row.stiffness.to_string(),
-            row.kappa.to_string(),
-            examination.claimed.regime().to_string(),
-            row.largest_force.map_or_else(without, force),
-            row.observed_force.map_or_else(without, force),
-            optional(row.uncertainty, |uncertainty| format!("{uncertainty:.0e}")),
-            optional(row.error, relative),
-            row.verdict.to_string(),
-        ]);
-    }
-    table
 }

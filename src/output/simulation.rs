@@ -1,125 +1,183 @@
 //! The result of one compression run.
 
-use super::number::{friction, optional, significant};
-use super::table::Table;
+use super::number::significant;
+use super::table::{Columns, DataTable, Value};
 use crate::code::Run;
-use crate::model::Case;
-use crate::series::YieldEstimates;
-use serde::Serialize;
+use crate::model::{Case, Preparation};
+use crate::series::{Estimate, YieldEstimates};
 
-/// What one run says.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Simulation {
-    /// Who ran it.
-    pub code: String,
-    /// In which version.
-    pub version: String,
-    /// What was run.
-    pub case: Case,
-    /// Largest wall force in m g, absent if the force still rises at the end.
-    pub peak_force: Option<f64>,
-    /// Wall force in m g when the floor first slips, absent if it does not.
-    pub slip_force: Option<f64>,
-    /// Steps in all.
-    pub steps: u64,
-    /// Wall time.
-    pub seconds: f64,
+/// One run, and what was read off it.
+pub struct Simulation<'a> {
+    run: &'a Run,
+    estimates: YieldEstimates,
 }
 
-impl Simulation {
-    /// The result of `run`, off which `estimates` were read.
-    pub fn new(run: &Run, estimates: YieldEstimates) -> Self {
+impl<'a> Simulation<'a> {
+    /// The result of `run`.
+    pub fn new(run: &'a Run) -> Self {
         Self {
-            code: run.provenance.identity.code.clone(),
-            version: run.provenance.identity.version.clone(),
-            case: run.case,
-            peak_force: estimates.peak.map(|estimate| estimate.force),
-            slip_force: estimates.slip.map(|estimate| estimate.force),
-            steps: run.provenance.steps,
-            seconds: run.provenance.seconds,
+            run,
+            estimates: YieldEstimates::read(&run.series, &run.case.stack),
         }
     }
 }
 
-/// As one object.
-pub fn simulation_json(simulation: &Simulation) -> String {
-    serde_json::to_string_pretty(simulation).expect("plain data has a JSON form") + "\n"
+/// One row a run.
+pub fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
+    let force = |estimate: Option<Estimate>| estimate.map(|estimate| estimate.force);
+    let columns = Columns::<&Simulation>::new(
+            "simulation",
+            "A row is one compression run and what was read off it. The case file beside it (case.json) holds \
+             what is left out here.",
+            "`tristack simulate` (summary.json)",
+        )
+        .text("code", "the code that ran", |own| own.run.provenance.identity.code.clone())
+        .shown("code")
+        .text("version", "its version", |own| {
+            own.run.provenance.identity.version.clone()
+        })
+        .shown("version")
+        .stack(|own| own.run.case.stack)
+        .arms(|own| own.run.case.convention.arms);
+    let columns = protocol(convention(columns, |own| own.run.case), |own| own.run.case);
+    columns
+        .number(
+            "peak_force",
+            "m g",
+            "largest wall force; absent if the force still rises at the end",
+            move |own| force(own.estimates.peak),
+        )
+        .shown("peak")
+        .digits(|force| significant(force, 9))
+        .number(
+            "slip_force",
+            "m g",
+            "wall force when the floor first slips; absent if it does not",
+            move |own| force(own.estimates.slip),
+        )
+        .shown("slip onset")
+        .digits(|force| significant(force, 9))
+        .number("steps", "1", "steps in all", |own| own.run.provenance.steps)
+        .shown("steps")
+        .number("seconds", "s", "wall time", |own| {
+            own.run.provenance.seconds
+        })
+        .shown("wall time")
+        .digits(|seconds| format!("{seconds:.2}"))
+        .rows(runs)
 }
 
-#[derive(Serialize)]
-struct FlatRow<'a> {
-    code: &'a str,
-    version: &'a str,
-    mu: f64,
-    stiffness: f64,
-    kappa: f64,
-    pair_torque_arm: f64,
-    pair_kinematic_arm: f64,
-    floor_torque_arm: f64,
-    floor_kinematic_arm: f64,
-    speed: f64,
-    dt: f64,
-    peak_force: Option<f64>,
-    slip_force: Option<f64>,
-    steps: u64,
-    seconds: f64,
+/// The contact convention of `case` beyond its arms.
+fn convention<'a, R: 'a>(
+    columns: Columns<'a, R>,
+    case: impl Fn(&R) -> Case + Copy + 'a,
+) -> Columns<'a, R> {
+    let own = move |row: &R| case(row).convention;
+    columns
+        .number("restitution", "1", "restitution coefficient", move |row| {
+            own(row).restitution
+        })
+        .text(
+            "coulomb_operand",
+            "force that Coulomb's limit is compared with",
+            move |row| Value::word(own(row).coulomb_operand),
+        )
+        .text(
+            "sliding_spring",
+            "treatment of the tangential spring of a sliding contact",
+            move |row| Value::word(own(row).sliding_spring),
+        )
+        .text(
+            "history_update",
+            "treatment of the tangential spring of a turning contact",
+            move |row| Value::word(own(row).history_update),
+        )
+        .text(
+            "tensile_force",
+            "normal force of a contact that separates",
+            move |row| Value::word(own(row).tensile_force),
+        )
+        .number(
+            "moment_of_inertia",
+            "m r²",
+            "moment of inertia of a cylinder",
+            move |row| own(row).moment_of_inertia,
+        )
 }
 
-/// As one line.
-pub fn simulation_csv(simulation: &Simulation) -> Vec<u8> {
-    let case = &simulation.case;
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let row = FlatRow {
-        code: &simulation.code,
-        version: &simulation.version,
-        mu: case.stack.floor_friction,
-        stiffness: case.stack.stiffness,
-        kappa: case.stack.stiffness_ratio,
-        pair_torque_arm: case.convention.arms.pair.torque,
-        pair_kinematic_arm: case.convention.arms.pair.kinematic,
-        floor_torque_arm: case.convention.arms.floor.torque,
-        floor_kinematic_arm: case.convention.arms.floor.kinematic,
-        speed: case.protocol.wall_speed,
-        dt: case.protocol.time_step,
-        peak_force: simulation.peak_force,
-        slip_force: simulation.slip_force,
-        steps: simulation.steps,
-        seconds: simulation.seconds,
-    };
-    writer
-        .serialize(row)
-        .expect("a plain row is written to memory");
-    writer.into_inner().expect("memory is flushed")
-}
-
-/// For people.
-pub fn simulation_table(simulation: &Simulation) -> String {
-    let case = &simulation.case;
-    let mut table = Table::new(&["quantity", "value>", "unit"]);
-    let mut line = |name: &str, value: String, unit: &str| {
-        table.push(vec![name.to_owned(), value, unit.to_owned()]);
-    };
-    line(
-        "code",
-        format!("{} {}", simulation.code, simulation.version),
-        "",
-    );
-    line("mu", friction(case.stack.floor_friction), "");
-    line("stiffness", case.stack.stiffness.to_string(), "m g/r");
-    line(
-        "wall speed",
-        format!("{:.3e}", case.protocol.wall_speed),
-        "r sqrt(k_n/m)",
-    );
-    line(
-        "time step",
-        case.protocol.time_step.to_string(),
-        "sqrt(m/k_n)",
-    );
-    let force = |force: Option<f64>| optional(force, |force| significant(force, 9));
-    line("slip onset", force(simulation.slip_force), "m g");
-    line("peak", force(simulation.peak_force), "m g");
-    line("steps", simulation.steps.to_string(), "");
-    line("wall time", format!("{:.2}", simulation.seconds), "s");
-    table.terminal()
+/// How `case` is prepared and compressed.
+fn protocol<'a, R: 'a>(
+    columns: Columns<'a, R>,
+    case: impl Fn(&R) -> Case + Copy + 'a,
+) -> Columns<'a, R> {
+    let own = move |row: &R| case(row).protocol;
+    columns
+        .text(
+            "preparation",
+            "how the stack is brought to rest: `gravity-ramp` or `side-walls`",
+            move |row| own(row).preparation.as_str(),
+        )
+        .number(
+            "ramp_time",
+            "√(m/k_n)",
+            "duration of the gravity ramp",
+            move |row| match own(row).preparation {
+                Preparation::GravityRamp { ramp_time, .. } => Some(ramp_time),
+                Preparation::SideWalls(_) => None,
+            },
+        )
+        .number(
+            "rest_time",
+            "√(m/k_n)",
+            "duration of the rest before the compression",
+            move |row| match own(row).preparation {
+                Preparation::GravityRamp { rest_time, .. } => rest_time,
+                Preparation::SideWalls(walls) => walls.rest_time,
+            },
+        )
+        .number(
+            "push",
+            "r",
+            "A, how far each side wall is pushed in",
+            move |row| match own(row).preparation {
+                Preparation::GravityRamp { .. } => None,
+                Preparation::SideWalls(walls) => Some(walls.push),
+            },
+        )
+        .number(
+            "wall_speed",
+            "r √(k_n/m)",
+            "speed of the top wall",
+            move |row| own(row).wall_speed,
+        )
+        .shown("wall speed")
+        .digits(|speed| format!("{speed:.3e}"))
+        .number("time_step", "√(m/k_n)", "time step", move |row| {
+            own(row).time_step
+        })
+        .shown("time step")
+        .number("wall_travel", "r", "how far the wall moves", move |row| {
+            own(row).wall_travel
+        })
+        .number(
+            "coarse_interval",
+            "√(m/k_n)",
+            "time between rows of the series far from the yield",
+            move |row| own(row).sampling.coarse_interval,
+        )
+        .number(
+            "fine_from_travel",
+            "r",
+            "wall travel from which rows are taken finely",
+            move |row| own(row).sampling.fine_from_travel,
+        )
+        .number(
+            "fine_interval",
+            "√(m/k_n)",
+            "time between rows near the yield",
+            move |row| own(row).sampling.fine_interval,
+        )
+        .text("shortcuts", "whether the run takes shortcuts", move |row| {
+            own(row).shortcuts.is_some()
+        })
 }

@@ -1,83 +1,106 @@
 //! The yield force by every theory.
 
 use super::number::{friction, optional, significant};
-use super::table::Table;
+use super::table::{Columns, DataTable, Table};
+use crate::model::Stack;
 use crate::theory::Predictions;
-use serde::Serialize;
 
-/// One case as an object, several as a list.
-pub fn theory_json(predictions: &[Predictions]) -> String {
-    let json = match predictions {
-        [single] => serde_json::to_string_pretty(single),
-        several => serde_json::to_string_pretty(several),
-    };
-    json.expect("plain data has a JSON form") + "\n"
-}
-
-#[derive(Serialize)]
-struct FlatRow {
-    mu: f64,
-    stiffness: f64,
-    kappa: f64,
-    mu_d: f64,
-    epsilon: f64,
-    rigid: Option<f64>,
-    naive: Option<f64>,
-    perturbation: Option<f64>,
-    elastic: Option<f64>,
-    elastic_x: Option<f64>,
-    elastic_y: Option<f64>,
-    elastic_z: Option<f64>,
-    elastic_theta: Option<f64>,
-    quasistatic: Option<f64>,
-    event: String,
-    floor_slip_force: Option<f64>,
-    pair_torque_arm: f64,
-    pair_kinematic_arm: f64,
-    floor_torque_arm: f64,
-    floor_kinematic_arm: f64,
-    #[serde(rename = "T")]
-    tangent: Option<f64>,
-    y: Option<f64>,
-}
-
-/// One line a case, forces in m g.
-pub fn theory_csv(predictions: &[Predictions]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for case in predictions {
-        let row = FlatRow {
-            mu: case.mu,
-            stiffness: case.stiffness,
-            kappa: case.kappa,
-            mu_d: case.mu_d,
-            epsilon: case.epsilon,
-            rigid: case.rigid.yield_force,
-            naive: case.naive.yield_force,
-            perturbation: case.perturbation.yield_force,
-            elastic: case.elastic.yield_force,
-            elastic_x: case.elastic.x,
-            elastic_y: case.elastic.y,
-            elastic_z: case.elastic.z,
-            elastic_theta: case.elastic.theta,
-            quasistatic: case.quasistatic.yield_force,
-            event: case.quasistatic.event.to_string(),
-            floor_slip_force: case.quasistatic.floor_slip_force,
-            pair_torque_arm: case.quasistatic.arms.pair.torque,
-            pair_kinematic_arm: case.quasistatic.arms.pair.kinematic,
-            floor_torque_arm: case.quasistatic.arms.floor.torque,
-            floor_kinematic_arm: case.quasistatic.arms.floor.kinematic,
-            tangent: case.quasistatic.tangent,
-            y: case.quasistatic.y,
-        };
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
-    }
-    writer.into_inner().expect("memory is flushed")
+/// One row a stack.
+pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
+    Columns::<&Predictions>::new(
+        "theory",
+        "A row is one stack with its yield force F by every theory.",
+        "`tristack theory`",
+    )
+    .stack(|own| Stack {
+        floor_friction: own.mu,
+        cylinder_friction: own.mu_d,
+        stiffness: own.stiffness,
+        stiffness_ratio: own.kappa,
+    })
+    .number("epsilon", "1", "ε = m g/(k_n r)", |own| own.epsilon)
+    .number(
+        "rigid",
+        "m g",
+        "rigid cylinders; absent where infinite",
+        |own| own.rigid.yield_force,
+    )
+    .text(
+        "rigid_diverges",
+        "whether it is infinite, μ ≥ μ_c",
+        |own| own.rigid.diverges,
+    )
+    .number("naive", "m g", "naive expansion", |own| {
+        own.naive.yield_force
+    })
+    .text("naive_reason", "why it gives none", |own| own.naive.reason)
+    .number("perturbation", "m g", "singular perturbation", |own| {
+        own.perturbation.yield_force
+    })
+    .text("perturbation_reason", "why it gives none", |own| {
+        own.perturbation.reason
+    })
+    .number("elastic", "m g", "elastic equation", |own| {
+        own.elastic.yield_force
+    })
+    .number("elastic_x", "r", "its x = δ₁₁ − δ₂₁", |own| {
+        own.elastic.x
+    })
+    .number("elastic_y", "r", "its y = δ₂₂", |own| own.elastic.y)
+    .number("elastic_z", "r", "its z = δ₂₁", |own| own.elastic.z)
+    .number("elastic_theta", "rad", "its θ", |own| own.elastic.theta)
+    .text("elastic_reason", "why it gives none", |own| {
+        own.elastic.reason
+    })
+    .text(
+        "elastic_caution",
+        "an assumption that its root contradicts",
+        |own| own.elastic.caution,
+    )
+    .number(
+        "quasistatic",
+        "m g",
+        "exact quasi-static limit of a DEM with these arms",
+        |own| own.quasistatic.yield_force,
+    )
+    .text("reason", "why there is no quasi-static limit", |own| {
+        own.quasistatic.reason.clone()
+    })
+    .text(
+        "event",
+        "what comes first on the path of equilibria",
+        |own| own.quasistatic.event.to_string(),
+    )
+    .number(
+        "floor_slip_force",
+        "m g",
+        "F at which the floor slips if other events are ignored",
+        |own| own.quasistatic.floor_slip_force,
+    )
+    .arms(|own| own.quasistatic.arms)
+    .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| {
+        own.quasistatic.tangent
+    })
+    .number("y", "r", "y = x₂ − r where the floor slips", |own| {
+        own.quasistatic.y
+    })
+    .number(
+        "z",
+        "r",
+        "overlap of cylinder 2 and the floor where the floor slips",
+        |own| own.quasistatic.z,
+    )
+    .number(
+        "wall_travel",
+        "r",
+        "how far the wall has moved when the floor slips",
+        |own| own.quasistatic.wall_travel,
+    )
+    .rows(predictions)
 }
 
 /// A line a theory, for people.
-pub fn theory_table(predictions: &[Predictions]) -> String {
+pub fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
         let heading = format!(
             "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, arms {}, {}\n",
@@ -93,33 +116,39 @@ pub fn theory_table(predictions: &[Predictions]) -> String {
     tables.collect::<Vec<_>>().join("\n")
 }
 
+/// One theory of one stack: its name, its yield force, and a remark.
+type Line = (&'static str, Option<f64>, String);
+
 fn one_case(case: &Predictions) -> Table {
-    let mut table = Table::new(&["theory", "yield force F>", "remark"]);
-    let mut line = |name: &str, force: Option<f64>, remark: String| {
-        let force = optional(force, |force| significant(force, 10));
-        table.push(vec![name.to_owned(), force, remark]);
-    };
     let text = |reason: Option<&str>| reason.unwrap_or_default().to_owned();
     let rigid_remark = case.rigid.diverges.then_some("infinite: mu >= mu_c");
-    line("rigid", case.rigid.yield_force, text(rigid_remark));
-    line("naive", case.naive.yield_force, text(case.naive.reason));
-    line(
-        "perturbation",
-        case.perturbation.yield_force,
-        text(case.perturbation.reason),
-    );
-    let elastic = &case.elastic;
-    line(
-        "elastic equation",
-        elastic.yield_force,
-        text(elastic.reason.or(elastic.caution)),
-    );
-    let exact = &case.quasistatic;
-    let remark = exact.reason.clone().unwrap_or_else(|| "exact".to_owned());
-    line("quasi-static limit", exact.yield_force, remark);
+    let (elastic, exact) = (&case.elastic, &case.quasistatic);
+    let exact_remark = exact.reason.clone().unwrap_or_else(|| "exact".to_owned());
+    let mut lines: Vec<Line> = vec![
+        ("rigid", case.rigid.yield_force, text(rigid_remark)),
+        ("naive", case.naive.yield_force, text(case.naive.reason)),
+        (
+            "perturbation",
+            case.perturbation.yield_force,
+            text(case.perturbation.reason),
+        ),
+        (
+            "elastic equation",
+            elastic.yield_force,
+            text(elastic.reason.or(elastic.caution)),
+        ),
+        ("quasi-static limit", exact.yield_force, exact_remark),
+    ];
     if exact.yield_force.is_none() && exact.floor_slip_force.is_some() {
         let remark = format!("if {} is ignored", exact.event);
-        line("", exact.floor_slip_force, remark);
+        lines.push(("", exact.floor_slip_force, remark));
     }
-    table
+    Columns::<Line>::for_people()
+        .left("theory", |(name, ..)| name.to_string())
+        .right("yield force F", |(_, force, _)| {
+            optional(*force, |force| significant(force, 10))
+        })
+        .left("remark", |(.., remark)| remark.clone())
+        .rows(lines)
+        .shown()
 }

@@ -1,38 +1,99 @@
 //! Trajectories compared, in every format.
 
-use super::number::optional;
-use super::table::Table;
+use super::number::{optional, or_dash, small};
+use super::table::{Columns, DataTable};
 use crate::study::trajectory::{
-    Comparison, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement, TrajectoryRow,
+    Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
     WALL_SPEED, trajectory_stack,
 };
 
-/// The rows with every digit.
-pub fn trajectories_csv(judgements: &[TrajectoryJudgement]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows(judgements) {
-        writer
-            .serialize(row)
-            .expect("plain rows are written to memory");
+/// One distance of one comparison; a code without comparisons has one row without them.
+#[derive(Clone, Copy)]
+struct Row<'a> {
+    judgement: &'a TrajectoryJudgement,
+    comparison: Option<&'a Comparison>,
+    own: Option<&'a Distance>,
+    /// The distance at the next larger time step.
+    coarser: Option<&'a Distance>,
+}
+
+fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
+    let blank = Row {
+        judgement,
+        comparison: None,
+        own: None,
+        coarser: None,
+    };
+    if judgement.comparisons().is_empty() {
+        return vec![blank];
     }
-    writer.into_inner().expect("memory is flushed")
+    let rows = judgement.comparisons().iter().flat_map(|comparison| {
+        let distances = &comparison.distances;
+        let coarser = std::iter::once(None).chain(distances.iter().map(Some));
+        coarser.zip(distances).map(move |(coarser, own)| Row {
+            comparison: Some(comparison),
+            own: Some(own),
+            coarser,
+            ..blank
+        })
+    });
+    rows.collect()
 }
 
-/// The rows as a list of objects.
-pub fn trajectories_json(judgements: &[TrajectoryJudgement]) -> String {
-    serde_json::to_string_pretty(&rows(judgements)).expect("plain rows have a JSON form") + "\n"
-}
-
-fn rows(judgements: &[TrajectoryJudgement]) -> Vec<TrajectoryRow> {
-    judgements
-        .iter()
-        .flat_map(TrajectoryJudgement::rows)
-        .collect()
+/// One row a distance.
+pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
+    let first_above = |row: &Row, level: usize| row.own?.first_above[level];
+    Columns::<Row>::new(
+        "trajectories",
+        "A row is the distance between the series of a code and of its native twin, in one quantity on one \
+         branch at one time step; forces in units of their peak, lengths in r, angles in radians. A code \
+         without comparisons has one row without distances.",
+        "`tristack trajectories` (trajectories.csv, trajectories.json)",
+    )
+    .code(|row| row.judgement.code)
+    .version(|row| &row.judgement.version)
+    .source(|row| row.judgement.source)
+    .stack(|_| trajectory_stack())
+    .arms(|row| row.judgement.code.convention().arms)
+    .text("twin", "what the twin has of the convention of the code", |row| {
+        row.comparison.map(|own| own.twin.as_str())
+    })
+    .text("quantity", "what is compared", |row| row.comparison.map(|own| own.quantity.as_str()))
+    .text("branch", "`compression`, `collapse` or `fall`", |row| row.comparison.map(|own| own.branch.as_str()))
+    .number("time_step", "√(m/k_n)", "time step of both", |row| row.own.map(|own| own.time_step))
+    .number("largest", "1", "largest distance", |row| row.own.map(|own| own.largest))
+    .number("rms", "1", "root mean square of the distance", |row| row.own.map(|own| own.rms))
+    .number("first_above_1e-6", "√(m/k_n)", "first time at which it exceeds 1e-6, if it does", move |row| {
+        first_above(row, 0)
+    })
+    .number("first_above_1e-4", "√(m/k_n)", "the same for 1e-4", move |row| first_above(row, 1))
+    .number("first_above_1e-2", "√(m/k_n)", "the same for 1e-2", move |row| first_above(row, 2))
+    .number(
+        "order",
+        "1",
+        "log₂ of the largest distance at twice the time step over this one; absent where nothing but rounding \
+         is expected",
+        |row| row.comparison?.order(row.coarser?, row.own?),
+    )
+    .text("documented_order", "how the distance must fall with the time step", |row| {
+        row.comparison.map(|own| own.documented.order.as_str())
+    })
+    .number("round_off", "1", "what rounding may have done to the largest distance", |row| {
+        row.own.map(|own| own.round_off)
+    })
+    .number("step_error", "1", "largest change of the twin itself when its time step is halved", |row| {
+        row.comparison.map(|own| own.step_error)
+    })
+    .verdict(|row| {
+        let verdict = row.comparison.map(Comparison::verdict);
+        verdict.unwrap_or_else(|| row.judgement.verdict())
+    })
+    .rows(judgements.iter().flat_map(rows_of))
 }
 
 /// The codes and the comparisons for a terminal.
-pub fn trajectories_table(judgements: &[TrajectoryJudgement]) -> String {
-    codes(judgements).terminal() + &comparisons(judgements).terminal()
+pub fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
+    codes(judgements).shown().terminal() + &comparisons(judgements).shown().terminal()
 }
 
 /// A page with the comparisons, what they mean, why they fall as they do, and what they do not prove.
@@ -42,9 +103,9 @@ pub fn trajectories_markdown(judgements: &[TrajectoryJudgement], command: &str) 
         "# Trajectories beside native twins\n\nMade by tristack {version} with `{command}`.\n\n"
     );
     page += &meaning();
-    page += &codes(judgements).markdown();
+    page += &codes(judgements).shown().markdown();
     page += "\n";
-    page += &comparisons(judgements).markdown();
+    page += &comparisons(judgements).shown().markdown();
     page += &reasons(judgements);
     page += NO_PROOF;
     page += &remarks(judgements);
@@ -140,37 +201,19 @@ fn subject(judgement: &TrajectoryJudgement, comparison: &Comparison) -> String {
     )
 }
 
-fn codes(judgements: &[TrajectoryJudgement]) -> Table {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "source",
-        "peak at>",
-        "wall lost at>",
-        "landed at>",
-        "verdict",
-    ]);
-    for judgement in judgements {
-        let time = |index: usize| {
-            let time = judgement.times().map(|times| times[index]);
-            optional(time, |time| format!("{time:.0}"))
-        };
-        let version = if judgement.version.is_empty() {
-            "-"
-        } else {
-            &judgement.version
-        };
-        table.push(vec![
-            judgement.code.to_string(),
-            version.to_owned(),
-            judgement.source.as_str().to_owned(),
-            time(0),
-            time(1),
-            time(2),
-            tally(judgement),
-        ]);
-    }
-    table
+fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
+    let time = |own: &TrajectoryJudgement, index: usize| {
+        optional(own.times(), |times| format!("{:.0}", times[index]))
+    };
+    Columns::<&TrajectoryJudgement>::for_people()
+        .left("code", |own| own.code.to_string())
+        .left("version", |own| or_dash(&own.version))
+        .left("source", |own| own.source.as_str().to_owned())
+        .right("peak at", move |own| time(own, 0))
+        .right("wall lost at", move |own| time(own, 1))
+        .right("landed at", move |own| time(own, 2))
+        .left("verdict", |own| tally(own))
+        .rows(judgements)
 }
 
 /// The verdict that stands in place of comparisons, or how many of them agree.
@@ -187,52 +230,34 @@ fn tally(judgement: &TrajectoryJudgement) -> String {
     )
 }
 
-fn comparisons(judgements: &[TrajectoryJudgement]) -> Table {
-    let mut table = Table::new(&[
-        "code",
-        "twin",
-        "branch",
-        "quantity",
-        "largest at dt>",
-        "at dt/2>",
-        "at dt/4>",
-        "order>",
-        "documented",
-        "round-off>",
-        "step error>",
-        "verdict",
-    ]);
-    for judgement in judgements {
-        for comparison in judgement.comparisons() {
-            table.push(cells(judgement, comparison));
-        }
-    }
-    table
-}
-
-fn cells(judgement: &TrajectoryJudgement, comparison: &Comparison) -> Vec<String> {
-    let distances = &comparison.distances;
-    let small = |value: f64| {
-        if value == 0.0 {
-            "0".to_owned()
-        } else {
-            format!("{value:.1e}")
-        }
+/// For people: one row a comparison, with its distances side by side.
+fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
+    type Row<'a> = (&'a TrajectoryJudgement, &'a Comparison);
+    let largest = |own: &Comparison, index: usize| {
+        optional(own.distances.get(index), |own| small(own.largest))
     };
-    let largest = |index: usize| optional(distances.get(index).map(|own| own.largest), small);
-    let round_off = distances.last().map(|distance| distance.round_off);
-    vec![
-        judgement.code.to_string(),
-        comparison.twin.as_str().to_owned(),
-        comparison.branch.as_str().to_owned(),
-        comparison.quantity.as_str().to_owned(),
-        largest(0),
-        largest(1),
-        largest(2),
-        optional(comparison.last_order(), |order| format!("{order:.2}")),
-        comparison.documented.order.as_str().to_owned(),
-        optional(round_off, small),
-        small(comparison.step_error),
-        comparison.verdict().to_string(),
-    ]
+    let rows = judgements.iter().flat_map(|judgement| {
+        let comparisons = judgement.comparisons().iter();
+        comparisons.map(move |comparison| (judgement, comparison))
+    });
+    Columns::<Row>::for_people()
+        .left("code", |(judgement, _)| judgement.code.to_string())
+        .left("twin", |(_, own)| own.twin.as_str().to_owned())
+        .left("branch", |(_, own)| own.branch.as_str().to_owned())
+        .left("quantity", |(_, own)| own.quantity.as_str().to_owned())
+        .right("largest at dt", move |(_, own)| largest(own, 0))
+        .right("at dt/2", move |(_, own)| largest(own, 1))
+        .right("at dt/4", move |(_, own)| largest(own, 2))
+        .right("order", |(_, own)| {
+            optional(own.last_order(), |order| format!("{order:.2}"))
+        })
+        .left("documented", |(_, own)| {
+            own.documented.order.as_str().to_owned()
+        })
+        .right("round-off", |(_, own)| {
+            optional(own.distances.last(), |own| small(own.round_off))
+        })
+        .right("step error", |(_, own)| small(own.step_error))
+        .left("verdict", |(_, own)| own.verdict().to_string())
+        .rows(rows)
 }

@@ -14,4 +14,5 @@ pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;
+pub(crate) use samples::COLUMNS;
 pub use samples::{Sample, Series, SeriesError};

@@ -9,38 +9,23 @@ use thiserror::Error;
 /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // [`COLUMNS`] gives the meaning of each.
 pub struct Sample {
-    /// Steps since the wall began to move.
     pub step: u64,
-    /// Time since the wall began to move.
     pub time: f64,
-    /// Force of the top wall on cylinder 1, positive in compression.
     pub wall_force: f64,
-    /// Horizontal position of cylinder 1 (top).
     pub x1: f64,
-    /// Height of its centre above the floor.
     pub y1: f64,
-    /// Its rotation, counter-clockwise.
     pub theta1: f64,
-    /// Horizontal position of cylinder 2 (right).
     pub x2: f64,
-    /// Height of its centre above the floor.
     pub y2: f64,
-    /// Its rotation, counter-clockwise.
     pub theta2: f64,
-    /// Horizontal position of cylinder 3 (left).
     pub x3: f64,
-    /// Height of its centre above the floor.
     pub y3: f64,
-    /// Its rotation, counter-clockwise.
     pub theta3: f64,
-    /// Normal force of the floor on cylinder 2.
     pub floor_n2: f64,
-    /// Tangential force of the floor on cylinder 2, along +x.
     pub floor_t2: f64,
-    /// Normal force of the floor on cylinder 3.
     pub floor_n3: f64,
-    /// Tangential force of the floor on cylinder 3, along +x.
     pub floor_t3: f64,
 }
 
@@ -54,49 +39,119 @@ impl Sample {
 
     /// Whether every value is a finite number.
     pub fn is_finite(&self) -> bool {
-        self.values().into_iter().all(f64::is_finite)
+        self.values().all(f64::is_finite)
     }
 
-    fn values(&self) -> [f64; 15] {
-        [
-            self.time,
-            self.wall_force,
-            self.x1,
-            self.y1,
-            self.theta1,
-            self.x2,
-            self.y2,
-            self.theta2,
-            self.x3,
-            self.y3,
-            self.theta3,
-            self.floor_n2,
-            self.floor_t2,
-            self.floor_n3,
-            self.floor_t3,
-        ]
+    fn values(&self) -> impl Iterator<Item = f64> {
+        COLUMNS.iter().map(|column| (column.value)(self))
     }
 }
 
-/// Names of the columns of `series.csv`, in order.
-pub const COLUMNS: [&str; 16] = [
-    "step",
-    "time",
-    "wall_force",
-    "x1",
-    "y1",
-    "theta1",
-    "x2",
-    "y2",
-    "theta2",
-    "x3",
-    "y3",
-    "theta3",
-    "floor_n2",
-    "floor_t2",
-    "floor_n3",
-    "floor_t3",
+/// One column of `series.csv`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeriesColumn {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: &'static str,
+    pub(crate) value: fn(&Sample) -> f64,
+}
+
+const fn column(
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+    value: fn(&Sample) -> f64,
+) -> SeriesColumn {
+    SeriesColumn {
+        name,
+        unit,
+        meaning,
+        value,
+    }
+}
+
+/// The columns of `series.csv`, in order.
+pub(crate) const COLUMNS: [SeriesColumn; 16] = [
+    column("step", "1", "steps since the wall began to move", |row| {
+        row.step as f64
+    }),
+    column(
+        "time",
+        "√(m/k_n)",
+        "time since the wall began to move",
+        |row| row.time,
+    ),
+    column(
+        "wall_force",
+        "k_n r",
+        "force of the top wall on cylinder 1, positive in compression",
+        |row| row.wall_force,
+    ),
+    column(
+        "x1",
+        "r",
+        "horizontal position of cylinder 1 (top)",
+        |row| row.x1,
+    ),
+    column("y1", "r", "height of its centre above the floor", |row| {
+        row.y1
+    }),
+    column("theta1", "rad", "its rotation, counter-clockwise", |row| {
+        row.theta1
+    }),
+    column(
+        "x2",
+        "r",
+        "horizontal position of cylinder 2 (right)",
+        |row| row.x2,
+    ),
+    column("y2", "r", "height of its centre above the floor", |row| {
+        row.y2
+    }),
+    column("theta2", "rad", "its rotation, counter-clockwise", |row| {
+        row.theta2
+    }),
+    column(
+        "x3",
+        "r",
+        "horizontal position of cylinder 3 (left)",
+        |row| row.x3,
+    ),
+    column("y3", "r", "height of its centre above the floor", |row| {
+        row.y3
+    }),
+    column("theta3", "rad", "its rotation, counter-clockwise", |row| {
+        row.theta3
+    }),
+    column(
+        "floor_n2",
+        "k_n r",
+        "normal force of the floor on cylinder 2",
+        |row| row.floor_n2,
+    ),
+    column(
+        "floor_t2",
+        "k_n r",
+        "tangential force of the floor on cylinder 2, along +x",
+        |row| row.floor_t2,
+    ),
+    column(
+        "floor_n3",
+        "k_n r",
+        "normal force of the floor on cylinder 3",
+        |row| row.floor_n3,
+    ),
+    column(
+        "floor_t3",
+        "k_n r",
+        "tangential force of the floor on cylinder 3, along +x",
+        |row| row.floor_t3,
+    ),
 ];
+
+fn names() -> [&'static str; 16] {
+    COLUMNS.map(|column| column.name)
+}
 
 /// Why a series is not the one that was asked for.
 #[derive(Debug, Error)]
@@ -116,7 +171,7 @@ pub enum SeriesError {
         message: String,
     },
     /// The columns are not the shared ones.
-    #[error("the columns are `{found}`, but must be `{}`", COLUMNS.join(","))]
+    #[error("the columns are `{found}`, but must be `{}`", names().join(","))]
     Columns {
         /// The header as found.
         found: String,
@@ -192,7 +247,15 @@ pub struct Series {
 
 impl Series {
     /// Names of its columns, in order.
-    pub const COLUMNS: [&'static str; 16] = COLUMNS;
+    pub const COLUMNS: [&'static str; 16] = {
+        let mut names = [""; 16];
+        let mut column = 0;
+        while column < names.len() {
+            names[column] = COLUMNS[column].name;
+            column += 1;
+        }
+        names
+    };
 
     /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
     pub fn new(
@@ -234,7 +297,7 @@ impl Series {
             message: error.to_string(),
         };
         let header = reader.headers().map_err(|error| garbled(0, error))?;
-        if !header.iter().eq(COLUMNS) {
+        if !header.iter().eq(names()) {
             return Err(SeriesError::Columns {
                 found: header.iter().collect::<Vec<_>>().join(","),
             });
@@ -264,14 +327,14 @@ impl Series {
 }
 
 fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {
-    let values = sample.values();
-    let offending = values.iter().position(|value| !value.is_finite());
-    offending.map_or(Ok(()), |index| {
+    let mut values = COLUMNS.iter().zip(sample.values());
+    let offending = values.find(|(_, value)| !value.is_finite());
+    offending.map_or(Ok(()), |(column, value)| {
         Err(SeriesError::NotFinite {
             row,
             step: sample.step,
-            column: COLUMNS[index + 1],
-            value: values[index],
+            column: column.name,
+            value,
         })
     })
 }

@@ -3,30 +3,34 @@
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, draw};
 use super::style::{BAR, EXACT, GUIDE, POINT};
-use crate::output::BenchRow;
+use crate::output::bench::{beside_lanes, times_lanes};
 use crate::output::number::plain;
-use crate::study::cost::{Scaling, ScalingRow};
+use crate::study::cost::{Scaling, ScalingRow, StackCost};
 
 /// Distance of the words of a bar from the bar, in bars.
 const ABOVE: f64 = 0.27;
 
-/// Time per step and case of each of `rows` as bars, and the speed-up of native lanes over the number of cases.
-pub fn performance_svg(rows: &[BenchRow], scaling: &Scaling) -> String {
-    let panels = [costs(rows), speedups(&scaling.cases)];
+/// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
+pub fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
+    let panels = [bars(costs), speedups(&scaling.cases)];
     draw(&panels, 2, super::HALF_PAGE).svg()
 }
 
-fn costs(rows: &[BenchRow]) -> Panel {
-    let largest = rows.iter().map(|row| row.ns_per_step).fold(1e3, f64::max);
+fn bars(costs: &[StackCost]) -> Panel {
+    let largest = costs.iter().map(StackCost::median).fold(1e3, f64::max);
     let time = Axis::log("ns per step and case", (1.0, 2.0 * largest));
-    let mut panel = Panel::new(time, Axis::bare((0.4, rows.len() as f64 + 0.8)));
-    for (place, row) in rows.iter().rev().enumerate() {
-        let y = place as f64 + 1.0;
-        panel.line(BAR, [(1.0, Some(y)), (row.ns_per_step, Some(y))]);
-        let ratio = row.ratio.map_or_else(String::new, |ratio| {
+    let mut panel = Panel::new(time, Axis::bare((0.4, costs.len() as f64 + 0.8)));
+    for (place, row) in beside_lanes(costs).iter().rev().enumerate() {
+        let (y, ns_per_step) = (place as f64 + 1.0, row.0.median());
+        panel.line(BAR, [(1.0, Some(y)), (ns_per_step, Some(y))]);
+        let ratio = times_lanes(row).map_or_else(String::new, |ratio| {
             format!(", {} times native-lanes", plain(ratio))
         });
-        let words = format!("{}: {} ns{ratio}", row.code, plain(row.ns_per_step));
+        let words = format!(
+            "{}: {} ns{ratio}",
+            row.0.target.as_str(),
+            plain(ns_per_step)
+        );
         panel.words(words, (1.2, y + ABOVE), Anchor::Start);
     }
     panel
@@ -52,21 +56,19 @@ fn speedups(rows: &[ScalingRow]) -> Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::cost::BenchTarget;
 
     #[test]
     fn every_contestant_has_a_bar_and_every_number_of_cases_a_mark() {
-        let row = |code, ns_per_step| BenchRow {
-            code,
+        let cost = |target, ns_per_step| StackCost {
+            target,
             version: String::new(),
-            ns_per_step,
             steps: 1,
-            runs: 1,
-            ratio: Some(ns_per_step / 10.0),
-            start_up_seconds: 0.0,
-            yield_forces_per_second: 1.0,
-            yield_force_ratio: None,
+            nanoseconds: vec![ns_per_step],
+            start_up_seconds: vec![0.0],
+            seconds_per_yield_force: vec![1.0],
             largest_error: 0.0,
-            peak_megabytes: None,
+            peak_bytes: None,
         };
         let cases = [1, 8].map(|cases| ScalingRow {
             cases,
@@ -78,7 +80,11 @@ mod tests {
             cases: cases.to_vec(),
             cores: Vec::new(),
         };
-        let svg = performance_svg(&[row("native-lanes", 10.0), row("yade", 5e3)], &scaling);
+        let costs = [
+            cost(BenchTarget::NativeLanes, 10.0),
+            cost(BenchTarget::External(Code::Yade), 5e3),
+        ];
+        let svg = performance_svg(&costs, &scaling);
         assert!(svg.contains("yade: 5000 ns, 500 times native-lanes"));
         assert_eq!(svg.matches("<circle").count(), 2);
         assert!(!svg.contains("NaN"));

@@ -1,6 +1,6 @@
 //! The report as a document, from which every format is made.
 
-use crate::output::{Figure, Table};
+use crate::output::{DataTable, Figure, Table};
 use serde::Serialize;
 
 /// The whole report.
@@ -40,7 +40,7 @@ pub enum Block {
         items: Vec<String>,
     },
     /// A table, which is also a file of its own.
-    Table(DataTable),
+    Table(PageTable),
     /// A figure, which is also a file of its own.
     Figure(Figure),
 }
@@ -54,18 +54,50 @@ impl Block {
 
 /// A table with a name.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DataTable {
+pub struct PageTable {
     /// Name of its files, without ending.
     pub name: &'static str,
     /// What it shows.
     pub caption: String,
     /// Its cells, as they are shown.
+    #[serde(skip)]
     pub table: Table,
     /// The same rows with every digit.
     #[serde(skip)]
     pub csv: Vec<u8>,
     /// Whether it is long, and stands folded on the page until it is opened or printed.
     pub long: bool,
+    /// How many rows are shown.
+    pub rows: usize,
+}
+
+impl PageTable {
+    /// `data` under the name `name`.
+    pub fn new(name: &'static str, caption: impl Into<String>, data: &DataTable) -> Self {
+        Self::showing(data.shown(), name, caption, data)
+    }
+
+    /// `data` under the name `name`, shown as `table`.
+    pub fn showing(
+        table: Table,
+        name: &'static str,
+        caption: impl Into<String>,
+        data: &DataTable,
+    ) -> Self {
+        Self {
+            name,
+            caption: caption.into(),
+            csv: data.csv(),
+            long: false,
+            rows: table.len(),
+            table,
+        }
+    }
+
+    /// The same, folded if `long`.
+    pub fn folded(self, long: bool) -> Self {
+        Self { long, ..self }
+    }
 }
 
 impl Document {
@@ -75,7 +107,7 @@ impl Document {
     }
 
     /// All its tables, in order.
-    pub fn tables(&self) -> impl Iterator<Item = &DataTable> {
+    pub fn tables(&self) -> impl Iterator<Item = &PageTable> {
         self.blocks().filter_map(|block| match block {
             Block::Table(table) => Some(table),
             _ => None,

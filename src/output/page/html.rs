@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use crate::output::Figure;
+use crate::output::table::html_text;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 
@@ -10,7 +11,9 @@ pub fn html(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.add_filter("inline", inline);
+    environment.add_filter("inline", |text: &str| {
+        Value::from_safe_string(html_text(text))
+    });
     environment
         .add_template("report", include_str!("report.html"))
         .expect("the template is part of the program and tested");
@@ -18,38 +21,8 @@ pub fn html(document: &Document) -> String {
         .get_template("report")
         .expect("it has just been added");
     let figures: Vec<String> = document.figures().map(Figure::svg).collect();
+    let tables: Vec<String> = document.tables().map(|data| data.table.html()).collect();
     template
-        .render(context! { document => Value::from(Serde(document)), figures })
+        .render(context! { document => Value::from(Serde(document)), figures, tables })
         .expect("the template uses only what the document has")
-}
-
-/// `text` with code between backticks, everything else escaped.
-fn inline(text: &str) -> Value {
-    let parts = text.split('`').enumerate().map(|(index, part)| {
-        let escaped = escape(part);
-        if index % 2 == 1 {
-            format!("<code>{escaped}</code>")
-        } else {
-            escaped
-        }
-    });
-    Value::from_safe_string(parts.collect())
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn text_is_escaped_and_code_is_marked() {
-        let shown = inline("a < b & `x > y`").to_string();
-        assert_eq!(shown, "a &lt; b &amp; <code>x &gt; y</code>");
-    }
 }

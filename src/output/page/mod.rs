@@ -3,13 +3,14 @@
 mod document;
 mod html;
 mod junit;
-mod latex;
 mod markdown;
 mod ro_crate;
 mod sections;
 
 pub use sections::Origin;
+pub(crate) use sections::declared_tables;
 
+use crate::output::json;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 use document::Document;
@@ -42,7 +43,10 @@ pub fn report_files(
     let mut files = vec![
         ReportFile::new("report.html", html::html(&document)),
         ReportFile::new("report.md", markdown::markdown(&document)),
-        ReportFile::new("claims.json", claims_json(claims)),
+        ReportFile::new(
+            "claims.json",
+            json(&[sections::claims_table(claims)], &origin.command),
+        ),
         ReportFile::new("junit.xml", junit::junit(reproduction, claims)),
     ];
     files.extend(tables(&document));
@@ -52,16 +56,15 @@ pub fn report_files(
     files
 }
 
-fn claims_json(claims: &[ClaimJudgement]) -> String {
-    serde_json::to_string_pretty(claims).expect("plain rows have a JSON form") + "\n"
-}
-
 fn tables(document: &Document) -> Vec<ReportFile> {
     let tables = document.tables().flat_map(|data| {
         let name = data.name;
         [
             ReportFile::new(format!("tables/{name}.csv"), data.csv.clone()),
-            ReportFile::new(format!("tables/{name}.tex"), latex::latex(data)),
+            ReportFile::new(
+                format!("tables/{name}.tex"),
+                data.table.latex(&data.caption, data.long),
+            ),
         ]
     });
     tables.collect()

@@ -15,7 +15,7 @@ mod plan;
 pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
 pub use documented::{Documented, DocumentedOrder, documented};
 pub use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
-pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement, TrajectoryRow};
+pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement};
 pub use plan::{
     TIME_STEPS, Trajectory, Twin, TwinRuns, WALL_SPEED, plan_trajectory, trajectory_stack,
 };

@@ -10,7 +10,7 @@ mod touch;
 mod twin;
 
 pub use evidence::Evidence;
-pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
+pub use extrapolate::{Budget, BudgetPart, ConvergenceOrder, Extrapolation, extrapolate};
 pub use judgement::{Judgement, YieldForce, peak_allowance};
 pub use plan::{
     Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,

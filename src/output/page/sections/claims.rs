@@ -1,28 +1,18 @@
 //! What the paper says, and what is to be said of it.
 
-use super::super::document::{Block, DataTable, Section};
-use crate::output::Table;
+use super::super::document::{Block, PageTable, Section};
+use crate::output::DataTable;
+use crate::output::table::{Columns, Value};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 
 /// The errata.
 pub fn errata(claims: &[ClaimJudgement]) -> Section {
-    let mut table = Table::new(&["place", "as printed", "should be", "evidence"]);
-    for claim in claims {
-        if let Some(erratum) = &claim.erratum {
-            table.push(vec![
-                claim.place.clone(),
-                claim.statement.clone(),
-                erratum.clone(),
-                claim.evidence.clone(),
-            ]);
-        }
-    }
     let blocks = vec![
         Block::paragraph(
             "Displayed equations and numbers of the paper that do not hold as printed. A corrected form stands \
              here only because the same check holds with it.",
         ),
-        Block::Table(named("errata", "Errata.", table)),
+        Block::Table(PageTable::new("errata", "Errata.", &errata_table(claims))),
     ];
     Section {
         id: "errata",
@@ -31,24 +21,39 @@ pub fn errata(claims: &[ClaimJudgement]) -> Section {
     }
 }
 
+pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
+    let wrong = claims.iter().filter(|own| own.erratum.is_some());
+    Columns::<&ClaimJudgement>::new(
+        "errata",
+        "A row is a displayed equation or number of the paper that does not hold as printed.",
+        "`tristack report` (tables/errata.csv)",
+    )
+    .text("claim", "name of the claim", |own| own.id.clone())
+    .text("place", "where it stands in the paper", |own| {
+        own.place.clone()
+    })
+    .shown("place")
+    .text("statement", "what is printed", |own| own.statement.clone())
+    .shown("as printed")
+    .text("erratum", "what should stand there", |own| {
+        own.erratum.clone()
+    })
+    .shown("should be")
+    .text("evidence", "what was compared, and the numbers", |own| {
+        own.evidence.clone()
+    })
+    .shown("evidence")
+    .rows(wrong)
+}
+
 /// All claims.
 pub fn register(claims: &[ClaimJudgement]) -> Section {
-    let mut table = Table::new(&["claim", "place", "statement", "verdict", "evidence"]);
-    for claim in claims {
-        table.push(vec![
-            claim.id.clone(),
-            claim.place.clone(),
-            claim.statement.clone(),
-            verdict(claim.verdict).to_owned(),
-            claim.evidence.clone(),
-        ]);
-    }
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
              is derived by running the check; the register is `reference/claims.toml`.",
         ),
-        Block::Table(named("claims", "Claims.", table)),
+        Block::Table(PageTable::new("claims", "Claims.", &claims_table(claims))),
     ];
     Section {
         id: "claims",
@@ -57,14 +62,40 @@ pub fn register(claims: &[ClaimJudgement]) -> Section {
     }
 }
 
-fn named(name: &'static str, caption: &str, table: Table) -> DataTable {
-    DataTable {
-        name,
-        caption: caption.to_owned(),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
+    Columns::<&ClaimJudgement>::new(
+        "claims",
+        "A row is a checkable statement of the paper and the verdict on it.",
+        "`tristack report` (tables/claims.csv, claims.json)",
+    )
+    .text("id", "name of the claim", |own| own.id.clone())
+    .shown("claim")
+    .text("place", "where it stands in the paper", |own| {
+        own.place.clone()
+    })
+    .shown("place")
+    .text("statement", "what it says", |own| own.statement.clone())
+    .shown("statement")
+    .text("kind", "what kind of statement it is", |own| {
+        Value::word(own.kind)
+    })
+    .text(
+        "verdict",
+        "`holds`, `approximately`, `fails` or `untestable`",
+        |own| own.verdict.as_str(),
+    )
+    .shown("verdict")
+    .cell(|own| verdict(own.verdict).to_owned())
+    .text("evidence", "what was compared, and the numbers", |own| {
+        own.evidence.clone()
+    })
+    .shown("evidence")
+    .text(
+        "erratum",
+        "what should stand there; only where that has been checked to hold",
+        |own| own.erratum.clone(),
+    )
+    .rows(claims)
 }
 
 /// A verdict in words.

@@ -1,7 +1,7 @@
 //! What each code means by a contact.
 
-use super::super::document::{Block, DataTable, Section};
-use crate::output::probe::{probe_csv, probe_rows};
+use super::super::document::{Block, PageTable, Section};
+use crate::output::{probe, probe_by_code};
 use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
 use crate::study::convention::Finding;
@@ -17,19 +17,17 @@ pub fn section(reproduction: &Reproduction) -> Section {
     let mut blocks = vec![
         Block::paragraph(format!(
             "Codes mean different things by the same words. What each of them means was measured with \
-             micro-tests of one contact (`tristack probe`); {agreeing} of {} properties are as its adapter \
+             micro-tests of one contact (`tristack probe`); {agreeing} of {} properties are as the code \
              declares. r₁ in R = r + r₁ × overlap is the arm; the paper’s is 0.",
             found.len()
         )),
-        Block::Table(DataTable {
-            name: "conventions",
-            caption: "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, \
-                      share and pull are 1 for yes, 0 for no."
-                .to_owned(),
-            table: probe_rows(&found),
-            csv: probe_csv(&found),
-            long: false,
-        }),
+        Block::Table(PageTable::showing(
+            probe_by_code(&found),
+            "conventions",
+            "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, share and pull \
+             are 1 for yes, 0 for no.",
+            &probe(&found),
+        )),
     ];
     let doubts = reproduction.probes.iter().flat_map(|(code, probed)| {
         let lines = contradictions(probed).into_iter();

@@ -1,12 +1,14 @@
 //! With what, where and when.
 
-use super::super::document::{Block, DataTable, Section};
+use super::super::document::{Block, PageTable, Section};
 use super::Origin;
 use crate::code::{Code, TaskKind};
 use crate::code::{Identity, Provenance};
 use crate::model::sha256_hex;
-use crate::output::Table;
+use crate::output::DataTable;
+use crate::output::table::Columns;
 use crate::paper::reproduction::Reproduction;
+use crate::study::Source;
 
 /// Digits of a hash that are shown.
 const SHORT: usize = 12;
@@ -21,8 +23,19 @@ pub fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
             origin.command,
             env!("CARGO_PKG_VERSION")
         )),
-        Block::Table(programs(reproduction, origin)),
-        Block::Table(decks()),
+        Block::Table(PageTable::new(
+            "environment",
+            format!("Programs, with the first {SHORT} digits of their SHA-256, and their runs."),
+            &programs(&reproduction.provenances, &origin.recorded),
+        )),
+        Block::Table(PageTable::new(
+            "decks",
+            format!(
+                "First {SHORT} digits of the SHA-256 of the decks; for the native DEM its sources take their \
+                 place."
+            ),
+            &decks(),
+        )),
     ];
     Section {
         id: "environment",
@@ -70,46 +83,54 @@ fn programs_of(provenances: &[Provenance]) -> Vec<Program<'_>> {
     programs
 }
 
-fn programs(reproduction: &Reproduction, origin: &Origin) -> DataTable {
-    let mut table = Table::new(&[
-        "code",
-        "version",
-        "package",
-        "program",
+pub(crate) fn programs<'a>(provenances: &'a [Provenance], recorded: &'a [Code]) -> DataTable<'a> {
+    Columns::<Program>::new(
+        "environment",
+        "A row is a program on one machine and its runs.",
+        "`tristack report` (tables/environment.csv)",
+    )
+    .text("code", "name of the code", |own| own.identity.code.clone())
+    .shown("code")
+    .text("version", "its version", |own| own.identity.version.clone())
+    .shown("version")
+    .text("package", "distribution package and its version", |own| {
+        own.identity.package.clone()
+    })
+    .shown("package")
+    .text("program_hash", "SHA-256 of the program", |own| {
+        own.identity.program_hash.clone()
+    })
+    .shown("program")
+    .cell(|own| short(own.identity.program_hash.as_deref().unwrap_or("-")))
+    .text(
         "source",
-        "runs>",
-        "steps>",
-        "seconds>",
-        "first run, UTC",
-        "last run, UTC",
-        "machine",
-    ]);
-    for program in programs_of(&reproduction.provenances) {
-        let Program { identity, .. } = &program;
-        let hash = identity.program_hash.as_deref().unwrap_or("-");
-        table.push(vec![
-            identity.code.clone(),
-            identity.version.clone(),
-            identity.package.clone().unwrap_or_else(|| "-".to_owned()),
-            short(hash),
-            origin.source_of(&identity.code).to_owned(),
-            program.runs.to_string(),
-            format!("{:.1e}", program.steps as f64),
-            format!("{:.1}", program.seconds),
-            minute(program.first),
-            minute(program.last),
-            program.machine.to_owned(),
-        ]);
-    }
-    DataTable {
-        name: "environment",
-        caption: format!(
-            "Programs, with the first {SHORT} digits of their SHA-256, and their runs."
-        ),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+        "`live` if it ran on this machine, `recorded` otherwise",
+        move |own| match recorded
+            .iter()
+            .any(|code| code.as_str() == own.identity.code)
+        {
+            true => Source::Recorded.as_str(),
+            false => Source::Live.as_str(),
+        },
+    )
+    .shown("source")
+    .number("runs", "1", "number of runs", |own| own.runs)
+    .shown("runs")
+    .number("steps", "1", "their steps", |own| own.steps)
+    .shown("steps")
+    .digits(|steps| format!("{steps:.1e}"))
+    .number("seconds", "s", "their wall time", |own| own.seconds)
+    .shown("seconds")
+    .digits(|seconds| format!("{seconds:.1}"))
+    .text("first_run", "date of the first, UTC", |own| own.first)
+    .shown("first run, UTC")
+    .cell(|own| minute(own.first))
+    .text("last_run", "date of the last, UTC", |own| own.last)
+    .shown("last run, UTC")
+    .cell(|own| minute(own.last))
+    .text("machine", "processor and system", |own| own.machine)
+    .shown("machine")
+    .rows(programs_of(provenances))
 }
 
 fn short(hash: &str) -> String {
@@ -121,26 +142,25 @@ fn minute(date: &str) -> String {
     date.get(..16).unwrap_or(date).replace('T', " ")
 }
 
-fn decks() -> DataTable {
-    let mut table = Table::new(&[
-        "code",
-        "SHA-256 of the deck of a stack",
-        "of the micro-tests",
-    ]);
-    for code in Code::all() {
-        table.push(vec![
-            code.to_string(),
-            short(&code.files_hash(TaskKind::Stack)),
-            short(&code.files_hash(TaskKind::Motion)),
-        ]);
-    }
-    DataTable {
-        name: "decks",
-        caption: format!(
-            "First {SHORT} digits of the SHA-256 of the decks; for the native DEM its sources take their place."
-        ),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+pub(crate) fn decks() -> DataTable<'static> {
+    Columns::<Code>::new(
+        "decks",
+        "A row is the decks of one code; for the native DEM its sources take their place.",
+        "`tristack report` (tables/decks.csv)",
+    )
+    .text("code", "name of the code", |code| code.as_str())
+    .shown("code")
+    .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
+        code.files_hash(TaskKind::Stack)
+    })
+    .shown("SHA-256 of the deck of a stack")
+    .cell(|code| short(&code.files_hash(TaskKind::Stack)))
+    .text(
+        "probe_hash",
+        "SHA-256 of the deck of the micro-tests",
+        |code| code.files_hash(TaskKind::Motion),
+    )
+    .shown("of the micro-tests")
+    .cell(|code| short(&code.files_hash(TaskKind::Motion)))
+    .rows(Code::all())
 }

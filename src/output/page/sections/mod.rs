@@ -9,12 +9,30 @@ mod summary;
 mod tolerances;
 mod untested;
 
+pub(crate) use claims::claims_table;
 pub use claims::verdict as in_words;
 
 use super::document::Document;
 use crate::code::Code;
+use crate::output::DataTable;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
+
+/// Every table that stands in a report alone, without rows.
+pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
+    vec![
+        summary::theories(&[]),
+        summary::points(&[]),
+        claims::errata_table(&[]),
+        claims_table(&[]),
+        tolerances::agreement(&[]),
+        tolerances::exponents(&[]),
+        preparation::critical(&[]),
+        preparation::preparations(&[]),
+        environment::programs(&[], &[]),
+        environment::decks(),
+    ]
+}
 
 /// How a report came about.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,14 +43,6 @@ pub struct Origin {
     pub recorded: Vec<Code>,
     /// Whether all of Fig. 2(a) was run at the paper's literal settings.
     pub literal: bool,
-}
-
-impl Origin {
-    /// Where the runs of an code come from.
-    fn source_of(&self, code: &str) -> &'static str {
-        let recorded = self.recorded.iter().any(|name| name.as_str() == code);
-        if recorded { "recorded" } else { "live" }
-    }
 }
 
 /// The whole report.

@@ -1,10 +1,12 @@
 //! Which preparation was used, and what the choice moves.
 
-use super::super::document::{Block, DataTable, Section};
-use crate::output::Table;
-use crate::output::number::{friction, optional, significant};
+use super::super::document::{Block, PageTable, Section};
+use crate::model::Stack;
+use crate::output::DataTable;
+use crate::output::number::{optional, percent, significant};
+use crate::output::table::{Columns, Value};
 use crate::paper::reproduction::Reproduction;
-use crate::study::preparation::PreparationStudy;
+use crate::study::preparation::{PreparationRow, PreparationStudy};
 
 /// The section.
 pub fn section(reproduction: &Reproduction) -> Section {
@@ -15,8 +17,19 @@ pub fn section(reproduction: &Reproduction) -> Section {
          takes an A for which c = 0. c vanishes for every A up to A*, and the yield force depends on A \
          within that range: c = 0 alone does not pin it down.",
     )];
-    blocks.push(Block::Table(critical(&reproduction.preparation)));
-    blocks.push(Block::Table(rows(&reproduction.preparation)));
+    blocks.push(Block::Table(PageTable::new(
+        "critical_push",
+        "A*, the largest push (in r) that ends with c = 0, by bisection with the native DEM, and what it moves.",
+        &critical(&reproduction.preparation),
+    )));
+    let preparation = PageTable::new(
+        "preparation",
+        "c between the bottom cylinders when the compression begins, and yield force F, both in m g; A in r, \
+         absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
+         with a push, to leading order in ε.",
+        &preparations(&reproduction.preparation),
+    );
+    blocks.push(Block::Table(preparation.folded(true)));
     Section {
         id: "preparation",
         title: "Preparation of the stack",
@@ -25,78 +38,81 @@ pub fn section(reproduction: &Reproduction) -> Section {
 }
 
 /// A* and what it moves, stack by stack.
-fn critical(studies: &[PreparationStudy]) -> DataTable {
-    let mut table = Table::new(&[
-        "stiffness>",
-        "μ>",
-        "A*>",
-        "to leading order>",
-        "F after gravity ramp, exact>",
-        "F(A*) − F(0), of F + 3>",
-    ]);
-    for study in studies {
-        let found = study.critical_push;
-        let shift = found.and_then(|found| study.shift(found.push));
-        table.push(vec![
-            study.stack.stiffness.to_string(),
-            friction(study.stack.floor_friction),
-            optional(found, |found| significant(found.push, 5)),
-            significant(study.predicted_critical_push, 5),
-            optional(study.exact_force, |force| significant(force, 7)),
-            optional(shift, |shift| format!("{:+.2} %", 100.0 * shift)),
-        ]);
-    }
-    DataTable {
-        name: "critical_push",
-        caption: "A*, the largest push (in r) that ends with c = 0, by bisection with the native DEM, and \
-                  what it moves."
-            .to_owned(),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
+    Columns::<&PreparationStudy>::new(
+        "critical_push",
+        "A row is A*, the largest push of the side walls that ends with c = 0, of one stack, and what it moves.",
+        "`tristack report` (tables/critical_push.csv)",
+    )
+    .stack(|study| study.stack)
+    .number("critical_push", "r", "A*, by bisection with the native DEM", |study| {
+        study.critical_push.map(|found| found.push)
+    })
+    .shown("A*")
+    .digits(|push| significant(push, 5))
+    .number("width", "r", "width of the interval above A* in which c appears", |study| {
+        study.critical_push.map(|found| found.width)
+    })
+    .number("predicted_critical_push", "r", "A* to leading order in ε", |study| {
+        study.predicted_critical_push
+    })
+    .shown("to leading order")
+    .digits(|push| significant(push, 5))
+    .number("exact_force", "m g", "exact limit F after a gravity ramp", |study| study.exact_force)
+    .shown("F after gravity ramp, exact")
+    .digits(|force| significant(force, 7))
+    .number("shift", "1", "F(A*) − F(0), relative to F + 3", |study| {
+        study.critical_push.and_then(|found| study.shift(found.push))
+    })
+    .shown("F(A*) − F(0), of F + 3")
+    .digits(percent)
+    .rows(studies)
 }
 
 /// c(A) and F(A) of every code.
-fn rows(studies: &[PreparationStudy]) -> DataTable {
-    let mut table = Table::new(&[
-        "stiffness>",
-        "μ>",
-        "code",
-        "convention of",
-        "A>",
-        "c>",
-        "F>",
-        "±>",
-        "theory>",
-    ]);
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for study in studies {
-        for row in &study.rows {
-            table.push(vec![
-                study.stack.stiffness.to_string(),
-                friction(study.stack.floor_friction),
-                row.code.to_string(),
-                row.convention_of.to_string(),
-                optional(row.push, |push| significant(push, 5)),
-                optional(row.contact_force, |force| format!("{force:.5}")),
-                optional(row.yield_force, |force| significant(force, 7)),
-                optional(row.uncertainty, |value| format!("{value:.0e}")),
-                optional(row.limit_force, |force| significant(force, 7)),
-            ]);
-            writer
-                .serialize((study.stack, row))
-                .expect("plain rows are written to memory");
-        }
-    }
-    DataTable {
-        name: "preparation",
-        caption: "c between the bottom cylinders when the compression begins, and yield force F, both in m g; \
-                  A in r, absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and \
-                  what becomes of it with a push, to leading order in ε."
-            .to_owned(),
-        csv: writer.into_inner().expect("memory is flushed"),
-        table,
-        long: true,
-    }
+pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
+    let rows = studies.iter().flat_map(|study| {
+        let rows = study.rows.iter();
+        rows.map(|row| (study.stack, row))
+    });
+    Columns::<(Stack, &PreparationRow)>::new(
+        "preparation",
+        "A row is one preparation of one stack by one code, and the yield force that follows.",
+        "`tristack report` (tables/preparation.csv)",
+    )
+    .stack(|(stack, _)| *stack)
+    .text("code", "the code that ran", |(_, row)| row.code.as_str())
+    .shown("code")
+    .text("convention_of", "the code whose contact convention it ran with", |(_, row)| {
+        row.convention_of.as_str()
+    })
+    .shown("convention of")
+    .number("push", "r", "A; absent for the gravity ramp", |(_, row)| row.push)
+    .shown("A")
+    .digits(|push| significant(push, 5))
+    .number(
+        "limit_force",
+        "m g",
+        "exact limit after a gravity ramp under this convention; with a push, what becomes of it to leading \
+         order in ε",
+        |(_, row)| row.limit_force,
+    )
+    .number("contact_force", "m g", "c between the bottom cylinders when the compression begins", |(_, row)| {
+        row.contact_force
+    })
+    .shown("c")
+    .digits(|force| format!("{force:.5}"))
+    .number("contact_uncertainty", "m g", "its uncertainty", |(_, row)| row.contact_uncertainty)
+    .number("yield_force", "m g", "F at vanishing wall speed", |(_, row)| row.yield_force)
+    .shown("F")
+    .digits(|force| significant(force, 7))
+    .number("uncertainty", "m g", "its uncertainty", |(_, row)| row.uncertainty)
+    .shown("±")
+    .digits(|value| format!("{value:.0e}"))
+    .text("estimator", "what it was read off: `slip-onset` or `peak`", |(_, row)| {
+        row.estimator.map(Value::word)
+    })
+    .text("note", "why something is missing", |(_, row)| row.note.clone())
+    .right("theory", |(_, row)| optional(row.limit_force, |force| significant(force, 7)))
+    .rows(rows)
 }

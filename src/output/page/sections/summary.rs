@@ -1,14 +1,17 @@
 //! What a referee reads in a minute. Every number in it is computed.
 
-use super::super::document::{Block, DataTable, Section};
-use super::tolerances::{Agreement, force};
+use super::super::document::{Block, PageTable, Section};
+use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{Arms, CRITICAL_FRICTION};
-use crate::output::Table;
+use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::output::DataTable;
+use crate::output::number::{percent, significant};
+use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
 use crate::study::Verdict;
-use crate::study::yield_force::PAPER_STIFFNESSES;
+use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
+use crate::theory::Predictions;
 
 /// The section.
 pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Section {
@@ -23,8 +26,18 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Sectio
         .flatten()
         .collect(),
     }];
-    blocks.push(Block::Table(theories(reproduction)));
-    blocks.push(Block::Table(points(reproduction)));
+    blocks.push(Block::Table(PageTable::new(
+        "theories",
+        "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
+         F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM.",
+        &theories(&reproduction.curves.over_friction),
+    )));
+    blocks.push(Block::Table(PageTable::new(
+        "points",
+        "Yield force F = f/(m g) at some points of Fig. 2(a). LIGGGHTS and YADE differ from the paper’s model \
+         by their torque arms, not by an error.",
+        &points(&reproduction.yield_curves),
+    )));
     Section {
         id: "summary",
         title: "Summary",
@@ -102,81 +115,91 @@ fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     ))
 }
 
-/// Largest errors of the paper's theories over the frictions of its figure.
-fn theories(reproduction: &Reproduction) -> DataTable {
-    let mut table = Table::new(&[
-        "stiffness>",
-        "perturbation, μ < μ_c>",
-        "perturbation, μ ≥ μ_c>",
-        "elastic equation, μ < μ_c>",
-        "elastic equation, μ ≥ μ_c>",
-    ]);
-    for stiffness in PAPER_STIFFNESSES {
-        let largest = |above: bool, theory: fn(&TheoryPoint) -> Option<f64>| {
-            let points = reproduction.curves.over_friction.iter();
-            let own = points.filter(|point| {
-                point.stiffness == stiffness && (point.mu >= CRITICAL_FRICTION) == above
-            });
-            let errors = own.filter_map(|point| point.error(theory(point)));
-            let largest = errors.max_by(|left, right| left.abs().total_cmp(&right.abs()));
-            largest.map_or_else(
-                || "-".to_owned(),
-                |error| format!("{:+.2} %", 100.0 * error),
-            )
-        };
-        table.push(vec![
-            stiffness.to_string(),
-            largest(false, |point| point.perturbation),
-            largest(true, |point| point.perturbation),
-            largest(false, |point| point.elastic),
-            largest(true, |point| point.elastic),
-        ]);
-    }
-    DataTable {
-        name: "theories",
-        caption: "The paper’s theories against the exact quasi-static limit of its own DEM: largest error \
-                  relative to F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM."
-            .to_owned(),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+/// Largest errors of the paper's theories over the frictions of its figure, stiffness by stiffness.
+pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
+    let largest = |stiffness: f64, above: bool, theory: fn(&TheoryPoint) -> Option<f64>| {
+        let own = curve.iter().filter(move |point| {
+            point.stiffness == stiffness && (point.mu >= CRITICAL_FRICTION) == above
+        });
+        let errors = own.filter_map(|point| point.error(theory(point)));
+        errors.max_by(|left, right| left.abs().total_cmp(&right.abs()))
+    };
+    Columns::<f64>::new(
+        "theories",
+        "A row is the largest errors of the paper's theories at one stiffness, relative to F + 3, over the \
+         frictions of Fig. 2(a).",
+        "`tristack report` (tables/theories.csv)",
+    )
+    .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |stiffness| *stiffness)
+    .shown("stiffness")
+    .number("perturbation_below", "1", "singular perturbation, μ < μ_c", move |&stiffness| {
+        largest(stiffness, false, |point| point.perturbation)
+    })
+    .shown("perturbation, μ < μ_c")
+    .digits(percent)
+    .number("perturbation_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
+        largest(stiffness, true, |point| point.perturbation)
+    })
+    .shown("perturbation, μ ≥ μ_c")
+    .digits(percent)
+    .number("elastic_below", "1", "elastic equation, μ < μ_c", move |&stiffness| {
+        largest(stiffness, false, |point| point.elastic)
+    })
+    .shown("elastic equation, μ < μ_c")
+    .digits(percent)
+    .number("elastic_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
+        largest(stiffness, true, |point| point.elastic)
+    })
+    .shown("elastic equation, μ ≥ μ_c")
+    .digits(percent)
+    .rows(PAPER_STIFFNESSES)
 }
 
 /// Some points of Fig. 2(a), theory and codes side by side.
-fn points(reproduction: &Reproduction) -> DataTable {
-    let mut columns = vec!["stiffness>", "μ>", "perturbation>", "exact limit>"];
-    let codes = Code::all();
-    columns.extend(codes.iter().map(|code| code.as_str()));
-    let mut table = Table::new(&columns);
-    for stiffness in PAPER_STIFFNESSES {
-        for mu in [0.2, CRITICAL_FRICTION, 0.3, 0.4] {
-            let rows = reproduction.yield_curves.iter();
-            let rows: Vec<_> = rows
-                .filter(|row| row.mu() == mu && row.stiffness() == stiffness)
-                .collect();
-            let stack = crate::model::Stack::paper(mu, stiffness);
-            let theory = crate::theory::Predictions::new(&stack, &Arms::PAPER);
-            let mut cells = vec![
-                stiffness.to_string(),
-                crate::output::friction(mu),
-                force(theory.perturbation.yield_force),
-                force(theory.quasistatic.yield_force),
-            ];
-            cells.extend(codes.iter().map(|&code| {
-                let own = rows.iter().find(|row| row.code == code);
-                force(own.and_then(|row| row.yield_force()))
-            }));
-            table.push(cells);
-        }
+pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
+    let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
+        let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
+        frictions.map(move |mu| Stack::paper(mu, stiffness))
+    });
+    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &Arms::PAPER)));
+    let mut columns = Columns::<(Stack, Predictions)>::new(
+        "points",
+        "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",
+        "`tristack report` (tables/points.csv)",
+    )
+    .stack(|(stack, _)| *stack)
+    .number(
+        "perturbation",
+        "m g",
+        "singular perturbation",
+        |(_, theory)| theory.perturbation.yield_force,
+    )
+    .shown("perturbation")
+    .digits(seven_digits)
+    .number(
+        "quasistatic",
+        "m g",
+        "exact quasi-static limit under the paper's convention",
+        |(_, theory)| theory.quasistatic.yield_force,
+    )
+    .shown("exact limit")
+    .digits(seven_digits);
+    for code in Code::all() {
+        columns = columns
+            .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
+                let mut rows = judgements.iter();
+                let own = rows.find(|row| {
+                    let place = (row.mu(), row.stiffness());
+                    row.code == code && place == (stack.floor_friction, stack.stiffness)
+                });
+                own.and_then(|row| row.yield_force())
+            })
+            .shown(code.as_str())
+            .digits(seven_digits);
     }
-    DataTable {
-        name: "points",
-        caption: "Yield force F = f/(m g) at some points of Fig. 2(a). Codes whose limit is \
-                  another one have other torque arms than the paper’s model; that is no error."
-            .to_owned(),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+    columns.rows(rows)
+}
+
+fn seven_digits(force: f64) -> String {
+    significant(force, 7)
 }

@@ -1,9 +1,10 @@
 //! How well the codes agree with the exact limit.
 
-use super::super::document::{Block, DataTable, Section};
+use super::super::document::{Block, PageTable, Section};
 use crate::code::Code;
-use crate::output::number::{friction, optional, significant};
-use crate::output::{Table, crosscheck_csv, crosscheck_rows};
+use crate::output::number::friction;
+use crate::output::table::Columns;
+use crate::output::{DataTable, crosscheck};
 use crate::paper::reproduction::{Exponent, Reproduction};
 use crate::study::Verdict;
 use crate::study::yield_force::{Evidence, Judgement};
@@ -49,6 +50,12 @@ impl Agreement {
 
 /// The section.
 pub fn section(reproduction: &Reproduction) -> Section {
+    let exponents_table = PageTable::new(
+        "exponents",
+        "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the exact limit fitted in \
+         the same way.",
+        &exponents(&reproduction.exponents),
+    );
     let mut blocks = vec![
         Block::paragraph(format!(
             "Each code is held to the exact quasi-static limit under its own, measured convention. The \
@@ -56,23 +63,30 @@ pub fn section(reproduction: &Reproduction) -> Section {
              sampling, round-off and print precision, each computed), but at least {MIN_TOLERANCE:e} and at most \
              {MAX_TOLERANCE:e} of F + 3; an uncertainty above that decides nothing."
         )),
-        Block::Table(agreement(reproduction)),
-        Block::Table(exponents(&reproduction.exponents)),
-        Block::Table(rows(
+        Block::Table(PageTable::new(
+            "agreement",
+            "Rows that agree, and their largest errors.",
+            &agreement(&[
+                ("yield_curves", &reproduction.yield_curves),
+                ("scaling", &reproduction.scaling),
+            ]),
+        )),
+        Block::Table(exponents_table.folded(true)),
+        rows(
             "yield_curves",
             "Every row of figure yield_curves.",
             &reproduction.yield_curves,
-        )),
-        Block::Table(rows(
+        ),
+        rows(
             "scaling",
             "Every row of figure scaling.",
             &reproduction.scaling,
-        )),
-        Block::Table(rows(
+        ),
+        rows(
             "literal",
             "At the paper’s literal wall speed 10⁻⁶ and time step 10⁻³, yield force by the peak.",
             &reproduction.literal,
-        )),
+        ),
     ];
     blocks.push(Block::List {
         items: Evidence::ALL
@@ -92,89 +106,76 @@ pub fn section(reproduction: &Reproduction) -> Section {
     }
 }
 
-fn agreement(reproduction: &Reproduction) -> DataTable {
-    let mut table = Table::new(&[
-        "code",
-        "figure",
-        "rows>",
-        "agree>",
-        "largest error/(F + 3)>",
-        "largest error/tolerance>",
-    ]);
-    let parts = [
-        ("yield_curves", &reproduction.yield_curves),
-        ("scaling", &reproduction.scaling),
-    ];
-    for (figure, judgements) in parts {
-        for own in Agreement::of(judgements) {
-            table.push(vec![
-                own.code.to_string(),
-                figure.to_owned(),
-                own.rows.to_string(),
-                own.agreeing.to_string(),
-                format!("{:.1e}", own.largest_error),
-                format!("{:.2}", own.largest_share),
-            ]);
-        }
-    }
-    DataTable {
-        name: "agreement",
-        caption: "Rows that agree, and their largest errors.".to_owned(),
-        csv: table.csv(),
-        table,
-        long: false,
-    }
+pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a> {
+    let rows = figures.iter().flat_map(|&(figure, judgements)| {
+        let agreements = Agreement::of(judgements).into_iter();
+        agreements.map(move |own| (own, figure))
+    });
+    Columns::<(Agreement, &str)>::new(
+        "agreement",
+        "A row counts the rows of one code in one figure that agree with the exact limit.",
+        "`tristack report` (tables/agreement.csv)",
+    )
+    .text("code", "name of the code", |(own, _)| own.code.as_str())
+    .shown("code")
+    .text("figure", "name of the figure", |(_, figure)| *figure)
+    .shown("figure")
+    .number("rows", "1", "number of rows", |(own, _)| own.rows)
+    .shown("rows")
+    .number("agreeing", "1", "how many of them agree", |(own, _)| {
+        own.agreeing
+    })
+    .shown("agree")
+    .number(
+        "largest_error",
+        "1",
+        "largest error, relative to F + 3",
+        |(own, _)| own.largest_error,
+    )
+    .shown("largest error/(F + 3)")
+    .digits(|error| format!("{error:.1e}"))
+    .number(
+        "largest_share",
+        "1",
+        "largest error in units of the tolerance of its row",
+        |(own, _)| own.largest_share,
+    )
+    .shown("largest error/tolerance")
+    .digits(|share| format!("{share:.2}"))
+    .rows(rows)
 }
 
-fn exponents(exponents: &[Exponent]) -> DataTable {
-    let mut table = Table::new(&[
-        "code",
-        "μ>",
-        "fitted exponent>",
-        "±>",
-        "of the exact limit>",
-        "for ε → 0>",
-        "verdict",
-    ]);
-    for exponent in exponents {
-        table.push(vec![
-            exponent.code.to_string(),
-            friction(exponent.mu),
-            format!("{:.7}", exponent.exponent),
-            format!("{:.0e}", exponent.uncertainty),
-            format!("{:.7}", exponent.exact),
-            exponent.asymptotic.to_string(),
-            exponent.verdict.to_string(),
-        ]);
-    }
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for exponent in exponents {
-        writer
-            .serialize(exponent)
-            .expect("plain rows are written to memory");
-    }
-    DataTable {
-        name: "exponents",
-        caption: "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the exact \
-                  limit fitted in the same way."
-            .to_owned(),
-        csv: writer.into_inner().expect("memory is flushed"),
-        table,
-        long: true,
-    }
+pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
+    Columns::<&Exponent>::new(
+        "exponents",
+        "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at one friction.",
+        "`tristack report` (tables/exponents.csv)",
+    )
+    .text("code", "the code whose yield forces were fitted", |own| own.code.as_str())
+    .shown("code")
+    .number("mu", "1", "floor friction μ", |own| own.mu)
+    .shown("μ")
+    .digits(friction)
+    .number("exponent", "1", "least-squares slope of ln(F + 3) over ln(1/ε)", |own| own.exponent)
+    .shown("fitted exponent")
+    .digits(|exponent| format!("{exponent:.7}"))
+    .number("uncertainty", "1", "what the uncertainties of the forces can do to it", |own| {
+        own.uncertainty
+    })
+    .shown("±")
+    .digits(|uncertainty| format!("{uncertainty:.0e}"))
+    .number("exact", "1", "the same fit to the exact limits", |own| own.exact)
+    .shown("of the exact limit")
+    .digits(|exponent| format!("{exponent:.7}"))
+    .number("asymptotic", "1", "the exponent for ε → 0", |own| own.asymptotic)
+    .shown("for ε → 0")
+    .number("points", "1", "how many stiffnesses were fitted", |own| own.points)
+    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| own.verdict.as_str())
+    .shown("verdict")
+    .rows(exponents)
 }
 
-fn rows(name: &'static str, caption: &str, judgements: &[Judgement]) -> DataTable {
-    DataTable {
-        name,
-        caption: caption.to_owned(),
-        table: crosscheck_rows(judgements),
-        csv: crosscheck_csv(judgements),
-        long: judgements.len() > 20,
-    }
-}
-
-/// A yield force with its uncertainty.
-pub fn force(force: Option<f64>) -> String {
-    optional(force, |force| significant(force, 7))
+fn rows(name: &'static str, caption: &str, judgements: &[Judgement]) -> Block {
+    let table = PageTable::new(name, caption, &crosscheck(judgements));
+    Block::Table(table.folded(judgements.len() > 20))
 }

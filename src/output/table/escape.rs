@@ -1,43 +1,35 @@
-//! Tables for a paper: LaTeX with booktabs.
+//! Text between the marks of each format.
 
-use super::document::DataTable;
+/// `text` in one cell of a Markdown table.
+pub(super) fn markdown_cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ")
+}
 
-/// The table as a `tabular` with a comment that says what it is. It needs the packages booktabs and, for long
-/// tables, longtable; every character is plain TeX.
-pub fn latex(data: &DataTable) -> String {
-    let table = &data.table;
-    let alignment: String = table
-        .numeric()
-        .iter()
-        .map(|&numeric| if numeric { 'r' } else { 'l' })
-        .collect();
-    let line = |cells: &mut dyn Iterator<Item = &str>| {
-        let cells: Vec<String> = cells.map(escaped).collect();
-        cells.join(" & ") + " \\\\\n"
-    };
-    let environment = if data.long { "longtable" } else { "tabular" };
-    let mut text = format!("% {}\n", data.caption.replace('\n', " "));
-    text += &format!("\\begin{{{environment}}}{{{alignment}}}\n\\toprule\n");
-    text += &line(&mut table.columns().iter().copied());
-    text += "\\midrule\n";
-    if data.long {
-        text += "\\endhead\n";
-    }
-    for row in table.rows() {
-        text += &line(&mut row.iter().map(String::as_str));
-    }
-    text + &format!("\\bottomrule\n\\end{{{environment}}}\n")
+/// `text` for HTML: what stands between backticks as code, everything else escaped.
+pub(crate) fn html_text(text: &str) -> String {
+    code_marked(text, "<code>", "</code>", |part| {
+        part.replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+            .replace('"', "&quot;")
+    })
 }
 
 /// `text` for TeX: its special characters escaped, symbols as commands, what stands between backticks in
 /// typewriter.
-fn escaped(text: &str) -> String {
+pub(super) fn latex_text(text: &str) -> String {
+    code_marked(text, "\\texttt{", "}", |part| {
+        part.chars().map(character).collect()
+    })
+}
+
+/// `text` with every part `escaped`, and those between backticks between `open` and `close`.
+fn code_marked(text: &str, open: &str, close: &str, escaped: impl Fn(&str) -> String) -> String {
     let parts = text.split('`').enumerate().map(|(index, part)| {
-        let part: String = part.chars().map(character).collect();
         if index % 2 == 1 {
-            format!("\\texttt{{{part}}}")
+            format!("{open}{}{close}", escaped(part))
         } else {
-            part
+            escaped(part)
         }
     });
     parts.collect()
@@ -130,21 +122,10 @@ fn symbol(character: char) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::Table;
 
     #[test]
-    fn a_table_is_ready_for_a_paper() {
-        let mut table = Table::new(&["theory", "error>"]);
-        table.push(vec!["z⋆ & `a_b`".to_owned(), "±5 %".to_owned()]);
-        let data = DataTable {
-            name: "errors",
-            caption: "Errors.".to_owned(),
-            table,
-            csv: Vec::new(),
-            long: false,
-        };
-        let expected = "% Errors.\n\\begin{tabular}{lr}\n\\toprule\ntheory & error \\\\\n\\midrule\n\
-                        z$\\star$ \\& \\texttt{a\\_b} & $\\pm$5 \\% \\\\\n\\bottomrule\n\\end{tabular}\n";
-        assert_eq!(latex(&data), expected);
+    fn text_is_escaped_and_code_is_marked() {
+        let shown = html_text("a < b & `x > y`");
+        assert_eq!(shown, "a &lt; b &amp; <code>x &gt; y</code>");
     }
 }

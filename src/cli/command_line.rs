@@ -1,0 +1,78 @@
+//! The command that a result names, so that it can be made again.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Options that do not change a result: where it goes, what form it has, how its runs are carried out.
+const LEFT_OUT: [&str; 7] = [
+    "--out",
+    "--format",
+    "--store",
+    "--jobs",
+    "--time-limit",
+    "--svg",
+    "--vtk",
+];
+const LEFT_OUT_FLAGS: [&str; 1] = ["--fresh"];
+
+/// `tristack` and those of its `arguments`, the first of which is the program, that the result depends on.
+pub fn command_line(arguments: &[OsString]) -> String {
+    let mut line = "tristack".to_owned();
+    let mut words = arguments.iter().skip(1);
+    while let Some(word) = words.next() {
+        let word = crate::model::shown(Path::new(word));
+        let name = word.split_once('=').map_or(word.as_str(), |(name, _)| name);
+        if LEFT_OUT.contains(&name) {
+            if name == word {
+                words.next();
+            }
+        } else if !LEFT_OUT_FLAGS.contains(&name) {
+            line += " ";
+            line += &quoted(&word);
+        }
+    }
+    line
+}
+
+/// `word` as a shell reads it.
+fn quoted(word: &str) -> String {
+    let plain = |char: char| char.is_ascii_alphanumeric() || "-_=.,:/+@%".contains(char);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(words: &[&str]) -> String {
+        let words: Vec<OsString> = words.iter().map(OsString::from).collect();
+        command_line(&words)
+    }
+
+    #[test]
+    fn what_changes_no_number_is_left_out() {
+        let given = [
+            "/usr/bin/tristack",
+            "sweep",
+            "--code",
+            "native",
+            "--out",
+            "curve",
+            "--format=json",
+            "--fresh",
+            "--mu",
+            "0.1:0.3:0.1",
+        ];
+        assert_eq!(of(&given), "tristack sweep --code native --mu 0.1:0.3:0.1");
+    }
+
+    #[test]
+    fn words_that_a_shell_would_take_apart_are_quoted() {
+        let given = ["tristack", "predict", "--youngs", "1 MPa", "it's"];
+        assert_eq!(of(&given), "tristack predict --youngs '1 MPa' 'it'\\''s'");
+    }
+}

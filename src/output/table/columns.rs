@@ -1,0 +1,220 @@
+//! The declaration of a table's columns.
+
+use super::{DataTable, Value};
+use crate::code::Code;
+use crate::model::{Arms, Stack};
+use crate::output::number::friction;
+use crate::study::{Source, Verdict};
+
+/// Name, version and origin of a table that programs may read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Schema {
+    pub(crate) name: &'static str,
+    /// Raised when a column is removed or changes its meaning.
+    pub(crate) version: u32,
+    /// One sentence: what a row is.
+    pub(crate) what: &'static str,
+    /// The commands and files that carry it.
+    pub(crate) found_in: &'static str,
+}
+
+type ValueOf<'a, R> = Box<dyn Fn(&R) -> Value + 'a>;
+type CellOf<'a, R> = Box<dyn Fn(&R) -> String + 'a>;
+
+/// One column.
+pub(crate) struct Column<'a, R> {
+    /// Name in CSV and JSON; empty for a column that is for people only.
+    pub(crate) name: &'static str,
+    /// Unit of a number, `1` for a pure one; empty for a text.
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: &'static str,
+    pub(crate) value: ValueOf<'a, R>,
+    /// Name in tables for people; `None` if they do without this column.
+    pub(crate) heading: Option<&'static str>,
+    /// Digits of its numbers in these tables.
+    pub(crate) digits: fn(f64) -> String,
+    /// What stands there in place of the value.
+    pub(crate) cell: Option<CellOf<'a, R>>,
+}
+
+/// The columns of a table with rows of type `R`, in order.
+///
+/// [`Columns::shown`], [`Columns::digits`] and [`Columns::cell`] concern the column declared last, or the one named
+/// by [`Columns::again`].
+pub(crate) struct Columns<'a, R> {
+    pub(crate) schema: Schema,
+    pub(crate) list: Vec<Column<'a, R>>,
+    current: usize,
+}
+
+impl<'a, R: 'a> Columns<'a, R> {
+    /// No columns yet, of a table in version 1.
+    pub(crate) fn new(name: &'static str, what: &'static str, found_in: &'static str) -> Self {
+        let version = 1;
+        Self {
+            schema: Schema {
+                name,
+                version,
+                what,
+                found_in,
+            },
+            list: Vec::new(),
+            current: 0,
+        }
+    }
+
+    /// No columns yet, of a table that only people read.
+    pub(crate) fn for_people() -> Self {
+        Self::new("", "", "")
+    }
+
+    /// A column of numbers in `unit`, `1` for pure ones.
+    pub(crate) fn number<V: Into<Value>>(
+        mut self,
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        self.current = self.list.len();
+        self.list.push(Column {
+            name,
+            unit,
+            meaning,
+            value: Box::new(move |row| value(row).into()),
+            heading: None,
+            digits: |number| number.to_string(),
+            cell: None,
+        });
+        self
+    }
+
+    /// A column of words.
+    pub(crate) fn text<V: Into<Value>>(
+        self,
+        name: &'static str,
+        meaning: &'static str,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        self.number(name, "", meaning, value)
+    }
+
+    /// A column that is for people only, aligned to the left.
+    pub(crate) fn left(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
+        self.text("", "", cell).shown(heading)
+    }
+
+    /// A column that is for people only, aligned to the right.
+    pub(crate) fn right(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
+        self.number("", "1", "", cell).shown(heading)
+    }
+
+    /// Shows the column to people as `heading`, its numbers with these digits.
+    pub(crate) fn shown_as(self, heading: &'static str, digits: fn(f64) -> String) -> Self {
+        self.shown(heading).digits(digits)
+    }
+
+    /// Shows the column to people as `heading`.
+    pub(crate) fn shown(mut self, heading: &'static str) -> Self {
+        self.current().heading = Some(heading);
+        self
+    }
+
+    /// Writes its numbers for people with these digits.
+    pub(crate) fn digits(mut self, digits: fn(f64) -> String) -> Self {
+        self.current().digits = digits;
+        self
+    }
+
+    /// Shows people something else than the value.
+    pub(crate) fn cell(mut self, cell: impl Fn(&R) -> String + 'a) -> Self {
+        self.current().cell = Some(Box::new(cell));
+        self
+    }
+
+    /// Goes back to the column `name`.
+    pub(crate) fn again(mut self, name: &str) -> Self {
+        let declared = self.list.iter().position(|column| column.name == name);
+        self.current = declared.expect("the column was declared before");
+        self
+    }
+
+    fn current(&mut self) -> &mut Column<'a, R> {
+        &mut self.list[self.current]
+    }
+
+    /// The parameters of a stack; people see stiffness and floor friction.
+    pub(crate) fn stack(self, stack: impl Fn(&R) -> Stack + Copy + 'a) -> Self {
+        self.number(
+            "stiffness",
+            "m g/r",
+            "normal stiffness k_n, 1/ε",
+            move |row| stack(row).stiffness,
+        )
+        .shown("stiffness")
+        .number("mu", "1", "floor friction μ", move |row| {
+            stack(row).floor_friction
+        })
+        .shown("mu")
+        .digits(friction)
+        .number(
+            "mu_d",
+            "1",
+            "friction μ_d between the cylinders",
+            move |row| stack(row).cylinder_friction,
+        )
+        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| {
+            stack(row).stiffness_ratio
+        })
+    }
+
+    /// The arms of a contact convention.
+    pub(crate) fn arms(self, arms: impl Fn(&R) -> Arms + Copy + 'a) -> Self {
+        let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
+        let floor = "the same of cylinder–wall contacts";
+        let kinematic = "the same of the surface velocity";
+        self.number("pair_torque_arm", "1", pair, move |row| {
+            arms(row).pair.torque
+        })
+        .number("pair_kinematic_arm", "1", kinematic, move |row| {
+            arms(row).pair.kinematic
+        })
+        .number("floor_torque_arm", "1", floor, move |row| {
+            arms(row).floor.torque
+        })
+        .number("floor_kinematic_arm", "1", kinematic, move |row| {
+            arms(row).floor.kinematic
+        })
+    }
+
+    /// The code that a row is about.
+    pub(crate) fn code(self, code: impl Fn(&R) -> Code + 'a) -> Self {
+        let name = move |row: &R| code(row).as_str();
+        self.text("code", "name of the code", name).shown("code")
+    }
+
+    /// The version of the code; people see it elsewhere.
+    pub(crate) fn version(self, version: impl Fn(&R) -> &str + 'a) -> Self {
+        let text = move |row: &R| Value::from(version(row));
+        self.text("version", "version of the code", text)
+    }
+
+    /// Where the runs of a row come from; people see it on request.
+    pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
+        let meaning =
+            "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";
+        self.text("source", meaning, move |row| source(row).as_str())
+    }
+
+    /// The verdict on a row.
+    pub(crate) fn verdict(self, verdict: impl Fn(&R) -> Verdict + 'a) -> Self {
+        let meaning = "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`; `agrees` alone is a pass";
+        self.text("verdict", meaning, move |row| verdict(row).as_str())
+            .shown("verdict")
+    }
+
+    /// The table with these `rows`.
+    pub(crate) fn rows(self, rows: impl IntoIterator<Item = R>) -> DataTable<'a> {
+        DataTable::new(self, rows.into_iter().collect())
+    }
+}

@@ -1,0 +1,14 @@
+//! Tables: every column is declared once, and every format is derived from the declaration.
+
+mod columns;
+mod data;
+mod escape;
+mod shown;
+mod value;
+
+pub(crate) use columns::Columns;
+pub use data::DataTable;
+pub(crate) use data::json;
+pub(crate) use escape::html_text;
+pub use shown::Table;
+pub(crate) use value::Value;

@@ -1,0 +1,147 @@
+//! A table of text cells, as people see it, in every format.
+
+use super::escape::{html_text, latex_text, markdown_cell};
+use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
+
+/// Named columns and rows of cells. In a cell `…` between backticks is code.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    headings: Vec<String>,
+    /// Which columns are numbers, aligned to the right.
+    numeric: Vec<bool>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// An empty table with these headings, each with whether it stands above numbers.
+    pub(crate) fn new(columns: impl IntoIterator<Item = (String, bool)>) -> Self {
+        let (headings, numeric) = columns.into_iter().unzip();
+        Self {
+            headings,
+            numeric,
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds a row of as many cells as there are columns.
+    pub(crate) fn push(&mut self, cells: Vec<String>) {
+        debug_assert_eq!(cells.len(), self.headings.len());
+        self.rows.push(cells);
+    }
+
+    /// How many rows there are.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// For a terminal.
+    pub fn terminal(&self) -> String {
+        self.drawn(presets::UTF8_FULL_CONDENSED, str::to_owned)
+    }
+
+    /// For Markdown.
+    pub fn markdown(&self) -> String {
+        self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
+    }
+
+    fn drawn(&self, style: TableStyle, escaped: fn(&str) -> String) -> String {
+        let cells = |cells: &[String]| -> Vec<String> {
+            let cells = cells.iter().map(|cell| escaped(cell));
+            cells.collect()
+        };
+        let mut table = comfy_table::Table::new();
+        table
+            .load_style(style)
+            .set_content_arrangement(ContentArrangement::Disabled)
+            .set_header(cells(&self.headings))
+            .add_rows(self.rows.iter().map(|row| cells(row)));
+        for (column, numeric) in table.column_iter_mut().zip(&self.numeric) {
+            if *numeric {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        let lines: Vec<String> = table
+            .lines()
+            .map(|line| line.trim_end().to_owned())
+            .collect();
+        lines.join("\n") + "\n"
+    }
+
+    /// For a paper: LaTeX with booktabs and, for `long` tables, longtable; a comment says what it is. Every
+    /// character is plain TeX.
+    pub(crate) fn latex(&self, caption: &str, long: bool) -> String {
+        let numeric = self.numeric.iter();
+        let alignment: String = numeric
+            .map(|&number| if number { 'r' } else { 'l' })
+            .collect();
+        let line = |cells: &[String]| {
+            let cells: Vec<String> = cells.iter().map(|cell| latex_text(cell)).collect();
+            cells.join(" & ") + " \\\\\n"
+        };
+        let (environment, head) = match long {
+            true => ("longtable", "\\endhead\n"),
+            false => ("tabular", ""),
+        };
+        let rows: String = self.rows.iter().map(|row| line(row)).collect();
+        format!(
+            "% {}\n\\begin{{{environment}}}{{{alignment}}}\n\\toprule\n{}\\midrule\n{head}{rows}\
+             \\bottomrule\n\\end{{{environment}}}\n",
+            caption.replace('\n', " "),
+            line(&self.headings)
+        )
+    }
+
+    /// For a page.
+    pub(crate) fn html(&self) -> String {
+        let line = |cells: &[String], tag: &str, scope: &str| {
+            let cells = cells.iter().zip(&self.numeric).map(|(cell, numeric)| {
+                let class = if *numeric { " class=\"number\"" } else { "" };
+                format!("<{tag}{class}{scope}>{}</{tag}>", html_text(cell))
+            });
+            format!("<tr>{}</tr>", cells.collect::<String>())
+        };
+        let head = line(&self.headings, "th", " scope=\"col\"");
+        let rows = self.rows.iter().map(|row| line(row, "td", "") + "\n");
+        format!(
+            "<div class=\"scroll\"><table>\n<thead>{head}</thead>\n<tbody>\n{}</tbody></table></div>",
+            rows.collect::<String>()
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let columns = [("theory", false), ("error", true)];
+        let mut table = Table::new(columns.map(|(name, numeric)| (name.to_owned(), numeric)));
+        table.push(vec!["z⋆ & `a_b` |x| < 1".to_owned(), "±5 %".to_owned()]);
+        table
+    }
+
+    #[test]
+    fn latex_is_ready_for_a_paper() {
+        let expected = "% Errors.\n\\begin{tabular}{lr}\n\\toprule\ntheory & error \\\\\n\\midrule\n\
+                        z$\\star$ \\& \\texttt{a\\_b} \\textbar{}x\\textbar{} $<$ 1 & $\\pm$5 \\% \\\\\n\
+                        \\bottomrule\n\\end{tabular}\n";
+        assert_eq!(table().latex("Errors.", false), expected);
+    }
+
+    #[test]
+    fn a_bar_in_a_cell_does_not_end_it_in_markdown() {
+        let line = table().markdown().lines().nth(2).map(str::to_owned);
+        let expected = "| z⋆ & `a_b` \\|x\\| < 1 |  ±5 % |";
+        assert_eq!(line.as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn html_escapes_cells_and_marks_numbers_and_code() {
+        let html = table().html();
+        assert!(
+            html.contains("<td>z⋆ &amp; <code>a_b</code> |x| &lt; 1</td>"),
+            "{html}"
+        );
+        assert!(html.contains("<td class=\"number\">±5 %</td>"), "{html}");
+    }
+}

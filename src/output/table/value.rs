@@ -1,0 +1,89 @@
+//! The value of one column in one row.
+
+use serde::{Serialize, Serializer};
+
+/// A value with all its digits, as CSV and JSON carry it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    Missing,
+    Text(String),
+    Integer(u64),
+    Number(f64),
+    Flag(bool),
+}
+
+impl Value {
+    /// The word that stands for `name` in files, such as `floor-slip`.
+    pub(crate) fn word(name: impl Serialize) -> Self {
+        match serde_json::to_value(name) {
+            Ok(serde_json::Value::String(word)) => Self::Text(word),
+            _ => Self::Missing,
+        }
+    }
+
+    /// The value for people: numbers as `digits` writes them.
+    pub(crate) fn shown(&self, digits: fn(f64) -> String) -> String {
+        match self {
+            Self::Missing => "-".to_owned(),
+            Self::Text(text) => text.clone(),
+            Self::Integer(count) => digits(*count as f64),
+            Self::Number(number) => digits(*number),
+            Self::Flag(true) => "yes".to_owned(),
+            Self::Flag(false) => "no".to_owned(),
+        }
+    }
+}
+
+impl Serialize for Value {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Missing => serializer.serialize_none(),
+            Self::Text(text) => serializer.serialize_str(text),
+            Self::Integer(count) => serializer.serialize_u64(*count),
+            Self::Number(number) => serializer.serialize_f64(*number),
+            Self::Flag(flag) => serializer.serialize_bool(*flag),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Self::Integer(count)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::Integer(count as u64)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Missing, Into::into)
+    }
+}

@@ -5,7 +5,7 @@ use tristack::dem::{Loading, Until, watch_stack};
 use tristack::model::{PAPER_STIFFNESS_RATIO, Stack};
 use tristack::study::Verdict;
 use tristack::study::regimes::{THREE_DIGITS, confirm, examine, examined_stacks};
-use tristack::theory::{BoundaryPoint, Event, LoadingPhase, Outcome, RegimeMap};
+use tristack::theory::{BoundaryPoint, Event, LoadingOutcome, LoadingPhase, RegimeMap};
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -48,7 +48,7 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
             stiffness_ratio,
             ..Stack::paper(mu, 1e2)
         };
-        let claimed = Outcome::of(&stack).unwrap().last;
+        let claimed = LoadingOutcome::of(&stack).unwrap().last;
         assert!(claimed.bottom_force > 0.0);
         let force = |speed: f64| {
             let loading = Loading {

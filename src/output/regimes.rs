@@ -7,7 +7,8 @@ use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
 use crate::theory::{
-    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingPhase, Outcome, Regime, RegimeMap,
+    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingOutcome, LoadingPhase, Regime,
+    RegimeMap,
 };
 use serde::Serialize;
 
@@ -65,7 +66,7 @@ struct ForceRow {
 }
 
 impl MapRow {
-    fn new(axis: Axis, stack: &Stack, outcome: &Outcome) -> Self {
+    fn new(axis: Axis, stack: &Stack, outcome: &LoadingOutcome) -> Self {
         Self {
             map: axis.as_str(),
             mu: stack.floor_friction,
@@ -146,7 +147,7 @@ fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<MapRow> {
         let stacks = map.friction_values(rows).into_iter();
         let stacks = stacks.map(|friction| map.stack(value, friction));
         grid.extend(stacks.filter_map(|stack| {
-            let outcome = Outcome::on(&path, &stack)?;
+            let outcome = LoadingOutcome::on(&path, &stack)?;
             Some(MapRow::new(map.axis, &stack, &outcome))
         }));
     }

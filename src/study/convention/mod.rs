@@ -28,7 +28,7 @@ use crate::series::Motion;
 use clock::Clock;
 use contact_frame::contact_rows;
 use experiments::ContactKind;
-use plan::{Laws, Outcome, Plan};
+use plan::{Laws, Plan, TestedMotion};
 
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
@@ -47,7 +47,7 @@ pub fn probe<E>(
     let mut tests: Vec<ContactTest> = plans.iter().flat_map(Plan::tests).copied().collect();
     tests.push(turning);
     let motions = run(&tests)?;
-    let outcomes: Vec<Outcome> = tests.iter().zip(&motions).collect();
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let clock = Clock::read(&outcomes);
     let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
         contact_rows(ContactKind::Pair, test, motion, &clock)
@@ -62,7 +62,7 @@ pub fn probe<E>(
     let brinks: Vec<Vec<ContactTest>> = laws.iter().map(Laws::brinks).collect();
     let tests = brinks.concat();
     let motions = run(&tests)?;
-    let outcomes: Vec<Outcome> = tests.iter().zip(&motions).collect();
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let mut unread = outcomes.as_slice();
     let mut properties = clock.properties(declared);
     for (laws, brinks) in laws.iter().zip(&brinks) {

@@ -5,7 +5,7 @@ use crate::code::Interrupt;
 use crate::dem::{Loading, Observation, Until, watch_stack};
 use crate::model::Stack;
 use crate::study::Verdict;
-use crate::theory::{BoundaryPoint, Event, Outcome, Regime};
+use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
 
 /// Relative distance from a boundary at which it is looked at: half a unit of the third digit.
 pub const THREE_DIGITS: f64 = 5e-4;
@@ -24,7 +24,7 @@ pub struct Side {
     /// The stack.
     pub stack: Stack,
     /// What theory says of it.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// What the DEM shows; `None` if nothing happened, or the run was given up.
     pub observed: Option<Regime>,
     /// Force of the wall at the last event, in m g, as the DEM shows it.
@@ -72,7 +72,7 @@ pub fn confirm(point: &BoundaryPoint, interrupt: &Interrupt) -> Confirmation {
 
 /// Runs `stack`. A run that contradicts the claim is repeated more slowly: if it then shows the same, that is
 /// what it is; if it shows something else, even what was claimed, nothing has been decided.
-fn look(stack: Stack, claimed: Outcome, interrupt: &Interrupt) -> Side {
+fn look(stack: Stack, claimed: LoadingOutcome, interrupt: &Interrupt) -> Side {
     let usual = loading(&stack, &claimed.last, SPEED, FURTHER);
     let slower = Loading {
         gravity_rate: usual.gravity_rate / SLOWER,

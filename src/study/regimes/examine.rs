@@ -9,7 +9,7 @@ use crate::study::MAX_TOLERANCE;
 use crate::study::Verdict;
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
-use crate::theory::{FailureMode, Outcome, released_frictions};
+use crate::theory::{FailureMode, LoadingOutcome, released_frictions};
 
 /// How far the wall goes beyond the predicted end of the path, in units of the predicted travel: far enough
 /// for a force that is going to fall to have fallen.
@@ -24,7 +24,7 @@ pub struct Examination {
     /// The stack.
     pub stack: Stack,
     /// What theory says of it.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// The peak of the wall force at vanishing speed; `None` where the stack falls or the force has no peak.
     pub peak: Option<Extrapolation>,
     /// The uncertainty of the peak, in m g.
@@ -100,7 +100,7 @@ fn beside_released_frictions(stiffness_ratio: f64) -> Vec<Stack> {
 /// Runs `stack` as the crosscheck runs its own (three speeds, a coarse time step, a quick preparation) and
 /// holds its peak against theory. `None` if theory has nothing to say of it.
 pub fn examine(stack: &Stack, interrupt: &Interrupt) -> Option<Examination> {
-    let claimed = Outcome::of(stack)?;
+    let claimed = LoadingOutcome::of(stack)?;
     let observations = observe(stack, &claimed, interrupt);
     let complete = observations.iter().all(|observation| observation.complete);
     let estimates: Vec<YieldEstimates> = observations.iter().map(estimates).collect();
@@ -143,7 +143,7 @@ fn wrong_order(peak: &Extrapolation, slowest: f64) -> f64 {
 }
 
 /// The runs, in the order that [`extrapolate`] expects.
-fn observe(stack: &Stack, claimed: &Outcome, interrupt: &Interrupt) -> Vec<Observation> {
+fn observe(stack: &Stack, claimed: &LoadingOutcome, interrupt: &Interrupt) -> Vec<Observation> {
     let end = claimed.end.unwrap_or(claimed.last);
     let at_speed = |speed: f64| loading(stack, &end, speed / SLOWER, FURTHER);
     let mut loadings: Vec<Loading> = SPEEDS.into_iter().map(at_speed).collect();

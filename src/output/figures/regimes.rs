@@ -11,7 +11,8 @@ use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Survey};
 use crate::theory::{
-    Axis, Boundary, EquilibriumPath, Event, FailureMode, Outcome, RegimeMap, released_frictions,
+    Axis, Boundary, EquilibriumPath, Event, FailureMode, LoadingOutcome, RegimeMap,
+    released_frictions,
 };
 
 /// Points on a curve, between two lines that cut the axis.
@@ -215,7 +216,7 @@ fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, bool)> {
 }
 
 fn region(stack: &Stack) -> Option<Region> {
-    let outcome = Outcome::of(stack)?;
+    let outcome = LoadingOutcome::of(stack)?;
     let ending = match (outcome.end.map(|end| end.event), outcome.failure_mode) {
         (Some(Event::CylinderSlip), _) => Ending::Saturates,
         (Some(_), _) => Ending::Yields,

@@ -19,7 +19,7 @@ const GENTLE_SPIN: f64 = 1e-4;
 const SHARES: [f64; 2] = [0.0, 1.0];
 
 /// A micro-test and its motion.
-pub type Outcome<'a> = (&'a ContactTest, &'a Motion);
+pub type TestedMotion<'a> = (&'a ContactTest, &'a Motion);
 
 /// The micro-tests of one kind.
 pub struct Plan {
@@ -59,7 +59,7 @@ impl Plan {
     }
 
     /// Fits the laws to the motions of the tests; `turning` is the motion of a pair that turns.
-    pub fn read(self, motions: &[Outcome], turning: &[ContactRow], clock: &Clock) -> Laws {
+    pub fn read(self, motions: &[TestedMotion], turning: &[ContactRow], clock: &Clock) -> Laws {
         let rows: Vec<Vec<ContactRow>> = motions
             .iter()
             .map(|(test, motion)| contact_rows(self.kind, test, motion, clock))
@@ -115,12 +115,12 @@ impl Laws {
 
     /// The share of the damping in the Coulomb operand: the one with which the contact sticks just below the
     /// limit and slides just above it.
-    fn operand_damping(&self, outcomes: &[Outcome], clock: &Clock) -> Measured {
+    fn operand_damping(&self, outcomes: &[TestedMotion], clock: &Clock) -> Measured {
         let gentle = self.rows.get(GENTLE).map_or(&[][..], Vec::as_slice);
         let candidates = SHARES.iter().zip(outcomes.chunks(2));
         let mut found = candidates.filter_map(|(&share, motions)| {
             let (row, ratio) = largest_operand(gentle, &self.tangential, share)?;
-            let slides = |(test, motion): &Outcome| {
+            let slides = |(test, motion): &TestedMotion| {
                 let rows = contact_rows(self.plan.kind, test, motion, clock);
                 rows.get(row).map(is_at_limit)
             };
@@ -139,7 +139,7 @@ impl Laws {
     }
 
     /// All properties of the kind; `near_slip` are the motions to the slip threshold.
-    pub fn properties(&self, near_slip: &[Outcome], clock: &Clock) -> Vec<Property> {
+    pub fn properties(&self, near_slip: &[TestedMotion], clock: &Clock) -> Vec<Property> {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
         let mut properties = normal_properties(kind, &self.normal, self.pull, test);

@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::contact_frame::contact_rows;
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
-use super::plan::{Laws, Outcome, Plan};
+use super::plan::{Laws, Plan, TestedMotion};
 use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::Motion;
@@ -26,7 +26,7 @@ pub fn probe<E>(
     let mut tests: Vec<ContactTest> = plans.iter().flat_map(Plan::tests).copied().collect();
     tests.push(turning);
     let motions = run(&tests)?;
-    let outcomes: Vec<Outcome> = tests.iter().zip(&motions).collect();
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let clock = Clock::read(&outcomes);
     let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
         contact_rows(ContactKind::Pair, test, motion, &clock)
@@ -41,7 +41,7 @@ pub fn probe<E>(
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
     let tests = near_slip.concat();
     let motions = run(&tests)?;
-    let outcomes: Vec<Outcome> = tests.iter().zip(&motions).collect();
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let mut unread = outcomes.as_slice();
     let mut properties = clock.properties(declared);
     for (laws, tests) in laws.iter().zip(&near_slip) {

@@ -4,7 +4,7 @@ use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
 use crate::study::{Ground, Grounds, Verdict};
-use crate::theory::{BoundaryPoint, Event, Outcome, Regime};
+use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
 
 /// Wall speed in units of the predicted displacement. It keeps the forces at the events within 3e-5 of those of
 /// theory, and shifts the boundaries by far less than [`super::THREE_DIGITS`].
@@ -20,7 +20,7 @@ pub struct Side {
     /// The stack.
     pub stack: Stack,
     /// What theory predicts.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// The regime in the DEM; `None` if no event came, or the run was given up.
     pub observed: Option<Regime>,
     /// Force of the wall at the last event in the DEM, in m g.
@@ -52,7 +52,7 @@ impl Confirmation {
 /// The run of one neighbour of a boundary point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SidePlan {
-    claimed: Outcome,
+    claimed: LoadingOutcome,
     pub(super) run: EventRun,
 }
 
@@ -67,7 +67,7 @@ impl SidePlan {
         ]
     }
 
-    fn new(stack: Stack, claimed: Outcome) -> Self {
+    fn new(stack: Stack, claimed: LoadingOutcome) -> Self {
         let run = EventRun {
             stack,
             loading: loading(&stack, &claimed.last, SPEED, FURTHER),

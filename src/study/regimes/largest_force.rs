@@ -7,7 +7,7 @@ use crate::series::{Estimate, YieldEstimates};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
 use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
-use crate::theory::{FailureMode, Outcome};
+use crate::theory::{FailureMode, LoadingOutcome};
 
 /// Travel of the wall in units of the predicted travel to the end of the path: far enough beyond it for a force with a
 /// peak to have fallen.
@@ -25,7 +25,7 @@ pub struct Examination {
     /// The stack.
     pub stack: Stack,
     /// What theory predicts.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// The peak of the wall force at vanishing speed; `None` where the stack falls or the force has no peak.
     pub peak: Option<Extrapolation>,
     /// The uncertainty of the peak, in m g.
@@ -40,7 +40,7 @@ pub struct Examination {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PeakPlan {
     stack: Stack,
-    claimed: Outcome,
+    claimed: LoadingOutcome,
     /// In the order that [`extrapolate`] expects.
     pub(super) runs: Vec<EventRun>,
 }
@@ -48,7 +48,7 @@ pub(super) struct PeakPlan {
 impl PeakPlan {
     /// The runs of `stack`; `None` if theory makes no prediction.
     pub(super) fn new(stack: &Stack) -> Option<Self> {
-        let claimed = Outcome::of(stack)?;
+        let claimed = LoadingOutcome::of(stack)?;
         let run = |loading| EventRun {
             stack: *stack,
             loading,
@@ -109,7 +109,7 @@ impl PeakPlan {
     }
 }
 
-fn loadings(stack: &Stack, claimed: &Outcome) -> [Loading; RUNS] {
+fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
     let end = claimed.end.unwrap_or(claimed.last);
     let at_speed = |speed: f64| loading(stack, &end, speed / SLOWER, FURTHER);
     let middle = at_speed(SPEEDS[MIDDLE_RUN]);

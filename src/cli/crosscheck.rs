@@ -1,7 +1,7 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{Format, RunOptions, selected_codes, writable};
+use super::options::{Format, RunOptions, selected_codes, tell_stand_ins, writable};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -11,7 +11,6 @@ use crate::output::{
     budget_csv, crosscheck_csv, crosscheck_json, crosscheck_markdown, crosscheck_table, friction,
 };
 use crate::runs::SelectedCode;
-use crate::study::Source;
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, Measurement, Profile, measure};
 use clap::{Args, ValueEnum};
@@ -128,13 +127,10 @@ pub(super) fn conclude(
             );
         }
     }
-    for selected in codes.iter().filter(|who| who.code.is_none()) {
-        tell!(
-            "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            selected.name,
-            selected.name.installation_hint()
-        );
-    }
+    tell_stand_ins(codes, |code| {
+        let mut own = judgements.iter().filter(|one| one.row.code == code);
+        own.any(Judgement::is_recorded)
+    });
     tell!("{}", summary(judgements));
     if INTERRUPT.requested() {
         tell!(
@@ -169,7 +165,7 @@ fn summary(judgements: &[Judgement]) -> String {
     }
     let recorded = judgements
         .iter()
-        .filter(|judgement| judgement.row.source == Source::Recorded);
+        .filter(|judgement| judgement.is_recorded());
     match recorded.count() {
         0 => text,
         count => format!("{text}; {count} rows are recorded, not live"),

@@ -1,6 +1,6 @@
 //! `tristack report`.
 
-use super::options::{RunOptions, recorded_trajectories, selected_codes, writable};
+use super::options::{RunOptions, selected_codes, writable};
 use super::progress::{Counter, Reporter};
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -52,7 +52,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let scope = Scope {
         codes: &codes,
         settings: &settings,
-        trajectories: recorded_trajectories(),
         literal: arguments.literal,
     };
     let (reporter, counter) = (Reporter::new(), Counter::new(examined_points()));

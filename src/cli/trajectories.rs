@@ -1,6 +1,6 @@
 //! `tristack trajectories`.
 
-use super::options::{Format, RunOptions, recorded_trajectories, selected_codes, writable};
+use super::options::{Format, RunOptions, selected_codes, tell_stand_ins, writable};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -10,7 +10,7 @@ use crate::model::InvalidValue;
 use crate::output::{
     trajectories_csv, trajectories_json, trajectories_markdown, trajectories_table,
 };
-use crate::runs::{SelectedCode, Settings};
+use crate::runs::SelectedCode;
 use crate::study::Verdict;
 use crate::study::convention::probe_all;
 use crate::study::trajectory::{
@@ -54,10 +54,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
     let probes = probe_all(&codes, &settings, &reporter);
-    let settings = Settings {
-        recorded: recorded_trajectories(),
-        ..settings
-    };
     let judgements = measure_trajectories(&plans, &codes, &settings, &reporter);
     drop(reporter);
     let judged = judgements.into_iter().map(|judgement| {
@@ -143,13 +139,10 @@ fn conclude(
             }
         }
     }
-    for selected in codes.iter().filter(|who| who.code.is_none()) {
-        tell!(
-            "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            selected.name,
-            selected.name.installation_hint()
-        );
-    }
+    tell_stand_ins(codes, |code| {
+        let mut own = judgements.iter().filter(|one| one.code == code);
+        own.any(|one| one.verdict != Verdict::Missing)
+    });
     let verdicts: Vec<Verdict> = judgements
         .iter()
         .flat_map(TrajectoryJudgement::verdicts)

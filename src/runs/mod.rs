@@ -12,7 +12,7 @@ mod summary;
 pub use entry::Archive;
 pub use probe_record::{Answer, ProbeRecord};
 pub use read_all::{Load, read_all};
-pub use recorded::{Recorded, RecordedError};
+pub use recorded::{Recorded, RecordedError, RecordedRun, Recording};
 pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 pub use store::{LockOwner, Store, StoreError};
 pub use summary::RunSummary;

@@ -4,9 +4,8 @@ use super::schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_
 use crate::code::Code;
 use crate::model::Case;
 use crate::runs::RunSummary;
-use std::collections::HashMap;
 
-/// Carries out the cases of all workloads and reads every run. Where an code is not installed and the
+/// Carries out the cases of all workloads and reads every run. Where a code is not installed and the
 /// series of a run is not recorded, its recorded summary stands in.
 pub fn read_all<W: Workload>(
     workloads: &[W],
@@ -15,41 +14,16 @@ pub fn read_all<W: Workload>(
     progress: &dyn Progress,
 ) -> Vec<Vec<Result<RunSummary, RunError>>> {
     let mut results = run_all(workloads, codes, settings, progress, RunSummary::new);
-    let mut recorded = HashMap::new();
     for (workload, results) in workloads.iter().zip(&mut results) {
         let code = workload.code();
         for (case, result) in workload.cases().iter().zip(results) {
-            if !result.as_ref().is_err_and(RunError::is_unrecorded) {
-                continue;
-            }
-            let summaries = recorded
-                .entry(code)
-                .or_insert_with(|| by_case(code, settings, progress));
-            if let Some(summary) = summaries.get(&case.content_hash()) {
-                *result = settings
-                    .recorded
-                    .unless_outdated(code, case, summary.clone())
-                    .map_err(RunError::from);
+            if result.as_ref().is_err_and(RunError::is_unrecorded) {
+                let summary = settings.recorded.summary(code, case);
+                *result = summary.map_err(RunError::from);
             }
         }
     }
     results
-}
-
-/// The recorded summaries of one code, by the hash of their cases.
-fn by_case(
-    code: Code,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> HashMap<String, RunSummary> {
-    let summaries = settings.recorded.summaries(code).unwrap_or_else(|error| {
-        progress.warn(&format!("damaged recorded summaries, not used: {error}"));
-        Vec::new()
-    });
-    let keyed = summaries
-        .into_iter()
-        .map(|summary: RunSummary| (summary.case.content_hash(), summary));
-    keyed.collect()
 }
 
 /// Cases that one code is to run, and nothing more.

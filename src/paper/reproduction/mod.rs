@@ -21,7 +21,7 @@ use crate::code::Code;
 use crate::code::Provenance;
 use crate::model::PAPER_STIFFNESS_RATIO;
 use crate::runs::RunSummary;
-use crate::runs::{Progress, Recorded, RunError, SelectedCode, Settings};
+use crate::runs::{Progress, RunError, SelectedCode, Settings};
 use crate::series::SeriesError;
 use crate::study::convention::{Probed, probe_all};
 use crate::study::preparation::{PreparationStudy, preparation_cases, preparation_studies};
@@ -85,8 +85,6 @@ pub struct Scope<'a> {
     pub codes: &'a [SelectedCode],
     /// Where runs come from and go to.
     pub settings: &'a Settings<'a>,
-    /// The recorded runs that stand in for trajectories.
-    pub trajectories: Recorded,
     /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
     pub literal: bool,
 }
@@ -183,12 +181,7 @@ fn run_trajectories(
     let plans: Vec<Trajectory> = external
         .map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()))
         .collect();
-    let settings = Settings {
-        store: scope.settings.store.clone(),
-        recorded: scope.trajectories.clone(),
-        ..*scope.settings
-    };
-    let judged = measure_trajectories(&plans, scope.codes, &settings, progress);
+    let judged = measure_trajectories(&plans, scope.codes, scope.settings, progress);
     let judged = judged.into_iter().map(|judgement| {
         let probes = probes.iter().map(|(code, probed)| (*code, probed));
         judgement.unless_contradicted(probes)
@@ -247,12 +240,11 @@ fn judged(
     found.map(|(_, judgement)| judgement.clone()).collect()
 }
 
-/// Every run of an external code that the report needs and whose series is too large to keep: the summaries
-/// that `tristack record` takes.
+/// What is read off every run of an external code that the report needs, for `tristack record`.
 ///
 /// # Errors
 /// The first run that fails.
-pub fn readings_to_record(
+pub fn summaries_to_record(
     selected: &SelectedCode,
     settings: &Settings,
     progress: &dyn Progress,

@@ -159,6 +159,11 @@ fn judge_readings(
 }
 
 impl Judgement {
+    /// Whether recorded runs stand behind the row.
+    pub fn is_recorded(&self) -> bool {
+        self.row.source == Source::Recorded && self.row.verdict != Verdict::Missing
+    }
+
     fn estimates(&self) -> Vec<YieldEstimates> {
         self.runs.iter().map(|run| run.estimates).collect()
     }

@@ -326,7 +326,12 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
 #[test]
 fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
     let stack = Stack::paper(0.3, 100.0);
-    let cases = plan(Code::named("yade").expect("it is built in"), &stack, Code::named("yade").expect("it is built in").convention()).cases;
+    let cases = plan(
+        Code::named("yade").expect("it is built in"),
+        &stack,
+        Code::named("yade").expect("it is built in").convention(),
+    )
+    .cases;
     let (middle, short) = (cases[MIDDLE_RUN], cases[SHORT_RAMP_RUN]);
     for (victim, other) in [(middle, short), (short, middle)] {
         let bench = Bench::with_system_programs();

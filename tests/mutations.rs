@@ -7,10 +7,10 @@ use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
     run_contact_test_with,
 };
-use tristack::model::{Case, ContactConvention, ContactTest, Stack};
+use tristack::model::{Case, ContactConvention, ContactTest, Pyramid, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
-use tristack::series::{Motion, Series};
+use tristack::series::{Motion, PyramidRun, Series};
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::Verdict;
 use tristack::study::convention::probe_all;
@@ -232,6 +232,10 @@ impl InstalledCode for TwinEngine {
             run_contact_test_with(test, twin).expect("a finite motion")
         });
         Ok(motions.collect())
+    }
+
+    fn pyramid(&self, _: &Pyramid, _: &RunContext) -> Result<PyramidRun, Box<Failure>> {
+        unreachable!("no study of this test builds pyramids")
     }
 }
 

@@ -67,7 +67,11 @@ fn three_cylinders_have_the_same_bits_as_in_the_small_scene() {
         speed: 1e-3,
         friction: 0.0,
     };
-    for code in [Code::NATIVE, Code::named("liggghts").expect("it is built in"), Code::named("lammps").expect("it is built in")] {
+    for code in [
+        Code::NATIVE,
+        Code::named("liggghts").expect("it is built in"),
+        Code::named("lammps").expect("it is built in"),
+    ] {
         let convention = code.convention();
         let (mut scene, mut packing) = twins(stack, [MIN_TOLERANCE, lid], &convention);
         assert_same_bits(&mut scene, &mut packing, 1e-3, 8000);
@@ -237,7 +241,11 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
     let interrupt = Interrupt::new();
     let directory = tempfile::tempdir().expect("a directory");
     let context = RunContext::new(directory.path(), &interrupt);
-    assert!(!Code::named("yade").expect("it is built in").builds_pyramids());
+    assert!(
+        !Code::named("yade")
+            .expect("it is built in")
+            .builds_pyramids()
+    );
     for name in installed(&[Code::named("yade").expect("it is built in")]) {
         let pyramid = Pyramid::touching(2, 1e3, name.convention());
         let failure = name.find().expect("installed").pyramid(&pyramid, &context);
@@ -280,8 +288,14 @@ fn the_cost_of_a_step_is_measured_for_every_code_and_pyramid() {
 #[test]
 fn examples_for_running_a_pyramid_by_hand_are_up_to_date() {
     for (code, folder) in [
-        (Code::named("lammps").expect("it is built in"), "lammps_inputs"),
-        (Code::named("liggghts").expect("it is built in"), "liggghts_inputs"),
+        (
+            Code::named("lammps").expect("it is built in"),
+            "lammps_inputs",
+        ),
+        (
+            Code::named("liggghts").expect("it is built in"),
+            "liggghts_inputs",
+        ),
     ] {
         let pyramid = Pyramid::touching(4, 1e3, code.convention());
         let beside = |name: &str| {

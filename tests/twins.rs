@@ -88,7 +88,11 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 
 #[test]
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
-    for code in [Code::named("liggghts").expect("it is built in"), Code::named("yade").expect("it is built in"), Code::named("lammps").expect("it is built in")] {
+    for code in [
+        Code::named("liggghts").expect("it is built in"),
+        Code::named("yade").expect("it is built in"),
+        Code::named("lammps").expect("it is built in"),
+    ] {
         let own = judged(code, code.convention());
         assert_eq!(count(&own, Verdict::Agrees), own.comparisons.len());
         for (what, convention) in wrong(code.convention()) {

@@ -138,7 +138,10 @@ impl Definition {
         let logs = self.program.iter().flat_map(|program| &program.logs);
         let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
         written.extend(logs.cloned());
-        let results = self.tasks.values_mut().filter_map(|task| task.result.clone());
+        let results = self
+            .tasks
+            .values_mut()
+            .filter_map(|task| task.result.clone());
         written.extend(results);
         if let Some(name) = written.iter().find(|name| !stays_inside(name)) {
             return Err(refused("file", name, "a path inside the run directory"));
@@ -155,7 +158,9 @@ impl Definition {
                 return Err(refused("files", name, accepted));
             }
         }
-        if self.tasks.contains_key(&TaskKind::Pyramid) && self.result.format != ResultFormat::LammpsThermo {
+        if self.tasks.contains_key(&TaskKind::Pyramid)
+            && self.result.format != ResultFormat::LammpsThermo
+        {
             let accepted = "lammps-thermo where there is a task `pyramid`";
             return Err(refused("result.format", "csv", accepted));
         }

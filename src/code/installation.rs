@@ -1,8 +1,8 @@
 //! The program of a code as it is installed here: which file, and which version.
 
 use super::definition::LONGEST_START;
-use super::manifest::{TaskKind, VersionQuestion};
 use super::failure::FailureKind;
+use super::manifest::{TaskKind, VersionQuestion};
 use super::process::{self, Ending, Environment, Interrupt, Job};
 use super::registry::Code;
 use crate::model::sha256_hex;

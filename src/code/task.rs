@@ -39,7 +39,11 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     ///
     /// # Errors
     /// If it is not there, or is not that of the task.
-    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Self::Outcome, SeriesError>;
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<Self::Outcome, SeriesError>;
 }
 
 impl Task for Case {
@@ -115,7 +119,11 @@ impl Task for Pyramid {
         vec![placed_cylinders(self)]
     }
 
-    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<PyramidRun, SeriesError> {
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<PyramidRun, SeriesError> {
         let [log, dump] = [result.file.as_str(), CENTRES].map(|name| read(directory, name));
         pyramid_in_log(&log?, &dump?, self)
     }

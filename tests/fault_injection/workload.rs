@@ -35,8 +35,17 @@ impl Workloads {
         replay::install(&shared, |_| Disturbance::None);
         let place = Bench::with_system_programs();
         install(&place, &shared.path("replay"));
-        let replayed = Workload::new(&place, Code::named("yade").expect("it is built in"), &[0.2, 0.3], 100.0);
-        let codes = [Code::named("liggghts").expect("it is built in"), Code::named("lammps").expect("it is built in"), Code::named("yade").expect("it is built in")];
+        let replayed = Workload::new(
+            &place,
+            Code::named("yade").expect("it is built in"),
+            &[0.2, 0.3],
+            100.0,
+        );
+        let codes = [
+            Code::named("liggghts").expect("it is built in"),
+            Code::named("lammps").expect("it is built in"),
+            Code::named("yade").expect("it is built in"),
+        ];
         let mut real = vec![(Code::NATIVE, 1e4)];
         let installed = codes.iter().filter(|code| code.find().is_some());
         real.extend(installed.map(|&code| (code, 100.0)));

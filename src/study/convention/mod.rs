@@ -18,9 +18,11 @@ mod sliding;
 mod tangential;
 
 pub use finding::{Finding, NATIVE_TOLERANCE, Property, TOLERANCE};
-pub use measured::{
-    Findings, ProbeError, Probed, arms_are_measured, contradictions, is_contradicted,
-    other_program, probe_all, record_probe,
+pub use finding::TOLERANCE;
+pub(crate) use finding::{Finding, NATIVE_TOLERANCE};
+pub use measured::probe_all;
+pub(crate) use measured::{
+    ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,
+    record_probe,
 };
 pub use probe::probe;
-pub use regression::Measured;

@@ -17,9 +17,8 @@ mod regression;
 mod sliding;
 mod tangential;
 
-pub use finding::{Finding, NATIVE_TOLERANCE, Property, TOLERANCE};
+pub(crate) use finding::Finding;
 pub use finding::TOLERANCE;
-pub(crate) use finding::{Finding, NATIVE_TOLERANCE};
 pub use measured::probe_all;
 pub(crate) use measured::{
     ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,

@@ -302,8 +302,14 @@ impl Series {
                 found: header.iter().collect::<Vec<_>>().join(","),
             });
         }
-        let rows = (1..).zip(reader.deserialize());
-        let rows = rows.map(|(index, row)| row.map_err(|error| garbled(index, error)));
+        let mut record = csv::ByteRecord::new();
+        // Fields are taken by position: the header has them in the order of `Sample`.
+        let mut row = move || match reader.read_byte_record(&mut record) {
+            Ok(true) => Some(record.deserialize(None)),
+            Ok(false) => None,
+            Err(error) => Some(Err(error)),
+        };
+        let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is refused; what comes after it need not be kept for that.
         let rows = rows.take(planned_rows(schedule).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)

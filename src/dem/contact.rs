@@ -77,7 +77,7 @@ pub trait ContactModel<R: Real>: Copy {
     type Memory: Copy + LaneWise<R>;
 
     /// The memory of a contact without a past, in numbers like `number`.
-    fn forgotten(&self, number: R) -> Self::Memory;
+    fn initial(&self, number: R) -> Self::Memory;
 
     /// The force of `contact`, whose memory is advanced to the present.
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
@@ -206,7 +206,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     type Memory = Spring<R>;
 
     #[inline(always)]
-    fn forgotten(&self, number: R) -> Spring<R> {
+    fn initial(&self, number: R) -> Spring<R> {
         let zero = number.like(0.0);
         Spring {
             length: zero,
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn sticking_contact_stores_the_displacement() {
-        let mut memory = paper().forgotten(0.0);
+        let mut memory = paper().initial(0.0);
         let force = paper().evaluate(&CONTACT, &mut memory);
         assert_eq!(memory.length, 0.05);
         assert!((force.tangential + 0.4 * 0.05 + 0.1 * 0.5).abs() < 1e-17);
@@ -386,7 +386,7 @@ mod tests {
             friction: 10.0,
             ..CONTACT
         };
-        let mut memory = paper().forgotten(0.0);
+        let mut memory = paper().initial(0.0);
         let force = paper().evaluate(&contact, &mut memory);
         assert_eq!(force.arm, 0.5);
         // v_t = 0.5 - 0.75 * 0.25 for a time of 0.1.

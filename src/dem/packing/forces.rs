@@ -1,6 +1,6 @@
 //! Forces of all contacts.
 
-use super::pairs::FORGOTTEN;
+use super::pairs::INITIAL;
 use super::walls::{NO_FORCE, overlap};
 use super::{Packing, weight};
 use crate::dem::contact::{along, tangential};
@@ -36,7 +36,7 @@ impl Packing {
                 let dy = i.position[1] - j.position[1];
                 let square = dx * dx + dy * dy;
                 if square >= 4.0 {
-                    *memory = FORGOTTEN;
+                    *memory = INITIAL;
                     continue;
                 }
                 let distance = square.sqrt();
@@ -69,7 +69,7 @@ impl Packing {
             let body = &self.cylinders[state.cylinder as usize];
             let overlap = overlap(plane, body);
             if overlap <= 0.0 {
-                state.memory = FORGOTTEN;
+                state.memory = INITIAL;
                 state.force = NO_FORCE;
                 continue;
             }

@@ -4,7 +4,7 @@ use super::cells::CellList;
 use crate::dem::{Cylinder, Spring};
 
 /// A contact without a past.
-pub(super) const FORGOTTEN: Spring<f64> = Spring {
+pub(super) const INITIAL: Spring<f64> = Spring {
     length: 0.0,
     normal: [0.0; 2],
 };
@@ -62,7 +62,7 @@ impl PairList {
         let start = first.checked_sub(1).map_or(0, |before| self.ends[before]);
         let range = start as usize..self.ends[first] as usize;
         let found = self.seconds[range.clone()].binary_search(&second);
-        found.map_or(FORGOTTEN, |place| self.memories[range.start + place])
+        found.map_or(INITIAL, |place| self.memories[range.start + place])
     }
 }
 
@@ -135,7 +135,7 @@ mod tests {
                     assert_eq!(*memory, old.memories[place]);
                     remembered += 1;
                 }
-                Err(_) => assert_eq!(*memory, FORGOTTEN),
+                Err(_) => assert_eq!(*memory, INITIAL),
             }
         }
         assert!(remembered > 100 && remembered < new.memories.len());

@@ -1,6 +1,6 @@
 //! The cylinders that may touch a wall, with what these contacts remember and exert.
 
-use super::pairs::FORGOTTEN;
+use super::pairs::INITIAL;
 use crate::dem::{ContactForce, Cylinder, PlaneWall, Spring};
 
 /// A cylinder beside a wall.
@@ -32,7 +32,7 @@ pub(super) fn beside_wall(
         if -overlap(wall, body) < gap {
             contacts.push(old.unwrap_or(WallContact {
                 cylinder,
-                memory: FORGOTTEN,
+                memory: INITIAL,
                 force: NO_FORCE,
             }));
         }

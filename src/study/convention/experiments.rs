@@ -146,7 +146,7 @@ pub fn separating(kind: ContactKind, convention: &ContactConvention) -> ContactT
 }
 
 /// A spin that brings the contact to Coulomb's limit within a few steps, if it is fast enough.
-pub fn brink(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
+pub fn near_slip(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
     let start = Start {
         overlap: 0.2,
         spin,

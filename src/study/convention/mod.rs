@@ -33,7 +33,7 @@ use plan::{Laws, Plan, TestedMotion};
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
 /// Measures every property of a code that `declared` itself so. `run` carries out micro-tests; it is called
-/// twice, because how fast a contact must move to be on the brink of sliding has to be measured first.
+/// twice, because how fast a contact must move to be at the slip threshold has to be measured first.
 ///
 /// # Errors
 /// Those of `run`.
@@ -59,14 +59,14 @@ pub fn probe<E>(
         plan.read(own, &turning, &clock)
     });
 
-    let brinks: Vec<Vec<ContactTest>> = laws.iter().map(Laws::brinks).collect();
-    let tests = brinks.concat();
+    let thresholds: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
+    let tests = thresholds.concat();
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let mut unread = outcomes.as_slice();
     let mut properties = clock.properties(declared);
-    for (laws, brinks) in laws.iter().zip(&brinks) {
-        let (own, others) = unread.split_at(brinks.len());
+    for (laws, thresholds) in laws.iter().zip(&thresholds) {
+        let (own, others) = unread.split_at(thresholds.len());
         unread = others;
         properties.extend(laws.properties(own, &clock));
     }

@@ -11,7 +11,7 @@ use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 
-/// Spin of the motion from which those to the brink of sliding are scaled.
+/// Spin of the motion from which those to the slip threshold are scaled.
 const GENTLE_SPIN: f64 = 1e-4;
 
 /// Shares of the damping in the Coulomb operand that are tried.
@@ -43,7 +43,7 @@ impl Plan {
         tests.push(experiments::separating(kind, convention));
         if kind != ContactKind::Wall {
             tests.push(experiments::sliding(kind, convention));
-            tests.push(experiments::brink(kind, convention, GENTLE_SPIN));
+            tests.push(experiments::near_slip(kind, convention, GENTLE_SPIN));
         }
         Self {
             kind,
@@ -77,7 +77,7 @@ impl Plan {
 }
 
 /// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ; a
-/// twentieth of the distance from the brink does not matter.
+/// twentieth of the distance from the slip threshold does not matter.
 fn rounded(spin: f64) -> f64 {
     format!("{spin:.10e}").parse().unwrap_or(spin)
 }
@@ -94,7 +94,7 @@ pub struct Laws {
 impl Laws {
     /// Motions to just below and just above Coulomb's limit, for every share of the damping that may count in
     /// its operand. Sticking is linear in the spin, so that a gentle motion tells how fast they must be.
-    pub fn brinks(&self) -> Vec<ContactTest> {
+    pub fn threshold_tests(&self) -> Vec<ContactTest> {
         let Some(gentle) = self.rows.get(GENTLE) else {
             return Vec::new();
         };
@@ -105,9 +105,9 @@ impl Laws {
         });
         spins
             .map(|spin| {
-                // A contact without friction or damping has no brink; any other motion tells as much.
+                // A contact without friction or damping has no slip threshold; any other motion tells as much.
                 let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
-                experiments::brink(self.plan.kind, &self.plan.convention, rounded(spin))
+                experiments::near_slip(self.plan.kind, &self.plan.convention, rounded(spin))
             })
             .collect()
     }
@@ -137,8 +137,8 @@ impl Laws {
         row.friction * row.normal_force * ratio / damping.abs()
     }
 
-    /// All properties of the kind; `brinks` are the outcomes of the motions to the brink of sliding.
-    pub fn properties(&self, brinks: &[TestedMotion], clock: &Clock) -> Vec<Property> {
+    /// All properties of the kind; `thresholds` are the outcomes of the motions to the slip threshold.
+    pub fn properties(&self, thresholds: &[TestedMotion], clock: &Clock) -> Vec<Property> {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
         let mut properties = normal_properties(kind, &self.normal, self.pull, test);
@@ -146,7 +146,7 @@ impl Laws {
             properties.extend(self.wall_properties());
             return properties;
         }
-        let share = self.operand_damping(brinks, clock);
+        let share = self.operand_damping(thresholds, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
         properties.extend(tangential_properties(kind, &self.tangential, test));
         let test = &self.plan.tests[SLIDING];

@@ -26,7 +26,7 @@ pub struct Contact<R> {
     pub time_step: R,
 }
 
-/// What a contact exerts on its first body.
+/// Force of a contact on its first body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForce<R> {
     /// Normal force, positive in compression.
@@ -73,10 +73,10 @@ impl<R: Real> ContactForce<R> {
 
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real>: Copy {
-    /// What a contact remembers from one step to the next.
+    /// State of a contact that lasts from one step to the next.
     type Memory: Copy + LaneWise<R>;
 
-    /// The memory of a contact without a past, in numbers like `number`.
+    /// Memory of an undeformed contact, in numbers like `number`.
     fn initial(&self, number: R) -> Self::Memory;
 
     /// The force of `contact`, whose memory is advanced to the present.
@@ -92,7 +92,7 @@ pub struct SpringDashpot<R> {
     pub normal_damping: R,
     /// η_t.
     pub tangential_damping: R,
-    /// What Coulomb's limit is compared with.
+    /// The force that Coulomb's limit is compared with.
     pub coulomb_operand: CoulombOperand,
     /// The spring of a sliding contact.
     pub sliding_spring: SlidingSpring,
@@ -108,7 +108,7 @@ composite!(SpringDashpot {
     tangential_damping
 });
 
-/// What a [`SpringDashpot`] contact remembers.
+/// Memory of a [`SpringDashpot`] contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring<R> {
     /// u, tangential displacement accumulated while the contact sticks.

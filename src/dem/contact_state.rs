@@ -3,12 +3,12 @@
 use super::contact::{Contact, ContactForce, ContactModel};
 use super::real::{Composite, LaneWise, Real};
 
-/// What a contact remembers and exerts.
+/// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactState<R, Memory> {
     memory: Memory,
     pub(super) force: ContactForce<R>,
-    /// Whether any lane has touched since it was last initial.
+    /// Whether any lane has touched since the last reset.
     loaded: bool,
 }
 

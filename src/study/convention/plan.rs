@@ -6,7 +6,7 @@ use super::experiments::{self, ContactKind};
 use super::normal::{NormalLaw, pull};
 use super::properties::{Property, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
-use super::sliding::{BRINK, SlidingLaw, is_at_limit, largest_operand};
+use super::sliding::{NEAR_SLIP, SlidingLaw, is_at_limit, largest_operand};
 use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
@@ -101,7 +101,7 @@ impl Laws {
         let spins = SHARES.iter().flat_map(|&share| {
             let largest = largest_operand(gentle, &self.tangential, share);
             let at_limit = GENTLE_SPIN / largest.map_or(f64::NAN, |(_, ratio)| ratio);
-            [at_limit * (1.0 - BRINK), at_limit * (1.0 + BRINK)]
+            [at_limit * (1.0 - NEAR_SLIP), at_limit * (1.0 + NEAR_SLIP)]
         });
         spins
             .map(|spin| {
@@ -124,13 +124,14 @@ impl Laws {
                 rows.get(row).map(is_at_limit)
             };
             let [below, above] = [motions.first()?, motions.get(1)?].map(slides);
-            let brink = below == Some(false) && above == Some(true);
-            brink.then(|| Measured::new(share, BRINK * self.limit_over_damping(row, ratio)))
+            let at_threshold = below == Some(false) && above == Some(true);
+            at_threshold
+                .then(|| Measured::new(share, NEAR_SLIP * self.limit_over_damping(row, ratio)))
         });
         found.next().unwrap_or(Measured::UNKNOWN)
     }
 
-    /// The limit in units of the damping force, at the brink.
+    /// The limit in units of the damping force, at the slip threshold.
     fn limit_over_damping(&self, row: usize, ratio: f64) -> f64 {
         let row = &self.rows[GENTLE][row];
         let damping = self.tangential.damping.value * self.tangential.surface_speed(row);

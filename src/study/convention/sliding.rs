@@ -10,7 +10,7 @@ use super::tangential::{TangentialLaw, carried};
 const SAME_RATIO: f64 = 1e-7;
 
 /// How far below and above the limit a contact is brought to see whether it sticks or slides.
-pub const BRINK: f64 = 1e-10;
+pub const NEAR_SLIP: f64 = 1e-10;
 
 /// What a motion that slides and sticks again says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,8 +113,8 @@ pub fn largest_operand(
     ratios.max_by(|(_, left), (_, right)| left.total_cmp(right))
 }
 
-/// Whether a row is at the limit rather than a [`BRINK`] below or above it.
+/// Whether a row is at the limit rather than a [`NEAR_SLIP`] below or above it.
 pub fn is_at_limit(row: &ContactRow) -> bool {
     let limit = row.friction * row.normal_force;
-    (row.tangential_force.abs() / limit - 1.0).abs() < 0.5 * BRINK
+    (row.tangential_force.abs() / limit - 1.0).abs() < 0.5 * NEAR_SLIP
 }

@@ -1,4 +1,5 @@
-//! Regimes: the first event on the path, its effect on the stack, and the boundaries between stacks that differ in it.
+//! Regimes: the first event on the path, its effect on the stack, and the boundaries between stacks that differ
+//! in it.
 //!
 //! Derived in docs/theory.md, section 7, independently of the equations here: (R2) is its Eq. (44), (R3) Eq. (45),
 //! (R4) Eq. (46), (R5) Eq. (54), (R6) Eq. (55); (R1) Eqs. (13) and (48).

@@ -215,7 +215,7 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
     }
 }
 
-/// On another machine the spin to the brink of sliding may be another one in its last digit.
+/// On another machine the spin to the slip threshold may be another one in its last digit.
 #[test]
 fn a_record_from_another_machine_stays_valid() {
     let record = recording(Code::Lammps).probe;

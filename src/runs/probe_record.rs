@@ -29,8 +29,8 @@ pub struct Answer {
     pub motion: Motion,
 }
 
-/// Spins to the brink of sliding are measured, and may differ between machines in the last of their eleven
-/// digits; a tenth of the distance from the brink does not matter.
+/// Spins to the slip threshold are measured, and may differ between machines in the last of their eleven
+/// digits; a tenth of the distance from the slip threshold does not matter.
 const SAME_SPIN: f64 = 1.1e-11;
 
 /// Whether two micro-tests are the same but for the rounding of their spins.

@@ -159,7 +159,7 @@ pub enum SeriesError {
     /// There is no series at all.
     #[error("{message}")]
     Absent {
-        /// What was looked for, and what was found instead.
+        /// The file or table that is missing, and what was found instead.
         message: String,
     },
     /// A row cannot be read.
@@ -167,7 +167,7 @@ pub enum SeriesError {
     Garbled {
         /// Row, the first one after the header being 1.
         row: usize,
-        /// What is wrong with it.
+        /// The defect.
         message: String,
     },
     /// The columns are not the shared ones.

@@ -76,7 +76,11 @@ fn away_from_the_checkout_the_rows_are_the_same() {
 #[test]
 fn rows_that_are_missing_are_not_called_recorded() {
     let bench = Bench::without_codes();
-    save_recording(&bench.path("reference"), Code::Yade, |_| ());
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
     let mut command = bench.tristack("crosscheck");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let message = standard_error(&mut command);
@@ -95,7 +99,11 @@ fn rows_that_are_missing_are_not_called_recorded() {
 fn a_damaged_recording_is_refused_with_its_file() {
     let bench = Bench::without_codes();
     let reference = bench.path("reference");
-    save_recording(&reference, Code::Yade, |_| ());
+    save_recording(
+        &reference,
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
     let damage = |name: &str| {
         let path = reference.join(name);
         let mut content = fs::read(&path).expect("a file");
@@ -188,11 +196,15 @@ fn the_number_of_workers_does_not_change_a_digit() {
 #[test]
 fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     let bench = Bench::without_codes();
-    save_recording(&bench.path("reference"), Code::Yade, |recording| {
-        for run in &mut recording.runs {
-            run.summary.provenance.deck_hash.insert(0, '0');
-        }
-    });
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            for run in &mut recording.runs {
+                run.summary.provenance.deck_hash.insert(0, '0');
+            }
+        },
+    );
     let mut command = bench.tristack("crosscheck --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
@@ -236,11 +248,15 @@ fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
 #[test]
 fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
     let bench = Bench::without_codes();
-    save_recording(&bench.path("reference"), Code::Yade, |recording| {
-        for run in &mut recording.runs {
-            run.summary.provenance.identity.version += "1";
-        }
-    });
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            for run in &mut recording.runs {
+                run.summary.provenance.identity.version += "1";
+            }
+        },
+    );
     let (message, verdicts) = yade_notes_and_verdicts(&bench);
     assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
     assert!(
@@ -252,9 +268,14 @@ fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
 #[test]
 fn the_recorded_probe_of_another_code_does_not_stand_in() {
     let bench = Bench::without_codes();
-    save_recording(&bench.path("reference"), Code::Yade, |recording| {
-        recording.probe = common::recording(Code::YadeFacet).probe;
-    });
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            recording.probe =
+                common::recording(Code::named("yade-facet").expect("it is built in")).probe;
+        },
+    );
     let (message, verdicts) = yade_notes_and_verdicts(&bench);
     assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
     assert!(

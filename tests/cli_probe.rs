@@ -175,10 +175,14 @@ fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
 #[test]
 fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
     let bench = Bench::without_codes();
-    save_recording(&bench.path("reference"), Code::Lammps, |recording| {
-        let probe = recording.probe.as_mut().expect("it is there");
-        probe.answers[0].input_hash.insert(0, '0');
-    });
+    save_recording(
+        &bench.path("reference"),
+        Code::named("lammps").expect("it is built in"),
+        |recording| {
+            let probe = recording.probe.as_mut().expect("it is there");
+            probe.answers[0].input_hash.insert(0, '0');
+        },
+    );
     let mut command = bench.tristack("probe");
     let output = command
         .env("TRISTACK_REFERENCE", bench.path("reference"))
@@ -199,7 +203,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
 /// The three floors of YADE share their deck: nothing but an argument is between them.
 #[test]
 fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
-    let record = recording(Code::Yade).probe;
+    let record = recording(Code::named("yade").expect("it is built in")).probe;
     let test = record.expect("it is there").answers[0].test;
     let floors = [
         Code::named("yade").expect("it is built in"),
@@ -218,7 +222,7 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
 /// On another machine the spin to the slip threshold may be another one in its last digit.
 #[test]
 fn a_record_from_another_machine_stays_valid() {
-    let record = recording(Code::Lammps).probe;
+    let record = recording(Code::named("lammps").expect("it is built in")).probe;
     let record = record.expect("it is there");
     let todays = |test: &ContactTest| {
         Code::named("lammps")

@@ -128,7 +128,9 @@ fn save_recordings(bench: &Bench, change: impl Fn(Code, &mut Recording)) {
 fn a_code_whose_convention_is_not_known_is_not_judged() {
     let bench = Bench::without_codes();
     save_recordings(&bench, |code, recording| {
-        recording.probe.take_if(|_| code == Code::Lammps);
+        recording
+            .probe
+            .take_if(|_| code == Code::named("lammps").expect("it is built in"));
     });
     let mut command = bench.tristack("trajectories --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
@@ -148,7 +150,10 @@ fn a_code_whose_convention_is_not_known_is_not_judged() {
 fn a_code_whose_force_is_slightly_off_differs() {
     let bench = Bench::without_codes();
     save_recordings(&bench, |code, recording| {
-        let runs = recording.runs.iter_mut().filter(|_| code == Code::Lammps);
+        let runs = recording
+            .runs
+            .iter_mut()
+            .filter(|_| code == Code::named("lammps").expect("it is built in"));
         for run in runs {
             if let Some(series) = &run.series {
                 let force = with_wall_force_times(1.0 + 2e-6, series, &run.summary.case);

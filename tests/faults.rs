@@ -403,9 +403,9 @@ fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let case = plan(
-        Code::Yade,
+        Code::named("yade").expect("it is built in"),
         &Stack::paper(0.3, 100.0),
-        Code::Yade.convention(),
+        Code::named("yade").expect("it is built in").convention(),
     )
     .cases[0];
     fs::write(bench.path("case.json"), case.to_json()).expect("a case");
@@ -449,7 +449,7 @@ fn record_keeps_every_run_for_machines_without_the_code() {
             .code(0);
     }
     common::assert_only(&reference, &["notes.txt", "yade.csv", "yade.tar.gz"]);
-    let runs = Recorded::new(&reference).recording(Code::Yade);
+    let runs = Recorded::new(&reference).recording(Code::named("yade").expect("it is built in"));
     let runs = runs.expect("it is not damaged").runs;
     let with_series = runs.iter().filter(|run| run.series.is_some()).count();
     assert_eq!((runs.len(), with_series), (recorded + 3, 3));
@@ -476,7 +476,11 @@ fn record_keeps_the_old_recordings_if_a_run_fails() {
         }
     });
     let reference = bench.path("reference");
-    save_recording(&reference, Code::Yade, |_| ());
+    save_recording(
+        &reference,
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
     let files = || ["yade.csv", "yade.tar.gz"].map(|name| fs::read(reference.join(name)).ok());
     let old = files();
     let mut record = bench.tristack("record --codes yade");

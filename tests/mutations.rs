@@ -247,10 +247,6 @@ impl TwinEngine {
             finished(index, Ok(motion));
         }
     }
-
-    fn pyramid(&self, _: &Pyramid, _: &RunContext) -> Result<PyramidRun, Box<Failure>> {
-        unreachable!("no study of this test builds pyramids")
-    }
 }
 
 struct Silent;

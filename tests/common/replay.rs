@@ -5,11 +5,15 @@ use super::{Bench, recording};
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
-use tristack::code::{Code, ParameterFile, Task};
+use tristack::code::{Code, ParameterFormat, Task};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, sha256_hex};
 use tristack::series::{MotionRow, Series};
 use tristack::study::yield_force::Profile;
+
+fn yade() -> Code {
+    Code::named("yade").expect("it is built in")
+}
 
 /// What happens to the series of one case.
 pub enum Disturbance {
@@ -42,7 +46,7 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
 /// Cases and series of the quick profile, by the native DEM with the contact convention of YADE.
 fn quick_profile() -> &'static [(Case, String)] {
     static RUNS: LazyLock<Vec<(Case, String)>> = LazyLock::new(|| {
-        let plans = Profile::Quick.measurements(&[Code::Yade]);
+        let plans = Profile::Quick.measurements(&[yade()]);
         let cases = plans.into_iter().flat_map(|plan| plan.cases);
         let runs = cases.map(|case| {
             let series = compress_stack(&case, || true).expect("a finite series");
@@ -54,7 +58,7 @@ fn quick_profile() -> &'static [(Case, String)] {
 }
 
 fn recorded_series() -> impl Iterator<Item = (Case, String)> {
-    let runs = recording(Code::Yade).runs.into_iter();
+    let runs = recording(yade()).runs.into_iter();
     runs.filter_map(|run| Some((run.summary.case, text(&run.series?))))
 }
 
@@ -64,7 +68,7 @@ fn text(series: &Series) -> String {
 
 /// Puts the run of `case` where the fake finds it.
 fn install_run(replay: &Path, case: &Case, series: &str, disturbance: Disturbance) {
-    let address = sha256_hex(ParameterFile::Json.content(&case.parameters()).as_bytes());
+    let address = sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes());
     let write = |extension: &str, text: &str| {
         fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
     };
@@ -79,7 +83,7 @@ fn install_run(replay: &Path, case: &Case, series: &str, disturbance: Disturbanc
 /// The recorded answers to micro-tests, row by row as `change` makes them.
 pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let replay = bench.path("replay");
-    let record = recording(Code::Yade).probe.expect("it is there");
+    let record = recording(yade()).probe.expect("it is there");
     for answer in record.answers {
         let parameters = ParameterFormat::Json.content(&answer.test.parameters());
         let address = sha256_hex(parameters.as_bytes());

@@ -45,12 +45,18 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
 /// What was out of its range was taken for recorded.
 #[test]
 fn a_summary_of_an_impossible_case_is_refused_with_its_table() {
-    let mut recording = recording(Code::Liggghts);
+    let mut recording = recording(Code::named("liggghts").expect("it is built in"));
     let case = &mut recording.runs[1].summary.case;
     case.protocol.time_step = 9.0;
-    let (table, archive) = recording.to_files(Code::Liggghts);
+    let (table, archive) = recording.to_files(Code::named("liggghts").expect("it is built in"));
     let directory = Path::new("mine");
-    let refused = Recording::from_files(&table, &archive, directory, Code::Liggghts).unwrap_err();
+    let refused = Recording::from_files(
+        &table,
+        &archive,
+        directory,
+        Code::named("liggghts").expect("it is built in"),
+    )
+    .unwrap_err();
     let message = refused.to_string();
     assert!(
         message.contains("mine/liggghts.csv") && message.contains("protocol.time_step"),

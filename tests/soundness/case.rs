@@ -48,7 +48,12 @@ pub fn seeds() -> Vec<Seed> {
         preparation = { kind = \"gravity-ramp\", ramp_time = 100.0, rest_time = 100.0 }\n\
         sampling = { coarse_interval = 10.0, fine_from_travel = 0.6, fine_interval = 2.0 }\n";
     let stack = Stack::paper(0.3, 1e3);
-    let planned = plan(Code::Yade, &stack, Code::Yade.convention()).cases;
+    let planned = plan(
+        Code::named("yade").expect("it is built in"),
+        &stack,
+        Code::named("yade").expect("it is built in").convention(),
+    )
+    .cases;
     let planned = planned
         .into_iter()
         .enumerate()

@@ -43,7 +43,10 @@ fn check_table(text: &[u8]) {
     let text = String::from_utf8_lossy(text);
     let digest = sha256_hex(text.as_bytes());
     let table = format!("# sha256 of all below: {digest}\n{text}");
-    let (code, directory) = (Code::Liggghts, Path::new("mine"));
+    let (code, directory) = (
+        Code::named("liggghts").expect("it is built in"),
+        Path::new("mine"),
+    );
     let (_, empty) = Recording::default().to_files(code);
     let Ok(recording) = Recording::from_files(&table, &empty, directory, code) else {
         return;
@@ -63,7 +66,7 @@ fn check_table(text: &[u8]) {
 
 /// The recorded runs of a code without their series, some of them.
 fn few_runs() -> Recording {
-    let recorded = Recorded::embedded().recording(Code::Liggghts);
+    let recorded = Recorded::embedded().recording(Code::named("liggghts").expect("it is built in"));
     let mut runs = recorded.expect("it is not damaged").runs;
     runs.truncate(2);
     runs.iter_mut().for_each(|run| run.series = None);
@@ -74,7 +77,7 @@ fn few_runs() -> Recording {
 pub fn seeds() -> Vec<Seed> {
     let runs = few_runs();
     let provenance = runs.runs[0].summary.provenance.to_json();
-    let (table, _) = runs.to_files(Code::Liggghts);
+    let (table, _) = runs.to_files(Code::named("liggghts").expect("it is built in"));
     let (_, table) = table.split_once('\n').expect("a digest");
     let probe = json!({
         "provenance": serde_json::from_str::<serde_json::Value>(&provenance).expect("JSON"),

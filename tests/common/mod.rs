@@ -129,6 +129,12 @@ pub fn json(text: &str) -> serde_json::Value {
     serde_json::from_str(text).expect("the output is JSON")
 }
 
+/// The rows of a table in JSON.
+pub fn json_rows(text: &str) -> Vec<serde_json::Value> {
+    let rows = json(text)["rows"].as_array().cloned();
+    rows.expect("an object with rows")
+}
+
 /// Copies the recorded run at `source` to `target`, each file as `change` makes it, with the digests that go with it.
 pub fn copy_run(source: &Path, target: &Path, change: impl Fn(&str, String) -> String) {
     fs::create_dir_all(target).expect("a directory");

@@ -79,7 +79,7 @@ impl<'a> DataTable<'a> {
     }
 
     /// The columns that people read.
-    pub(crate) fn shown(&self) -> Table {
+    pub fn shown(&self) -> Table {
         let all = self.columns.iter().enumerate();
         let shown = all.filter_map(|(at, column)| Some((at, column.heading?, column.unit)));
         let shown: Vec<(usize, &str, &str)> = shown.collect();

@@ -2,14 +2,14 @@
 
 mod common;
 
-use common::{Bench, json, standard_error, standard_output};
+use common::{Bench, json_rows, standard_error, standard_output};
 
 #[test]
 fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
     let bench = Bench::without_codes();
     let line = "bench --codes native --repeats 1 --format json --out results";
     let output = standard_output(&mut bench.tristack(line));
-    assert_rows(&json(&output));
+    assert_rows(&json_rows(&output));
     let read = |name: &str| {
         let path = bench.path("results").join(name);
         std::fs::read_to_string(path).expect(name)
@@ -22,8 +22,7 @@ fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
 }
 
 /// A row for each way of native, in the form that others rely on; the lanes are the measure.
-fn assert_rows(rows: &serde_json::Value) {
-    let rows = rows.as_array().expect("a list");
+fn assert_rows(rows: &[serde_json::Value]) {
     let codes: Vec<_> = rows.iter().map(|row| row["code"].as_str()).collect();
     assert_eq!(codes, [Some("native-scalar"), Some("native-lanes")]);
     for row in rows {

@@ -3,7 +3,8 @@
 mod common;
 
 use common::{
-    Bench, OWN_PROGRAM, assert_only, json, save_recording, standard_error, standard_output,
+    Bench, OWN_PROGRAM, assert_only, json_rows, save_recording, standard_error,
+    standard_output,
 };
 use insta::assert_snapshot;
 use std::fs;
@@ -132,10 +133,9 @@ fn a_damaged_recording_is_refused_with_its_file() {
 #[test]
 fn rows_meet_the_accuracy_that_is_promised() {
     let bench = Bench::without_codes();
-    let rows = json(&standard_output(
+    let rows = json_rows(&standard_output(
         &mut bench.tristack("crosscheck --format json"),
     ));
-    let rows = rows.as_array().expect("a list");
     assert_eq!(rows.len(), 108);
     for row in rows {
         let error = row["error"].as_f64().expect("an error").abs();
@@ -156,8 +156,9 @@ fn csv_has_the_agreed_columns() {
     assert_eq!(
         text.lines().next(),
         Some(
-            "code,version,source,mu,stiffness,kappa,pair_torque_arm,pair_kinematic_arm,\
-             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,error,tolerance,model_form,verdict"
+            "stiffness,mu,mu_d,kappa,code,version,source,pair_torque_arm,pair_kinematic_arm,\
+             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,error,\
+             tolerance,model_form,verdict"
         )
     );
     assert_eq!(text.lines().count(), 19);
@@ -215,9 +216,9 @@ fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
         message.contains("tristack record --codes yade"),
         "{message}"
     );
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     let verdicts = |code: &str, verdict: &str| {
-        let rows = rows.as_array().expect("a list").iter();
+        let rows = rows.iter();
         rows.filter(|row| row["code"] == code && row["verdict"] == verdict)
             .count()
     };
@@ -234,8 +235,8 @@ fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
     let mut command = bench.tristack("crosscheck --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let own = rows.as_array().expect("a list").iter();
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let own = rows.iter();
     let own = own.filter(|row| row["code"] == "yade");
     let verdicts = own.map(|row| row["verdict"].as_str().expect("a word").to_owned());
     let verdicts = verdicts.collect();
@@ -289,7 +290,7 @@ fn shortcuts_are_measured_and_refused_where_nobody_knows_them() {
     let bench = Bench::without_codes();
     let sweep = "sweep --code native --mu 0.2:0.4:0.1 --stiffness 1e3";
     let text = standard_output(&mut bench.tristack(&format!("{sweep} --shortcuts --format json")));
-    for row in json(&text).as_array().expect("rows") {
+    for row in json_rows(&text) {
         assert_eq!(row["verdict"], "agrees", "{row}");
         assert!(row["error"].as_f64().expect("a number").abs() < 1e-5);
     }

@@ -3,7 +3,7 @@
 mod common;
 
 use assert_cmd::Command;
-use common::{Bench, json, standard_error, standard_output};
+use common::{Bench, json_rows, standard_error, standard_output};
 use insta::assert_snapshot;
 
 /// The words of the command line, some with blanks in them.
@@ -59,13 +59,12 @@ fn range_covers_the_uncertainty_of_the_friction() {
 fn elastomer_of_the_paper_is_reproduced() {
     let bench = Bench::without_codes();
     let words = elastomer(&["--length", "3.1831 mm", "--format", "json"]);
-    let forecast = json(&standard_output(&mut predict(&bench, &words)));
-    let estimate = &forecast["estimates"][0];
+    let estimate = &json_rows(&standard_output(&mut predict(&bench, &words)))[0];
     assert_eq!(estimate["contact"], "paper-scaling");
     for (value, expected) in [
-        (&forecast["mass"], 1e-3),
+        (&estimate["mass"], 1e-3),
         (&estimate["epsilon"], 9.80665e-5),
-        (&estimate["paper_formula"]["newton"], 1e2),
+        (&estimate["paper_formula_newton"], 1e2),
     ] {
         let value = value.as_f64().expect("a number");
         assert!((value / expected - 1.0).abs() < 1e-4, "{value} {expected}");
@@ -83,8 +82,8 @@ fn wood_of_the_paper_is_reproduced_across_the_grain() {
             .into_iter()
             .chain(line.split('|'))
             .collect();
-        let forecast = json(&standard_output(&mut predict(&bench, &words)));
-        let newton = forecast["estimates"][0]["paper_formula"]["newton"].as_f64();
+        let rows = json_rows(&standard_output(&mut predict(&bench, &words)));
+        let newton = rows[0]["paper_formula_newton"].as_f64();
         assert_eq!(newton.expect("a number").log10().round(), exponent);
     }
 }

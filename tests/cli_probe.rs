@@ -3,7 +3,7 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json, recording, save_recording, standard_error, standard_output};
+use common::{Bench, json, json_rows, recording, save_recording, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,8 +47,7 @@ fn without_uncertainties(table: &str) -> String {
 #[test]
 fn findings_are_within_the_promised_accuracy() {
     let bench = Bench::without_codes();
-    let findings = json(&standard_output(&mut bench.tristack("probe --format json")));
-    let findings = findings.as_array().expect("a list");
+    let findings = json_rows(&standard_output(&mut bench.tristack("probe --format json")));
     assert_eq!(findings.len(), 6 * PROPERTIES_OF_ONE_ENGINE);
     for finding in findings {
         let number = |key: &str| finding[key].as_f64().expect("a number");
@@ -92,8 +91,8 @@ fn an_code_whose_probe_contradicts_its_declaration_is_not_judged() {
         ),
         "{message}"
     );
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    for row in rows.as_array().expect("rows") {
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    for row in &rows {
         assert_eq!(row["verdict"], "inconclusive");
         assert_eq!(row["error"], serde_json::Value::Null);
     }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, assert_only, json, standard_error, standard_output};
+use common::{Bench, assert_only, json_rows, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 
@@ -24,7 +24,7 @@ fn json_has_the_agreed_keys_and_the_same_numbers_everywhere() {
     let bench = Bench::without_codes();
     let text = standard_output(&mut bench.tristack(&format!("{RUN} --format json")));
     assert_snapshot!(without_time(&text));
-    assert!(json(&text)["seconds"].is_f64());
+    assert!(json_rows(&text)[0]["seconds"].is_f64());
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_case_file_repeats_the_run_bit_by_bit() {
 fn native_takes_any_arms() {
     let bench = Bench::without_codes();
     let line = format!("{RUN} --pair-arm -0.5 --floor-arm -1 --format json");
-    let run = json(&standard_output(&mut bench.tristack(&line)));
+    let run = &json_rows(&standard_output(&mut bench.tristack(&line)))[0];
     let slip = run["slip_force"].as_f64().expect("a number");
     // The exact limit under these arms (reference/golden); the slip at finite speed comes a little later.
     assert!(slip > 24.8114052 && slip < 24.82, "{slip}");
@@ -71,9 +71,9 @@ fn native_takes_any_arms() {
 fn an_explicit_speed_is_taken_literally() {
     let bench = Bench::without_codes();
     let line = format!("{RUN} --speed 1e-3 --dt 0.05 --format json");
-    let run = json(&standard_output(&mut bench.tristack(&line)));
-    assert_eq!(run["case"]["protocol"]["wall_speed"], 1e-3);
-    assert_eq!(run["case"]["protocol"]["time_step"], 0.05);
+    let run = &json_rows(&standard_output(&mut bench.tristack(&line)))[0];
+    assert_eq!(run["wall_speed"], 1e-3);
+    assert_eq!(run["time_step"], 0.05);
 }
 
 #[test]
@@ -91,8 +91,7 @@ fn native_yields_at_the_exact_limit_where_torque_and_kinematic_arms_differ() {
     let bench = Bench::without_codes();
     let line = "sweep --code native --mu 0.2:0.3:0.1 --stiffness 1e2 --pair-arm -0.5 --pair-kinematic-arm 0";
     let judged = standard_output(&mut bench.tristack(&format!("{line} --format json")));
-    let rows = json(&judged);
-    let rows = rows.as_array().expect("a list of rows");
+    let rows = json_rows(&judged);
     assert_eq!(rows.len(), 2);
     for row in rows {
         assert_eq!(row["verdict"], "agrees", "{row}");

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, json, standard_output};
+use common::{Bench, json, json_rows, standard_output};
 use insta::assert_snapshot;
 
 #[test]
@@ -13,48 +13,61 @@ fn table_shows_every_theory() {
 }
 
 #[test]
-fn json_of_one_case_is_an_object_with_the_agreed_keys() {
+fn json_has_the_agreed_keys() {
     let bench = Bench::without_codes();
     let text =
         standard_output(&mut bench.tristack("theory --mu 0.2 --stiffness 1e2 --format json"));
-    let case = json(&text);
+    let object = json(&text);
+    assert_eq!(object["schema"], "tristack/theory/1");
+    assert_eq!(
+        object["command"],
+        "tristack theory --mu 0.2 --stiffness 1e2"
+    );
+    assert_eq!(object["units"]["quasistatic"], "m g");
+    let case = &object["rows"][0];
     assert_eq!(case["mu"], 0.2);
+    assert_eq!(case["mu_d"], 0.7);
     assert_eq!(case["epsilon"], 0.01);
-    assert_eq!(case["rigid"]["diverges"], false);
-    assert_eq!(case["quasistatic"]["event"], "floor-slip");
-    assert_eq!(case["quasistatic"]["pair_torque_arm"], 0.0);
-    for (theory, key, expected) in [
-        ("perturbation", "yield_force", 4.1669659),
-        ("elastic", "yield_force", 4.3192804),
-        ("quasistatic", "yield_force", 4.3184438),
-        ("quasistatic", "floor_slip_force", 4.3184438),
+    assert_eq!(case["rigid_diverges"], false);
+    assert_eq!(case["event"], "floor-slip");
+    assert_eq!(case["pair_torque_arm"], 0.0);
+    for (theory, expected) in [
+        ("perturbation", 4.1669659),
+        ("elastic", 4.3192804),
+        ("quasistatic", 4.3184438),
+        ("floor_slip_force", 4.3184438),
     ] {
-        let value = case[theory][key].as_f64().expect("a number");
-        assert!((value - expected).abs() < 5e-8, "{theory} {key} {value}");
+        let value = case[theory].as_f64().expect("a number");
+        assert!((value - expected).abs() < 5e-8, "{theory} {value}");
     }
-    for key in ["x", "y", "z"] {
-        assert!(case["elastic"][key].is_f64());
+    for key in ["elastic_x", "elastic_y", "elastic_z"] {
+        assert!(case[key].is_f64());
     }
 }
 
 #[test]
-fn json_of_several_cases_is_a_list() {
+fn json_has_a_row_a_case() {
     let bench = Bench::without_codes();
     let line = "theory --mu 0.2,0.3 --stiffness 1e2,1e3 --format json";
-    let list = json(&standard_output(&mut bench.tristack(line)));
-    assert_eq!(list.as_array().map(Vec::len), Some(4));
+    let rows = json_rows(&standard_output(&mut bench.tristack(line)));
+    assert_eq!(rows.len(), 4);
 }
 
 #[test]
 fn a_theory_that_is_not_valid_gives_null_and_a_reason() {
     let bench = Bench::without_codes();
     let line = "theory --mu 0.05 --stiffness 1e2 --format json";
-    let case = json(&standard_output(&mut bench.tristack(line)));
-    for theory in ["naive", "perturbation", "elastic", "quasistatic"] {
-        assert!(case[theory]["yield_force"].is_null(), "{theory}");
-        assert!(case[theory]["reason"].is_string(), "{theory}");
+    let case = &json_rows(&standard_output(&mut bench.tristack(line)))[0];
+    for (theory, reason) in [
+        ("naive", "naive_reason"),
+        ("perturbation", "perturbation_reason"),
+        ("elastic", "elastic_reason"),
+        ("quasistatic", "reason"),
+    ] {
+        assert!(case[theory].is_null(), "{theory}");
+        assert!(case[reason].is_string(), "{theory}");
     }
-    assert_eq!(case["rigid"]["yield_force"], 0.0);
+    assert_eq!(case["rigid"], 0.0);
 }
 
 #[test]
@@ -62,12 +75,10 @@ fn arms_change_the_quasistatic_limit_alone() {
     let bench = Bench::without_codes();
     let plain = "theory --mu 0.3 --stiffness 1e2 --format json";
     let arms = format!("{plain} --pair-arm -0.5 --floor-arm -1");
-    let plain = json(&standard_output(&mut bench.tristack(plain)));
-    let arms = json(&standard_output(&mut bench.tristack(&arms)));
+    let plain = &json_rows(&standard_output(&mut bench.tristack(plain)))[0];
+    let arms = &json_rows(&standard_output(&mut bench.tristack(&arms)))[0];
     assert_eq!(plain["elastic"], arms["elastic"]);
-    let force = arms["quasistatic"]["yield_force"]
-        .as_f64()
-        .expect("a number");
+    let force = arms["quasistatic"].as_f64().expect("a number");
     assert!((force - 24.8114052).abs() < 5e-8, "{force}");
 }
 

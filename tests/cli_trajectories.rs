@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, assert_only, json, save_recording, standard_output};
+use common::{Bench, assert_only, json_rows, save_recording, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 use tristack::code::Code;
@@ -41,10 +41,9 @@ fn every_comparison_agrees_and_says_where_it_comes_from() {
 #[test]
 fn rows_meet_the_accuracy_and_the_orders_that_are_promised() {
     let bench = Bench::without_codes();
-    let rows = json(&standard_output(
+    let rows = json_rows(&standard_output(
         &mut bench.tristack("trajectories --format json"),
     ));
-    let rows = rows.as_array().expect("a list");
     assert_eq!(rows.len(), COMPARISONS * TIME_STEPS);
     let finest = rows.iter().filter(|row| row["time_step"] == 0.00625);
     let mut orders = 0;
@@ -76,7 +75,8 @@ fn csv_has_the_agreed_columns() {
     assert_eq!(
         text.lines().next(),
         Some(
-            "code,version,source,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
+            "code,version,source,stiffness,mu,mu_d,kappa,pair_torque_arm,pair_kinematic_arm,floor_torque_arm,\
+             floor_kinematic_arm,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
              first_above_1e-4,first_above_1e-2,order,documented_order,round_off,step_error,verdict"
         )
     );
@@ -106,8 +106,7 @@ fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
     command.env("TRISTACK_REFERENCE", bench.path("nothing"));
     let output = command.output().expect("it runs");
     assert_eq!(output.status.code(), Some(3));
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let rows = rows.as_array().expect("a list");
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     assert_eq!(rows.len(), 5);
     for row in rows {
         assert_eq!(row["verdict"], "missing");
@@ -117,7 +116,7 @@ fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
 
 /// Saves the recorded runs of all codes on `bench`, each as `change` makes it.
 fn save_recordings(bench: &Bench, change: impl Fn(Code, &mut Recording)) {
-    for code in Code::ALL.into_iter().filter(|&code| code != Code::Native) {
+    for code in Code::all().into_iter().filter(|&code| code != Code::NATIVE) {
         save_recording(&bench.path("reference"), code, |recording| {
             change(code, recording);
         });
@@ -136,8 +135,7 @@ fn a_code_whose_convention_is_not_known_is_not_judged() {
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
     assert_eq!(output.status.code(), Some(4));
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let rows = rows.as_array().expect("a list");
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     let (of_lammps, others): (Vec<_>, Vec<_>) =
         rows.iter().partition(|row| row["code"] == "lammps");
     assert_eq!(of_lammps.len(), 1);
@@ -171,8 +169,8 @@ fn a_code_whose_force_is_slightly_off_differs() {
             && message.contains("the wall force deviates by 2.0e-6 of its peak, accepted is 1e-6"),
         "{message}"
     );
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    for row in rows.as_array().expect("a list") {
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    for row in &rows {
         let disturbed = row["code"] == "lammps" && row["quantity"] == "wall_force";
         match row["branch"].as_str() {
             _ if !disturbed => assert_eq!(row["verdict"], "agrees", "{row}"),

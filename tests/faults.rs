@@ -4,7 +4,7 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json, save_recording, standard_error, wait_for};
+use common::{Bench, json_rows, save_recording, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
@@ -40,10 +40,10 @@ impl Outcome {
 fn crosscheck(bench: &Bench, options: &str) -> Outcome {
     let mut command = bench.tristack(&format!("{CROSSCHECK} {options}"));
     let output = command.output().expect("it runs");
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     Outcome {
         status: output.status.code(),
-        rows: rows.as_array().expect("a list of rows").clone(),
+        rows,
         message: String::from_utf8_lossy(&output.stderr).into_owned(),
     }
 }
@@ -457,8 +457,8 @@ fn record_keeps_every_run_for_machines_without_the_code() {
     let machine = Bench::without_codes();
     let mut crosscheck = machine.tristack("crosscheck --format json");
     let output = crosscheck.env("TRISTACK_REFERENCE", &reference).output();
-    let rows = json(&String::from_utf8_lossy(&output.expect("it runs").stdout));
-    let rows = rows.as_array().expect("a list").iter();
+    let rows = json_rows(&String::from_utf8_lossy(&output.expect("it runs").stdout));
+    let rows = rows.iter();
     let agreeing = rows.filter(|row| {
         row["code"] == "yade" && row["source"] == "recorded" && row["verdict"] == "agrees"
     });
@@ -532,14 +532,10 @@ fn nothing_is_started_after_an_interrupt() {
 
 /// The version under which `bench` lists YADE.
 fn version_of_yade(bench: &Bench) -> String {
-    let list = json(&common::standard_output(
+    let list = json_rows(&common::standard_output(
         &mut bench.tristack("codes --format json"),
     ));
-    let yade = list
-        .as_array()
-        .expect("a list")
-        .iter()
-        .find(|code| code["code"] == "yade");
+    let yade = list.iter().find(|code| code["code"] == "yade");
     let version = yade.expect("yade")["version"].as_str();
     version.expect("a version").to_owned()
 }

@@ -3,7 +3,9 @@
 
 mod common;
 
-use common::{Bench, OWN_PROGRAM, assert_only, json, network, recording, released_program};
+use common::{
+    Bench, OWN_PROGRAM, assert_only, json_rows, network, recording, released_program,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -61,8 +63,7 @@ fn all_installed_codes_agree_with_their_limit_on_the_quick_profile_in_the_same_b
 fn assert_live_agreement((bench, output): &(Bench, Output), installed: &[Code]) {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let rows = rows.as_array().expect("a list");
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     assert_eq!(rows.len(), 18 * (1 + installed.len()));
     for code in installed {
         let own = rows.iter().filter(|row| row["code"] == code.as_str());
@@ -90,8 +91,7 @@ fn all_installed_codes_follow_their_native_twins() {
     let output = bench.tristack(&line).output().expect("it runs");
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json(&String::from_utf8_lossy(&output.stdout));
-    let rows = rows.as_array().expect("a list");
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
     for code in installed {
         let own = rows.iter().filter(|row| row["code"] == code.as_str());
         let own: Vec<_> = own.collect();

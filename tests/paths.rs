@@ -5,7 +5,7 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json};
+use common::{Bench, json_rows};
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -149,7 +149,8 @@ fn every_code_finds_its_way_from_and_through_names_of_any_kind() {
             succeed(&bench, command.args(out.map(|out| flag("out", out))))
         };
         // In a temporary directory, and in one of its own.
-        let force = |output: &[u8]| json(&String::from_utf8_lossy(output))["peak_force"].clone();
+        let force =
+            |output: &[u8]| json_rows(&String::from_utf8_lossy(output))[0]["peak_force"].clone();
         assert_eq!(force(&run(None)), force(&run(Some(Path::new("-out")))));
         assert!(here.join("-out/series.csv").is_file());
         let left = fs::read_dir(&temporary).expect("a directory").count();
@@ -174,8 +175,7 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
             &bench,
             command.arg(flag("store", &store)).arg(flag("out", out)),
         );
-        let rows = json(&String::from_utf8_lossy(&output));
-        let rows = rows.as_array().expect("a list of rows");
+        let rows = json_rows(&String::from_utf8_lossy(&output));
         assert!(
             rows.len() == 18 && rows.iter().all(|row| row["verdict"] == "agrees"),
             "time {times}"

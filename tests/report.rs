@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, json};
+use common::{Bench, json, json_rows};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -102,8 +102,7 @@ fn the_same_store_gives_the_same_bytes() {
 
 #[test]
 fn claims_are_listed_for_programs_and_every_view_has_the_same_rows() {
-    let claims = json(&file("claims.json"));
-    let claims = claims.as_array().expect("a list");
+    let claims = json_rows(&file("claims.json"));
     assert!(claims.len() > 100);
     let verdicts = ["holds", "approximately", "fails", "untestable"];
     let mut table =

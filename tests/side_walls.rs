@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Bench, json, standard_error, standard_output};
+use common::{Bench, json_rows, standard_error, standard_output};
 use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::compress_stack;
@@ -147,16 +147,15 @@ const RUN: &str = "simulate --mu 0.2 --stiffness 100";
 fn simulate_prepares_between_side_walls() {
     let bench = Bench::without_codes();
     let line = format!("{RUN} --code native --preparation side-walls --format json");
-    let pushed = json(&standard_output(
+    let pushed = json_rows(&standard_output(
         &mut bench.tristack(&format!("{line} --push 0.005")),
     ));
-    let preparation = &pushed["case"]["protocol"]["preparation"];
-    assert_eq!(preparation["kind"], "side-walls");
-    assert_eq!(preparation["push"], 0.005);
-    let unpushed = json(&standard_output(&mut bench.tristack(&line)));
-    assert_eq!(unpushed["case"]["protocol"]["preparation"]["push"], 0.0);
+    assert_eq!(pushed[0]["preparation"], "side-walls");
+    assert_eq!(pushed[0]["push"], 0.005);
+    let unpushed = json_rows(&standard_output(&mut bench.tristack(&line)));
+    assert_eq!(unpushed[0]["push"], 0.0);
     let force = |run: &serde_json::Value| run["slip_force"].as_f64().expect("a number");
-    assert!((force(&pushed) - force(&unpushed) - 0.0345).abs() < 1e-3);
+    assert!((force(&pushed[0]) - force(&unpushed[0]) - 0.0345).abs() < 1e-3);
 }
 
 #[test]

@@ -9,7 +9,6 @@ use tristack::model::{
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, Recording, RunSummary, SelectedCode, Settings};
-use tristack::study::Verdict;
 use tristack::study::trajectory::{
     Branch, TIME_STEPS, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
 };
@@ -29,7 +28,6 @@ impl Progress for Silence {
 /// The recorded runs of `code` beside twins with the convention `declared`.
 fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
-    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
     let settings = Settings {
         store: Store::open(store.path()).expect("a store"),
         recorded: Recorded::embedded(),
@@ -135,7 +133,7 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
 
 #[test]
 fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
-    let external = Code::ALL.into_iter().filter(|&code| code != Code::Native);
+    let external = Code::all().into_iter().filter(|&code| code != Code::NATIVE);
     for code in external {
         let recorded = Recorded::embedded().recording(code);
         let recorded = recorded.expect("it is not damaged");

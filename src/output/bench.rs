@@ -38,7 +38,7 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         |(cost, _)| cost.target.as_str(),
     )
     .shown("code")
-    .text("version", "its version", |(cost, _)| cost.version.clone())
+    .version(|(cost, _)| &cost.version)
     .shown("version")
     .number(
         "ratio",
@@ -46,16 +46,14 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "`ns_per_step` over that of native lanes",
         times_lanes,
     )
-    .shown("times native-lanes")
-    .digits(plain)
+    .shown_as("times native-lanes", plain)
     .number(
         "ns_per_step",
         "ns",
         "wall time per step and case, the median of the runs",
         |(cost, _)| cost.median(),
     )
-    .shown("ns per step and case")
-    .digits(plain)
+    .shown_as("ns per step and case", plain)
     .number(
         "steps",
         "1",
@@ -71,16 +69,14 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "start and end, the median of the runs",
         |(cost, _)| cost.start_up(),
     )
-    .shown("start s")
-    .digits(plain)
+    .shown_as("start s", plain)
     .number(
         "yield_forces_per_second",
         "1/s",
         "yield forces per second and core, start included",
         |(cost, _)| cost.yield_forces_per_second(),
     )
-    .shown("yield forces per s")
-    .digits(plain)
+    .shown_as("yield forces per s", plain)
     .number(
         "yield_force_ratio",
         "1",
@@ -89,16 +85,14 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
             lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
         },
     )
-    .shown("times fewer")
-    .digits(plain)
+    .shown_as("times fewer", plain)
     .number(
         "largest_error",
         "1",
         "largest distance of these yield forces from the exact limit, relative to F + 3",
         |(cost, _)| cost.largest_error,
     )
-    .shown("largest error")
-    .digits(|error| format!("{error:.0e}"))
+    .shown_as("largest error", |error| format!("{error:.0e}"))
     .number(
         "peak_megabytes",
         "MB",
@@ -108,8 +102,7 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
                 .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
         },
     )
-    .shown("MB")
-    .digits(|megabytes| format!("{megabytes:.0}"))
+    .shown_as("MB", |megabytes| format!("{megabytes:.0}"))
     .rows(beside_lanes(costs))
 }
 
@@ -136,16 +129,14 @@ pub fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<
         "wall time per step and case, the median of the repeats",
         |row| row.ns_per_step,
     )
-    .shown("ns per step and case")
-    .digits(plain)
+    .shown_as("ns per step and case", plain)
     .number(
         "speedup",
         "1",
         "how many times as fast as the first row",
         |row| row.speedup,
     )
-    .shown("times as fast")
-    .digits(plain)
+    .shown_as("times as fast", plain)
     .rows(rows)
 }
 
@@ -178,33 +169,29 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
         cost.cylinders
     })
     .shown("cylinders")
-    .text("code", "name of the code", |(cost, _)| cost.code.as_str())
-    .shown("code")
-    .text("version", "its version", |(cost, _)| cost.version.clone())
+    .code(|(cost, _)| cost.code)
+    .version(|(cost, _)| &cost.version)
     .number(
         "ratio",
         "1",
         "how many times the cost of native this is, run by run",
         |(cost, native)| native.map(|native| cost.ratio_to(native)),
     )
-    .shown("times native")
-    .digits(plain)
+    .shown_as("times native", plain)
     .number(
         "ns_per_step",
         "ns",
         "wall time per step and cylinder, the median of the runs",
         |(cost, _)| cost.median(),
     )
-    .shown("ns per step and cylinder")
-    .digits(plain)
+    .shown_as("ns per step and cylinder", plain)
     .number(
         "fastest_ns_per_step",
         "ns",
         "the same of the fastest run",
         |(cost, _)| cost.fastest(),
     )
-    .shown("fastest")
-    .digits(plain)
+    .shown_as("fastest", plain)
     .number("steps", "1", "steps timed in each run", |(cost, _)| {
         cost.timed_steps
     })

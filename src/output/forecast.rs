@@ -25,40 +25,32 @@ pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
         all.contact == own.contact
     })
     .number("normal_stiffness", "N/m", "k_n", |(_, own)| own.normal_stiffness)
-    .shown("k_n")
-    .digits(|number| significant(number, 4))
+    .shown_as("k_n", |number| significant(number, 4))
     .number("epsilon", "1", "ε = m g/(k_n r)", |(_, own)| own.epsilon)
-    .shown("epsilon = m g/(k_n r)")
-    .digits(|number| significant(number, 4))
+    .shown_as("epsilon = m g/(k_n r)", |number| significant(number, 4))
     .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |(_, own)| own.stiffness)
-    .shown("stiffness 1/epsilon")
-    .digits(|number| significant(number, 4))
+    .shown_as("stiffness 1/epsilon", |number| significant(number, 4))
     .text("event", "what comes first on the path of equilibria", |(_, own)| own.event.to_string())
     .shown("first event")
     .text("reason", "what that means, where it is no yield", |(_, own)| own.reason.clone())
     .number("overlap", "r", "overlap of the contacts between the cylinders then", |(_, own)| own.overlap)
-    .shown("overlap then")
-    .digits(|number| significant(number, 3))
+    .shown_as("overlap then", |number| significant(number, 3))
     .number("yield_force", "m g", "exact quasi-static yield force", move |(_, own)| {
         weights(own.yield_force)
     })
-    .shown("yield force, exact limit")
-    .digits(|number| significant(number, 6))
+    .shown_as("yield force, exact limit", |number| significant(number, 6))
     .number("yield_force_newton", "N", "the same", move |(_, own)| newton(own.yield_force))
-    .shown("yield force, exact limit")
-    .digits(|number| significant(number, 4))
+    .shown_as("yield force, exact limit", |number| significant(number, 4))
     .number("perturbation", "m g", "the paper's perturbation result", move |(_, own)| {
         weights(own.perturbation)
     })
     .number("perturbation_newton", "N", "the same", move |(_, own)| newton(own.perturbation))
-    .shown("paper's perturbation")
-    .digits(|number| significant(number, 4))
+    .shown_as("paper's perturbation", |number| significant(number, 4))
     .number("paper_formula", "m g", "the paper's f = m g/ε, meant for μ > μ_c", |(_, own)| {
         own.paper_formula.weights
     })
     .number("paper_formula_newton", "N", "the same", |(_, own)| own.paper_formula.newton)
-    .shown("paper's f = m g/epsilon, mu > mu_c")
-    .digits(|number| significant(number, 4))
+    .shown_as("paper's f = m g/epsilon, mu > mu_c", |number| significant(number, 4))
     .number(
         "largest_force",
         "m g",
@@ -66,8 +58,7 @@ pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
         move |(_, own)| weights(own.largest_force),
     )
     .number("largest_force_newton", "N", "the same", move |(_, own)| newton(own.largest_force))
-    .shown("largest force")
-    .digits(|number| significant(number, 4))
+    .shown_as("largest force", |number| significant(number, 4))
     .number(
         "range_lowest",
         "N",

@@ -13,16 +13,15 @@ pub fn probe(findings: &[Finding]) -> DataTable<'_> {
         "A row is one property of the contacts of a code, as micro-tests measure it and as the code declares it.",
         "`tristack probe`, `tristack report` (tables/conventions.csv)",
     )
-    .text("code", "the code that was probed", |own| own.code.as_str())
-    .text("version", "its version", |own| own.version.clone())
+    .code(|own| own.code)
+    .version(|own| &own.version)
     .text("property", "name of the property", |own| own.property.clone())
     .number("measured", "1", "what was measured; absent if it could not be", |own| own.measured)
     .number("uncertainty", "1", "three standard errors; absent with the measured value", |own| {
         own.uncertainty
     })
     .number("declared", "1", "what the code declares", |own| own.declared)
-    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| own.verdict.as_str())
-    .rows(findings)
+    .verdict(|own| own.verdict).rows(findings)
 }
 
 /// For people: one line a property, one column a code.

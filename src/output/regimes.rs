@@ -83,7 +83,7 @@ pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     .text("above_observed", "the same above", move |own| observed(own, 1))
     .text("below_verdict", "verdict on the neighbour below", |own| own.sides[0].verdict.as_str())
     .text("above_verdict", "the same above", |own| own.sides[1].verdict.as_str())
-    .text("verdict", "the worse of the two", |own| own.verdict().as_str())
+    .verdict(|own| own.verdict())
     .rows(confirmations)
 }
 
@@ -136,20 +136,15 @@ pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     .number("uncertainty", "m g", "uncertainty of the peak", |own| {
         own.uncertainty
     })
-    .shown("±")
-    .digits(|uncertainty| format!("{uncertainty:.0e}"))
+    .shown_as("±", |uncertainty| format!("{uncertainty:.0e}"))
     .number(
         "error",
         "1",
         "(observed_force − largest_force)/(largest_force + 3)",
         |own| own.error,
     )
-    .shown("error")
-    .digits(relative)
-    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| {
-        own.verdict.as_str()
-    })
-    .shown("verdict")
+    .shown_as("error", relative)
+    .verdict(|own| own.verdict)
     .rows(examinations)
 }
 

@@ -33,9 +33,7 @@ pub fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
         )
         .text("code", "the code that ran", |own| own.run.provenance.identity.code.clone())
         .shown("code")
-        .text("version", "its version", |own| {
-            own.run.provenance.identity.version.clone()
-        })
+        .version(|own| &own.run.provenance.identity.version)
         .shown("version")
         .stack(|own| own.run.case.stack)
         .arms(|own| own.run.case.convention.arms);
@@ -47,23 +45,20 @@ pub fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
             "largest wall force; absent if the force still rises at the end",
             move |own| force(own.estimates.peak),
         )
-        .shown("peak")
-        .digits(|force| significant(force, 9))
+        .shown_as("peak", |force| significant(force, 9))
         .number(
             "slip_force",
             "m g",
             "wall force when the floor first slips; absent if it does not",
             move |own| force(own.estimates.slip),
         )
-        .shown("slip onset")
-        .digits(|force| significant(force, 9))
+        .shown_as("slip onset", |force| significant(force, 9))
         .number("steps", "1", "steps in all", |own| own.run.provenance.steps)
         .shown("steps")
         .number("seconds", "s", "wall time", |own| {
             own.run.provenance.seconds
         })
-        .shown("wall time")
-        .digits(|seconds| format!("{seconds:.2}"))
+        .shown_as("wall time", |seconds| format!("{seconds:.2}"))
         .rows(runs)
 }
 
@@ -150,8 +145,7 @@ fn protocol<'a, R: 'a>(
             "speed of the top wall",
             move |row| own(row).wall_speed,
         )
-        .shown("wall speed")
-        .digits(|speed| format!("{speed:.3e}"))
+        .shown_as("wall speed", |speed| format!("{speed:.3e}"))
         .number("time_step", "√(m/k_n)", "time step", move |row| {
             own(row).time_step
         })

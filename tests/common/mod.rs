@@ -141,6 +141,12 @@ pub fn recording(code: Code) -> Recording {
     recorded.expect("it is not damaged")
 }
 
+/// The rows of a table in JSON.
+pub fn json_rows(text: &str) -> Vec<serde_json::Value> {
+    let rows = json(text)["rows"].as_array().cloned();
+    rows.expect("an object with rows")
+}
+
 /// What `condition` gives, as soon as it gives something; `None` after a minute, which is enough on a busy machine.
 pub fn wait_a_minute_for<T>(mut condition: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();

@@ -117,11 +117,9 @@ pub(crate) fn programs<'a>(provenances: &'a [Provenance], recorded: &'a [Code]) 
     .number("runs", "1", "number of runs", |own| own.runs)
     .shown("runs")
     .number("steps", "1", "their steps", |own| own.steps)
-    .shown("steps")
-    .digits(|steps| format!("{steps:.1e}"))
+    .shown_as("steps", |steps| format!("{steps:.1e}"))
     .number("seconds", "s", "their wall time", |own| own.seconds)
-    .shown("seconds")
-    .digits(|seconds| format!("{seconds:.1}"))
+    .shown_as("seconds", |seconds| format!("{seconds:.1}"))
     .text("first_run", "date of the first, UTC", |own| own.first)
     .shown("first run, UTC")
     .cell(|own| minute(own.first))
@@ -148,8 +146,7 @@ pub(crate) fn decks() -> DataTable<'static> {
         "A row is the decks of one code; for the native DEM its sources take their place.",
         "`tristack report` (tables/decks.csv)",
     )
-    .text("code", "name of the code", |code| code.as_str())
-    .shown("code")
+    .code(|code| *code)
     .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
         code.files_hash(TaskKind::Stack)
     })

@@ -48,24 +48,20 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     .number("critical_push", "r", "A*, by bisection with the native DEM", |study| {
         study.critical_push.map(|found| found.push)
     })
-    .shown("A*")
-    .digits(|push| significant(push, 5))
+    .shown_as("A*", |push| significant(push, 5))
     .number("width", "r", "width of the interval above A* in which c appears", |study| {
         study.critical_push.map(|found| found.width)
     })
     .number("predicted_critical_push", "r", "A* to leading order in ε", |study| {
         study.predicted_critical_push
     })
-    .shown("to leading order")
-    .digits(|push| significant(push, 5))
+    .shown_as("to leading order", |push| significant(push, 5))
     .number("exact_force", "m g", "exact limit F after a gravity ramp", |study| study.exact_force)
-    .shown("F after gravity ramp, exact")
-    .digits(|force| significant(force, 7))
+    .shown_as("F after gravity ramp, exact", |force| significant(force, 7))
     .number("shift", "1", "F(A*) − F(0), relative to F + 3", |study| {
         study.critical_push.and_then(|found| study.shift(found.push))
     })
-    .shown("F(A*) − F(0), of F + 3")
-    .digits(percent)
+    .shown_as("F(A*) − F(0), of F + 3", percent)
     .rows(studies)
 }
 
@@ -81,15 +77,13 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
         "`tristack report` (tables/preparation.csv)",
     )
     .stack(|(stack, _)| *stack)
-    .text("code", "the code that ran", |(_, row)| row.code.as_str())
-    .shown("code")
+    .code(|(_, row)| row.code)
     .text("convention_of", "the code whose contact convention it ran with", |(_, row)| {
         row.convention_of.as_str()
     })
     .shown("convention of")
     .number("push", "r", "A; absent for the gravity ramp", |(_, row)| row.push)
-    .shown("A")
-    .digits(|push| significant(push, 5))
+    .shown_as("A", |push| significant(push, 5))
     .number(
         "limit_force",
         "m g",
@@ -100,15 +94,12 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     .number("contact_force", "m g", "c between the bottom cylinders when the compression begins", |(_, row)| {
         row.contact_force
     })
-    .shown("c")
-    .digits(|force| format!("{force:.5}"))
+    .shown_as("c", |force| format!("{force:.5}"))
     .number("contact_uncertainty", "m g", "its uncertainty", |(_, row)| row.contact_uncertainty)
     .number("yield_force", "m g", "F at vanishing wall speed", |(_, row)| row.yield_force)
-    .shown("F")
-    .digits(|force| significant(force, 7))
+    .shown_as("F", |force| significant(force, 7))
     .number("uncertainty", "m g", "its uncertainty", |(_, row)| row.uncertainty)
-    .shown("±")
-    .digits(|value| format!("{value:.0e}"))
+    .shown_as("±", |value| format!("{value:.0e}"))
     .text("estimator", "what it was read off: `slip-onset` or `peak`", |(_, row)| {
         row.estimator.map(Value::word)
     })

@@ -135,23 +135,19 @@ pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     .number("perturbation_below", "1", "singular perturbation, μ < μ_c", move |&stiffness| {
         largest(stiffness, false, |point| point.perturbation)
     })
-    .shown("perturbation, μ < μ_c")
-    .digits(percent)
+    .shown_as("perturbation, μ < μ_c", percent)
     .number("perturbation_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
         largest(stiffness, true, |point| point.perturbation)
     })
-    .shown("perturbation, μ ≥ μ_c")
-    .digits(percent)
+    .shown_as("perturbation, μ ≥ μ_c", percent)
     .number("elastic_below", "1", "elastic equation, μ < μ_c", move |&stiffness| {
         largest(stiffness, false, |point| point.elastic)
     })
-    .shown("elastic equation, μ < μ_c")
-    .digits(percent)
+    .shown_as("elastic equation, μ < μ_c", percent)
     .number("elastic_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
         largest(stiffness, true, |point| point.elastic)
     })
-    .shown("elastic equation, μ ≥ μ_c")
-    .digits(percent)
+    .shown_as("elastic equation, μ ≥ μ_c", percent)
     .rows(PAPER_STIFFNESSES)
 }
 
@@ -174,16 +170,14 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         "singular perturbation",
         |(_, theory)| theory.perturbation.yield_force,
     )
-    .shown("perturbation")
-    .digits(seven_digits)
+    .shown_as("perturbation", seven_digits)
     .number(
         "quasistatic",
         "m g",
         "exact quasi-static limit under the paper's convention",
         |(_, theory)| theory.quasistatic.yield_force,
     )
-    .shown("exact limit")
-    .digits(seven_digits);
+    .shown_as("exact limit", seven_digits);
     for code in Code::all() {
         columns = columns
             .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
@@ -194,8 +188,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
                 });
                 own.and_then(|row| row.yield_force())
             })
-            .shown(code.as_str())
-            .digits(seven_digits);
+            .shown_as(code.as_str(), seven_digits);
     }
     columns.rows(rows)
 }

@@ -116,8 +116,7 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
         "A row counts the rows of one code in one figure that agree with the exact limit.",
         "`tristack report` (tables/agreement.csv)",
     )
-    .text("code", "name of the code", |(own, _)| own.code.as_str())
-    .shown("code")
+    .code(|(own, _)| own.code)
     .text("figure", "name of the figure", |(_, figure)| *figure)
     .shown("figure")
     .number("rows", "1", "number of rows", |(own, _)| own.rows)
@@ -132,16 +131,14 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
         "largest error, relative to F + 3",
         |(own, _)| own.largest_error,
     )
-    .shown("largest error/(F + 3)")
-    .digits(|error| format!("{error:.1e}"))
+    .shown_as("largest error/(F + 3)", |error| format!("{error:.1e}"))
     .number(
         "largest_share",
         "1",
         "largest error in units of the tolerance of its row",
         |(own, _)| own.largest_share,
     )
-    .shown("largest error/tolerance")
-    .digits(|share| format!("{share:.2}"))
+    .shown_as("largest error/tolerance", |share| format!("{share:.2}"))
     .rows(rows)
 }
 
@@ -151,27 +148,21 @@ pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
         "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at one friction.",
         "`tristack report` (tables/exponents.csv)",
     )
-    .text("code", "the code whose yield forces were fitted", |own| own.code.as_str())
-    .shown("code")
+    .code(|own| own.code)
     .number("mu", "1", "floor friction μ", |own| own.mu)
-    .shown("μ")
-    .digits(friction)
+    .shown_as("μ", friction)
     .number("exponent", "1", "least-squares slope of ln(F + 3) over ln(1/ε)", |own| own.exponent)
-    .shown("fitted exponent")
-    .digits(|exponent| format!("{exponent:.7}"))
+    .shown_as("fitted exponent", |exponent| format!("{exponent:.7}"))
     .number("uncertainty", "1", "what the uncertainties of the forces can do to it", |own| {
         own.uncertainty
     })
-    .shown("±")
-    .digits(|uncertainty| format!("{uncertainty:.0e}"))
+    .shown_as("±", |uncertainty| format!("{uncertainty:.0e}"))
     .number("exact", "1", "the same fit to the exact limits", |own| own.exact)
-    .shown("of the exact limit")
-    .digits(|exponent| format!("{exponent:.7}"))
+    .shown_as("of the exact limit", |exponent| format!("{exponent:.7}"))
     .number("asymptotic", "1", "the exponent for ε → 0", |own| own.asymptotic)
     .shown("for ε → 0")
     .number("points", "1", "how many stiffnesses were fitted", |own| own.points)
-    .text("verdict", "`agrees`, `differs` or `inconclusive`", |own| own.verdict.as_str())
-    .shown("verdict")
+    .verdict(|own| own.verdict)
     .rows(exponents)
 }
 

@@ -13,9 +13,10 @@ use tristack::model::{Arms, Case, ContactConvention, ContactTest, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, Series};
-use tristack::study::Campaign;
 use tristack::study::MIN_TOLERANCE;
-use tristack::study::Verdict;
+use tristack::study::preparation::plan_preparation;
+use tristack::study::trajectory::plan_trajectory;
+use tristack::study::{Campaign, Judged, Verdict};
 use tristack::study::convention::probe_all;
 use tristack::study::yield_force::{Judgement, plan};
 
@@ -327,6 +328,36 @@ fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     assert_eq!(series, compress_stack(&case, || true).expect("a series"));
     assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());
     assert_eq!(crosscheck(Mutation::None).verdict(), Verdict::Agrees);
+}
+
+/// Holds a study to the rule for a code whose probe contradicts its declaration.
+fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
+    assert_eq!(judged.len(), 1);
+    let study = &judged[0];
+    assert!(study.finding.is_some(), "it was carried out");
+    assert_eq!(study.verdict(), Verdict::Inconclusive);
+    assert!(study.grounds.is_contradicted());
+    let notes = study.notes();
+    let last = notes.last().expect("the reason");
+    assert!(
+        last.starts_with("not judged: its probe contradicts its declaration: "),
+        "{last}"
+    );
+}
+
+#[test]
+fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
+    let (native, stack) = (Code::NATIVE, Stack::paper(0.3, 1e2));
+    let codes = [TwinEngine::selected(MUTATIONS[0])];
+    with_settings(|settings| {
+        let campaign = Campaign::new(&codes, settings, &Silent);
+        let convention = ContactConvention::PAPER;
+        assert_not_judged(&campaign.carry_out(vec![plan(native, &stack, convention)]));
+        let trajectory = plan_trajectory(native, &stack, convention);
+        assert_not_judged(&campaign.carry_out(vec![trajectory]));
+        let preparation = plan_preparation(native, native, &stack, Some(0.0));
+        assert_not_judged(&campaign.carry_out(vec![preparation]));
+    });
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The documents speak of the project as it is.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Every path in backquotes that begins with a folder of the project.
@@ -62,19 +63,17 @@ fn every_folder_of_the_sources_is_told_of() {
 #[test]
 fn no_folder_points_back() {
     let order = [
-        "stack",
+        "model",
         "theory",
         "experiment",
         "series",
-        "archive",
+        "files",
         "dem",
         "code",
-        "probe",
-        "crosscheck",
-        "bench",
-        "reproduction",
-        "claims",
-        "report",
+        "runs",
+        "study",
+        "paper",
+        "output",
         "cli",
     ];
     for (position, folder) in order.iter().enumerate() {
@@ -94,6 +93,71 @@ fn no_folder_points_back() {
             }
         }
     }
+}
+
+/// Files of one room may use one another, but not in a circle.
+#[test]
+fn no_files_of_a_room_import_one_another_in_a_circle() {
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let files: BTreeMap<String, String> = rust_files(&sources)
+        .into_iter()
+        .map(|file| {
+            let module = module_of(file.strip_prefix(&sources).expect("a file below src"));
+            (
+                module,
+                std::fs::read_to_string(&file).expect("a source file"),
+            )
+        })
+        .filter(|(module, _)| module.contains("::"))
+        .collect();
+    let imports: BTreeMap<&str, Vec<&str>> = files
+        .iter()
+        .map(|(module, text)| (module.as_str(), imported(module, text, &files)))
+        .collect();
+    assert!(
+        imports.values().flatten().count() > 200,
+        "imports are found"
+    );
+    for start in imports.keys() {
+        let mut reached: BTreeSet<&str> = BTreeSet::new();
+        let mut open = imports[start].clone();
+        while let Some(next) = open.pop() {
+            assert_ne!(next, *start, "{start} imports itself by way of {reached:?}");
+            if reached.insert(next) {
+                open.extend(&imports[next]);
+            }
+        }
+    }
+}
+
+/// `code::native::lanes` for code/native/lanes.rs; a mod.rs, which collects what is below it, counts as none.
+fn module_of(file: &Path) -> String {
+    let parts: Vec<&str> = file.iter().filter_map(|part| part.to_str()).collect();
+    match parts.join("::").strip_suffix(".rs") {
+        Some(module) if !module.ends_with("::mod") => module.to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// The modules of the same room that the file of `module` names by path, in code outside its tests.
+fn imported<'a>(module: &str, text: &str, files: &'a BTreeMap<String, String>) -> Vec<&'a str> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or(text);
+    let code: String = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .collect();
+    let room = module.split("::").next().unwrap_or_default();
+    let parent = module.rsplit_once("::").map_or("", |(parent, _)| parent);
+    let names = |other: &str| {
+        let beside = other
+            .strip_prefix(parent)
+            .and_then(|rest| rest.strip_prefix("::"));
+        let beside = beside.is_some_and(|name| code.contains(&format!("super::{name}::")));
+        beside || code.contains(&format!("crate::{other}::"))
+    };
+    let others = files.keys().map(String::as_str);
+    let others = others.filter(|other| *other != module && other.split("::").next() == Some(room));
+    others.filter(|other| names(other)).collect()
 }
 
 fn rust_files(folder: &Path) -> Vec<std::path::PathBuf> {

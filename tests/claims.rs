@@ -234,13 +234,13 @@ fn native_reproduction() -> Reproduction {
         time_limit: None,
         interrupt: &interrupt,
     };
-    let native = [SelectedCode::find(Code::Native)];
-    let names = [Code::Native];
+    let native = [SelectedCode::find(Code::NATIVE)];
+    let names = [Code::NATIVE];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()
         .flat_map(|&mu| [1e2, 1e4].map(|stiffness| Stack::paper(mu, stiffness)));
     let plans: Vec<_> = stacks
-        .map(|stack| plan(Code::Native, &stack, ContactConvention::PAPER))
+        .map(|stack| plan(Code::NATIVE, &stack, ContactConvention::PAPER))
         .collect();
     let campaign = Campaign::new(&native, &settings, &Quiet);
     let scaling = campaign.carry_out(scaling_measurements(&names));

@@ -85,6 +85,25 @@ fn sweep_is_a_judged_yield_curve() {
     assert_only(&bench.path("curve"), &["sweep.csv", "sweep.json"]);
 }
 
+/// Of LAMMPS pair granular: the torque acts halfway into the overlap, the surfaces move at the full radius.
+#[test]
+fn native_yields_at_the_exact_limit_where_torque_and_kinematic_arms_differ() {
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.2:0.3:0.1 --stiffness 1e2 --pair-arm -0.5 --pair-kinematic-arm 0";
+    let judged = standard_output(&mut bench.tristack(&format!("{line} --format json")));
+    let rows = json(&judged);
+    let rows = rows.as_array().expect("a list of rows");
+    assert_eq!(rows.len(), 2);
+    for row in rows {
+        assert_eq!(row["verdict"], "agrees", "{row}");
+        assert_eq!(row["pair_torque_arm"], -0.5);
+        assert_eq!(row["pair_kinematic_arm"], 0.0);
+        // Far from the limit of the paper's arms, so that they cannot be taken for these.
+        let model_form = row["model_form"].as_f64().expect("a number");
+        assert!(model_form > 0.01, "{row}");
+    }
+}
+
 #[test]
 fn sweep_says_why_a_point_does_not_yield() {
     let bench = Bench::without_codes();

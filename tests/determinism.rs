@@ -39,7 +39,7 @@ fn golden() -> Digests {
 }
 
 fn cases() -> Vec<Case> {
-    let measurements = Profile::Quick.measurements(&[Code::Native]);
+    let measurements = Profile::Quick.measurements(&[Code::NATIVE]);
     let cases = measurements.into_iter().flat_map(|one| one.cases);
     cases.collect()
 }

@@ -8,7 +8,7 @@ use common::{Bench, json_rows, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
-use tristack::code::{Code, ParameterFile, Task};
+use tristack::code::{Code, ParameterFormat, Task};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, Stack, sha256_hex};
 use tristack::study::yield_force::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
@@ -326,13 +326,18 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
 #[test]
 fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
     let stack = Stack::paper(0.3, 100.0);
-    let cases = plan(Code::Yade, &stack, Code::Yade.convention()).cases;
+    let cases = plan(
+        Code::named("yade").expect("it is built in"),
+        &stack,
+        Code::named("yade").expect("it is built in").convention(),
+    )
+    .cases;
     let (middle, short) = (cases[MIDDLE_RUN], cases[SHORT_RAMP_RUN]);
     for (victim, other) in [(middle, short), (short, middle)] {
         let bench = Bench::with_system_programs();
         replay::install(&bench, |_| Disturbance::None);
         let path = |case: &Case| {
-            let content = ParameterFile::Json.content(&case.parameters());
+            let content = ParameterFormat::Json.content(&case.parameters());
             bench.path(&format!("replay/{}.csv", sha256_hex(content.as_bytes())))
         };
         fs::copy(path(&other), path(&victim)).expect("a series of another case");

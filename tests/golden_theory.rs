@@ -2,7 +2,7 @@
 //! `reference/golden/generate.py` (Newton on the unreduced equations, Taylor series, Richardson).
 
 use serde::Deserialize;
-use tristack::model::{Arms, Stack};
+use tristack::model::{Arms, ContactArms, Stack};
 use tristack::theory::{Event, Predictions, followed_limit};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
@@ -189,4 +189,39 @@ fn follower_is_converged_to_1e_7_for_every_pair_of_arms() {
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
     worst.must_stay_below(1e-7, "follower, all arms");
+}
+
+#[derive(Debug, Deserialize)]
+struct SeparateArmsRow {
+    mu: f64,
+    stiffness: f64,
+    kappa: f64,
+    pair_torque_arm: f64,
+    pair_kinematic_arm: f64,
+    floor_torque_arm: f64,
+    floor_kinematic_arm: f64,
+    floor_slip_force: Option<f64>,
+}
+
+/// The table eliminates the rotation, the follower integrates it.
+#[test]
+fn follower_equals_the_path_without_rotation_to_1e_9_where_torque_and_kinematic_arms_differ() {
+    let mut worst = Worst::default();
+    for golden in rows::<SeparateArmsRow>("separate_arms.csv") {
+        let arms = Arms {
+            pair: ContactArms {
+                torque: golden.pair_torque_arm,
+                kinematic: golden.pair_kinematic_arm,
+            },
+            floor: ContactArms {
+                torque: golden.floor_torque_arm,
+                kinematic: golden.floor_kinematic_arm,
+            },
+        };
+        let stack = stack(golden.mu, golden.stiffness, golden.kappa);
+        let limit = followed_limit(&stack, &arms);
+        let name = format!("{golden:?}");
+        worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
+    }
+    worst.must_stay_below(1e-9, "follower, separate arms");
 }

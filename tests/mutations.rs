@@ -171,7 +171,7 @@ struct TwinEngine {
 impl TwinEngine {
     fn selected(mutation: Mutation) -> SelectedCode {
         SelectedCode {
-            name: Code::Native,
+            name: Code::NATIVE,
             code: Some(Box::new(Self {
                 identity: Identity {
                     code: "native".to_owned(),
@@ -189,7 +189,7 @@ impl TwinEngine {
         let twin = Twin::new(&case.convention, stiffness, self.mutation);
         compress_stack_with(case, twin, || true).map_err(|error| {
             Box::new(Failure {
-                code: Code::Native,
+                code: Code::NATIVE,
                 subject: case.to_string(),
                 kind: error.into(),
                 run_directory: None,
@@ -201,7 +201,7 @@ impl TwinEngine {
 
 impl InstalledCode for TwinEngine {
     fn name(&self) -> Code {
-        Code::Native
+        Code::NATIVE
     }
 
     fn identity(&self) -> &Identity {
@@ -229,7 +229,7 @@ impl TwinEngine {
                 series,
                 provenance: Provenance::now(
                     self.identity.clone(),
-                    Code::Native.deck_hash(case),
+                    Code::NATIVE.deck_hash(case),
                     Vec::new(),
                     case.total_steps(),
                     0.0,
@@ -287,7 +287,7 @@ fn differing_properties(mutation: Mutation) -> Vec<String> {
 /// Crosscheck of one stack that yields at the floor.
 fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
-    let measurements = [plan(Code::Native, &stack, ContactConvention::PAPER)];
+    let measurements = [plan(Code::NATIVE, &stack, ContactConvention::PAPER)];
     let codes = [TwinEngine::selected(mutation)];
     let judgements = with_settings(|settings| {
         Campaign::new(&codes, settings, &Silent).carry_out(measurements.to_vec())
@@ -320,7 +320,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
 #[test]
 fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let stack = Stack::paper(0.3, 1e3);
-    let case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[0];
+    let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[0];
     let stiffness = case.stack.tangential_stiffness();
     let twin = Twin::new(&case.convention, stiffness, Mutation::None);
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
@@ -360,7 +360,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     };
     let declared = tristack::code::Declaration {
         convention: wrong,
-        ..Code::Native.declaration()
+        ..Code::NATIVE.declaration()
     };
     let properties = tristack::study::convention::probe(&declared, |tests| {
         let honest: Vec<ContactTest> = tests
@@ -379,7 +379,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     .expect("finite motions");
     let findings = properties
         .into_iter()
-        .map(|property| property.judge(Code::Native, ""));
+        .map(|property| property.judge(Code::NATIVE, ""));
     let off: Vec<String> = findings
         .filter(|finding| finding.verdict == Verdict::Differs)
         .map(|finding| finding.property)

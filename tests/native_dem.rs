@@ -113,7 +113,7 @@ fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
 #[test]
 fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sliding() {
     for stack in [Stack::paper(0.12, 1e2), Stack::paper(0.3, 1e4)] {
-        let case = plan(Code::Native, &stack, ContactConvention::PAPER).cases[1];
+        let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[1];
         let series = compress_stack(&case, || true).expect("a finite series");
         let start = series.samples()[0];
         assert!(start.x2 - start.x3 > 2.0);
@@ -128,7 +128,7 @@ fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sli
 #[test]
 fn left_and_right_stay_mirror_images_up_to_the_yield() {
     let case = plan(
-        Code::Native,
+        Code::NATIVE,
         &Stack::paper(0.3, 1e2),
         ContactConvention::PAPER,
     )
@@ -146,7 +146,7 @@ fn left_and_right_stay_mirror_images_up_to_the_yield() {
 #[test]
 fn series_has_the_same_bits_everywhere() {
     let case = plan(
-        Code::Native,
+        Code::NATIVE,
         &Stack::paper(0.3, 1e3),
         ContactConvention::PAPER,
     )

@@ -3,7 +3,7 @@
 use tristack::model::{Arms, CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::theory::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Event,
-    FailureMode, Line, LoadingPhase, Outcome, RegimeMap, bracketed_root, pair_overlap,
+    FailureMode, Line, LoadingOutcome, LoadingPhase, RegimeMap, bracketed_root, pair_overlap,
     quasistatic_limit, released_frictions,
 };
 
@@ -45,7 +45,7 @@ fn boundaries_are_where_they_are_known_to_be() {
 fn the_first_event_changes_exactly_at_a_boundary() {
     for point in boundary_points(5) {
         let [below, above] = [1.0 - 1e-7, 1.0 + 1e-7]
-            .map(|factor| Outcome::of(&point.across.scale(&point.stack, factor)).unwrap());
+            .map(|factor| LoadingOutcome::of(&point.across.scale(&point.stack, factor)).unwrap());
         let [far_below, far_above] = point.sides;
         assert_eq!(below.regime(), far_below.regime(), "{:?}", point.stack);
         assert_eq!(above.regime(), far_above.regime(), "{:?}", point.stack);
@@ -57,7 +57,7 @@ fn the_first_event_changes_exactly_at_a_boundary() {
 fn a_yield_is_that_of_the_quasistatic_limit() {
     for (mu, stiffness) in [(0.1, 1e2), (0.2, 1e4), (0.3, 1e3), (0.5, 1e1 * 1e1)] {
         let stack = Stack::paper(mu, stiffness);
-        let outcome = Outcome::of(&stack).unwrap();
+        let outcome = LoadingOutcome::of(&stack).unwrap();
         let limit = quasistatic_limit(&stack, &Arms::PAPER);
         assert_eq!(outcome.first.event, limit.event);
         assert_eq!(outcome.failure_mode, FailureMode::Yields);
@@ -75,11 +75,17 @@ fn saturated_force_does_not_depend_on_the_floor() {
     };
     let expected = 200.0 * pair_overlap(0.4 - CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO) - 1.0;
     for mu in [0.4, 0.5, 0.9, 100.0] {
-        let outcome = Outcome::of(&slippery(mu)).unwrap();
+        let outcome = LoadingOutcome::of(&slippery(mu)).unwrap();
         assert_eq!(outcome.failure_mode, FailureMode::Saturates);
         assert!((outcome.largest_force.unwrap() / expected - 1.0).abs() < 1e-12);
     }
-    assert!(Outcome::of(&slippery(0.38)).unwrap().largest_force.unwrap() < expected);
+    assert!(
+        LoadingOutcome::of(&slippery(0.38))
+            .unwrap()
+            .largest_force
+            .unwrap()
+            < expected
+    );
 }
 
 #[test]
@@ -89,7 +95,7 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
             stiffness_ratio,
             ..Stack::paper(0.3, 1e2)
         };
-        Outcome::of(&stack).unwrap()
+        LoadingOutcome::of(&stack).unwrap()
     };
     let forces = [0.2, 0.5, 0.9].map(|kappa| outcome(kappa).largest_force.unwrap());
     assert!(
@@ -111,10 +117,10 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
 
 #[test]
 fn a_stack_without_friction_falls_and_one_with_much_of_it_has_no_peak() {
-    let falls = Outcome::of(&Stack::paper(0.05, 1e2)).unwrap();
+    let falls = LoadingOutcome::of(&Stack::paper(0.05, 1e2)).unwrap();
     assert_eq!(falls.failure_mode, FailureMode::Collapses);
     assert_eq!(falls.first.stage, LoadingPhase::OwnWeight);
-    let rough = Outcome::of(&Stack::paper(0.6, 1e2)).unwrap();
+    let rough = LoadingOutcome::of(&Stack::paper(0.6, 1e2)).unwrap();
     assert_eq!(rough.failure_mode, FailureMode::SecondLoadPath);
     assert_eq!([falls.largest_force, rough.largest_force], [None, None]);
 }
@@ -172,7 +178,7 @@ fn outcomes_are_those_that_the_dem_has_shown() {
         (0.08953, 0.7, 1e2, 0.3, "floor-slip under own weight", None),
     ];
     for (mu, mu_d, stiffness, kappa, regime, force) in table {
-        let outcome = Outcome::of(&stack(mu, mu_d, stiffness, kappa)).unwrap();
+        let outcome = LoadingOutcome::of(&stack(mu, mu_d, stiffness, kappa)).unwrap();
         assert_eq!(outcome.regime().to_string(), regime, "{mu} {kappa}");
         assert_eq!(
             outcome.largest_force.is_some(),
@@ -191,7 +197,7 @@ fn outcomes_are_those_that_the_dem_has_shown() {
 #[test]
 fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
     let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 10.0);
-    let outcome = Outcome::of(&stack(0.78, 1.0, 1e2, 10.0)).unwrap();
+    let outcome = LoadingOutcome::of(&stack(0.78, 1.0, 1e2, 10.0)).unwrap();
     assert_eq!(outcome.failure_mode, FailureMode::Softens);
     assert!(outcome.largest_force.unwrap() > outcome.end.unwrap().force * (1.0 + 1e-9));
     // The largest force of the path is 2 max G/epsilon - 1, where the right-hand side of its equation vanishes.
@@ -207,7 +213,7 @@ fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
 #[test]
 fn of_two_contacts_that_are_too_smooth_the_one_that_lacks_more_slides() {
     let first = |mu, mu_d| {
-        let outcome = Outcome::of(&stack(mu, mu_d, 1e2, 2.5)).unwrap();
+        let outcome = LoadingOutcome::of(&stack(mu, mu_d, 1e2, 2.5)).unwrap();
         assert_eq!(outcome.failure_mode, FailureMode::Collapses);
         assert_eq!(outcome.first.wall_travel, 0.0);
         outcome.first.event
@@ -405,7 +411,9 @@ fn neighbours_lie_on_both_sides_at_the_distance_asked_for() {
             .map(|stack| value(&stack) / value(&point.stack));
         assert!((below - (1.0 - THREE_DIGITS)).abs() < 1e-12);
         assert!((above - (1.0 + THREE_DIGITS)).abs() < 1e-12);
-        let sides = point.neighbours().map(|stack| Outcome::of(&stack).unwrap());
+        let sides = point
+            .neighbours()
+            .map(|stack| LoadingOutcome::of(&stack).unwrap());
         assert_eq!(point.sides, sides);
     }
 }
@@ -433,7 +441,7 @@ fn reopenings_are_where_the_fifth_contact_just_opens() {
 fn a_released_stack_ends_where_its_bottom_cylinders_part() {
     for (mu, mu_d) in [(0.3, 0.7), (0.6, 0.32)] {
         let stack = stack(mu, mu_d, 1e2, 0.3);
-        let outcome = Outcome::of(&stack).unwrap();
+        let outcome = LoadingOutcome::of(&stack).unwrap();
         let end = outcome.end.unwrap();
         let overlap = 2.0 - (1.0 + end.tangent * end.tangent) / (2.0 * end.tangent);
         let angle = 2.0 * end.tangent.atan();
@@ -461,7 +469,7 @@ fn released_frictions_are_where_the_released_stack_stands_and_where_it_meets_wal
     // The native DEM, on both sides of either: tests/snapshots, `tristack regimes`.
     assert!(lowest > 0.08953 && lowest < 0.08962, "{lowest}");
     assert!(highest > 0.3881 && highest < 0.3885, "{highest}");
-    let force = |mu| Outcome::of(&stack(mu, 0.7)).unwrap().largest_force;
+    let force = |mu| LoadingOutcome::of(&stack(mu, 0.7)).unwrap().largest_force;
     assert!(force(lowest * (1.0 - 1e-9)).is_none());
     assert!(force(lowest * (1.0 + 1e-9)).unwrap() < 1e-6);
     assert!(force(highest * (1.0 - 1e-9)).is_some() && force(highest * (1.0 + 1e-9)).is_none());

@@ -9,7 +9,7 @@ use tristack::model::{Case, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::runs::{Progress, Recorded, Settings, Store};
 use tristack::study::Verdict;
 use tristack::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
-use tristack::theory::{BoundaryPoint, Event, LoadingPhase, Outcome, RegimeMap};
+use tristack::theory::{BoundaryPoint, Event, LoadingOutcome, LoadingPhase, RegimeMap};
 
 static INTERRUPT: Interrupt = Interrupt::new();
 
@@ -94,7 +94,7 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
             stiffness_ratio,
             ..Stack::paper(mu, 1e2)
         };
-        let claimed = Outcome::of(&stack).unwrap().last;
+        let claimed = LoadingOutcome::of(&stack).unwrap().last;
         assert!(claimed.bottom_force > 0.0);
         let force = |speed: f64| {
             let loading = Loading {

@@ -57,11 +57,11 @@ fn native_is_within_its_round_off_of_a_double_double_twin() {
         Stack::paper(0.2, 1e4),
         Stack::paper(CRITICAL_FRICTION, 1e4),
     ];
-    assert_fair(Code::Native, &stacks);
+    assert_fair(Code::NATIVE, &stacks);
 }
 
 #[test]
 fn yade_is_within_its_round_off_of_a_long_double_twin() {
     let stacks = [Stack::paper(0.2, 1e2), Stack::paper(0.2, 1e4)];
-    assert_fair(Code::Yade, &stacks);
+    assert_fair(Code::named("yade").expect("it is built in"), &stacks);
 }

@@ -43,7 +43,7 @@ fn settings(bench: &Bench) -> Settings<'static> {
 fn study(stacks: &[Stack], relative_pushes: &[f64]) -> Vec<PreparationStudy> {
     let bench = Bench::without_codes();
     let settings = settings(&bench);
-    let codes = [SelectedCode::find(Code::Native)];
+    let codes = [SelectedCode::find(Code::NATIVE)];
     let campaign = Campaign::new(&codes, &settings, &Silent);
     study_preparation(&campaign, stacks, relative_pushes, &[]).expect("native runs")
 }
@@ -134,7 +134,7 @@ fn a_stack_that_slides_while_the_walls_go_is_judged_by_its_peak() {
 /// Pinned on x86-64 Linux, debug build of version 0.1.0; see tests/native_dem.rs.
 #[test]
 fn series_has_the_same_bits_everywhere() {
-    let name = Code::Native;
+    let name = Code::NATIVE;
     let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.005)).cases()[0];
     let series = compress_stack(&case, || true).expect("a finite series");
     let expected = "cf9a41750af317855ae9cca19b87acfc9e4e5f84b78dde668581c110eeb4ca07";
@@ -185,7 +185,7 @@ fn what_cannot_be_prepared_is_refused_with_what_can() {
 #[test]
 fn a_case_file_with_side_walls_is_refused_where_they_are_not_offered() {
     let bench = Bench::without_codes();
-    let name = Code::Lammps;
+    let name = Code::named("lammps").expect("it is built in");
     let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
     assert!(matches!(
         case.protocol.preparation,

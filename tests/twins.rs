@@ -41,7 +41,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
             name: code,
             code: None,
         },
-        SelectedCode::find(Code::Native),
+        SelectedCode::find(Code::NATIVE),
     ];
     let plan = plan_trajectory(code, &trajectory_stack(), declared);
     let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);
@@ -91,7 +91,11 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 
 #[test]
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
-    for code in [Code::Liggghts, Code::Yade, Code::Lammps] {
+    for code in [
+        Code::named("liggghts").expect("it is built in"),
+        Code::named("yade").expect("it is built in"),
+        Code::named("lammps").expect("it is built in"),
+    ] {
         let own = judged(code, code.convention());
         assert_eq!(count(&own, Verdict::Agrees), own.comparisons().len());
         for (what, convention) in wrong(code.convention()) {
@@ -107,7 +111,7 @@ fn a_twin_with_one_part_of_its_convention_wrong_differs() {
 #[test]
 fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
     for what in ["inertia", "operand", "sliding spring"] {
-        let code = Code::Liggghts;
+        let code = Code::named("liggghts").expect("it is built in");
         let (_, convention) = wrong(code.convention())
             .into_iter()
             .find(|(name, _)| *name == what)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Golden values for the theory of the three-cylinder stack.
 
-What   Three tables, written beside this file; every number is good to the 20
+What   Four tables, written beside this file; every number is good to the 20
        significant digits printed:
          small_displacement.csv  the paper's small-displacement theory
          quasistatic.csv         exact quasi-static limit of the DEM, arms 0, 0
-         arms.csv                the same limit with any pair of torque arms
+         arms.csv                the same limit with any pair of arms
+         separate_arms.csv       the same with torque arms and kinematic arms apart
 How    From the equations of equilibrium alone, by routes that a program would
        not take, so that agreement means something:
          elastic      Newton on the five equations of equilibrium in the five
@@ -49,6 +50,11 @@ EXTREMES = [(mu, stiffness, 2.5)
 MU_D = 0.7  # friction between the cylinders
 
 ARMS = [(0, 0), (-0.5, -0.5), (-0.5, -1), (0, -0.5), (-1, 0)]
+# Of LAMMPS pair granular, and any others; each (torque arm, kinematic arm).
+SEPARATE_ARMS = [((-0.5, 0), (0, 0)), ((0, -0.5), (0, 0)), ((0, 0), (-0.5, 0)), ((0, 0), (0, -0.5)),
+                 ((-0.5, 0.25), (-1, -0.5))]
+SEPARATE_STACKS = [(stiffness, kappa, mu) for stiffness, kappa in ((100, 2.5), (10**4, 2.5), (1000, 1.5))
+                   for mu in (0.2, 0.3)]
 ARMS_MU = [0.12, 0.2, 0.25, "critical", 0.3, 0.4, 0.5]
 ARMS_GRIDS = [  # (stiffness, kappa, mu)
     ([100, 1000, 10**4], [2.5], ARMS_MU),
@@ -465,7 +471,8 @@ def quasistatic():
 # --- 3. any torque arms -----------------------------------------------------
 
 class Stack:
-    """Equilibrium with arms R_c = 1 + pair G and R_f = 1 + floor z.
+    """Equilibrium with torque arms R_c = 1 + pair G and R_f = 1 + floor z, and
+    springs that grow with kinematic arms S_c and S_f of the same form.
 
     b R_c = e R_f and -a sin psi + b cos psi + e = 0 give, with a = G,
         b = N R_f, e = N R_c, N = G sin psi/W, W = R_f cos psi + R_c,
@@ -475,9 +482,10 @@ class Stack:
     (three equal weights), L/2 + epsilon under compression.
     """
 
-    def __init__(self, epsilon, kappa, pair_arm, floor_arm):
+    def __init__(self, epsilon, kappa, pair_arm, floor_arm, kinematic_arms=None):
         self.epsilon, self.kappa = epsilon, kappa
         self.pair, self.floor = pair_arm, floor_arm
+        self.kinematic = kinematic_arms or (pair_arm, floor_arm)
         self.ramp()
 
     def ramp(self):
@@ -504,6 +512,11 @@ class Stack:
         n = G * sine(T) / (r_f * cosine(T) + r_c)
         return z, r_c, r_f, n * r_f, n * r_c
 
+    def kinematic_arms(self, G, z):
+        """S_c, S_f."""
+        pair, floor = self.kinematic
+        return 1 + pair * G, 1 + floor * z
+
     def floor_slip(self, T, G, mu):
         """e - mu d, positive beyond floor slip."""
         z, _, _, _, e = self.forces(T, G, self.load(T, G))
@@ -511,12 +524,13 @@ class Stack:
 
     def derivative(self, T, G):
         """dG/dT. The rotation drops out of
-            kappa db = rho dpsi - R_c dtheta,  kappa de = dx_2 + R_f dtheta
-        as kappa (R_f db + R_c de) = R_f rho dpsi + R_c dx_2, x_2 = rho sin psi.
+            kappa db = rho dpsi - S_c dtheta,  kappa de = dx_2 + S_f dtheta
+        as kappa (S_f db + S_c de) = S_f rho dpsi + S_c dx_2, x_2 = rho sin psi.
         Every differential below is a pair (its part in dG, its part in dpsi).
         """
         s, c, rho, load = sine(T), cosine(T), 2 - G, self.load(T, G)
-        _, r_c, r_f, _, _ = self.forces(T, G, load)
+        z, r_c, r_f, _, _ = self.forces(T, G, load)
+        s_c, s_f = self.kinematic_arms(G, z)
         growth = self.floor * self.slope
         w = r_f * c + r_c
         n = G * s / w
@@ -526,10 +540,10 @@ class Stack:
         d_rf = (growth * d_load[0], growth * d_load[1])
         d_w = (c * d_rf[0] + self.pair, c * d_rf[1] - r_f * s)
         d_n = ((s - n * d_w[0]) / w, (G * c - n * d_w[1]) / w)
-        arms = r_f**2 + r_c**2
-        d_arms = (r_f * d_rf[0] + r_c * self.pair, r_f * d_rf[1])
-        in_overlap = self.kappa * (n * d_arms[0] + arms * d_n[0]) + r_c * s
-        in_angle = rho * (r_f + r_c * c) - self.kappa * (n * d_arms[1] + arms * d_n[1])
+        arms = s_f * r_f + s_c * r_c
+        d_arms = (s_f * d_rf[0] + s_c * self.pair, s_f * d_rf[1])
+        in_overlap = self.kappa * (n * d_arms[0] + arms * d_n[0]) + s_c * s
+        in_angle = rho * (s_f + s_c * c) - self.kappa * (n * d_arms[1] + arms * d_n[1])
         return in_angle / in_overlap * 2 / (1 + T**2)
 
 
@@ -606,12 +620,13 @@ def follower_by_increments(stack, mu, steps):
     """
     def increment(here, there):
         (T0, G0, f0), (T1, G1, f1) = here, there
-        r_c, r_f = (f0[1] + f1[1]) / 2, (f0[2] + f1[2]) / 2
+        s_c, s_f = ((one + other) / 2 for one, other in zip(
+            stack.kinematic_arms(G0, f0[0]), stack.kinematic_arms(G1, f1[0])))
         rho = 2 - (G0 + G1) / 2
         d_psi = 2 * (mp.atan(T1) - mp.atan(T0))
         d_x2 = (2 - G1) * sine(T1) - (2 - G0) * sine(T0)
-        return (stack.kappa * (r_f * (f1[3] - f0[3]) + r_c * (f1[4] - f0[4]))
-                - r_f * rho * d_psi - r_c * d_x2)
+        return (stack.kappa * (s_f * (f1[3] - f0[3]) + s_c * (f1[4] - f0[4]))
+                - s_f * rho * d_psi - s_c * d_x2)
 
     def state(T, G):
         return T, G, stack.forces(T, G, stack.load(T, G))
@@ -641,11 +656,17 @@ def follower_by_increments(stack, mu, steps):
     return stack.load(T, G) / stack.epsilon - 1
 
 
+def separate(stiffness, kappa, pair, floor):
+    """A stack; pair and floor are each (torque arm, kinematic arm)."""
+    return Stack(1 / mpf(stiffness), mpf(kappa), mpf(pair[0]), mpf(floor[0]),
+                 (mpf(pair[1]), mpf(floor[1])))
+
+
 def check_increments():
     """Extrapolate the follower by increments to step zero and compare."""
     worst = mpf(0)
-    for pair, floor in ARMS:
-        stack = Stack(mpf(1) / 100, mpf("2.5"), mpf(pair), mpf(floor))
+    for pair, floor in [((arm, arm), (other, other)) for arm, other in ARMS] + SEPARATE_ARMS:
+        stack = separate(100, 2.5, pair, floor)
         row = []
         for j, steps in enumerate((4, 8, 16, 32, 64)):
             new = [follower_by_increments(stack, mpf("0.3"), steps)]
@@ -694,10 +715,23 @@ def arms():
     write("arms.csv", "mu stiffness kappa pair_arm floor_arm floor_slip_force".split(), rows)
 
 
+def separate_arms():
+    rows, worst = [], mpf(0)
+    for (stiffness, kappa, mu), (pair, floor) in itertools.product(SEPARATE_STACKS, SEPARATE_ARMS):
+        stack = separate(stiffness, kappa, pair, floor)
+        force = ArmsPath(stack, "0.05", 14).floor_slip_force(friction(mu))
+        other = ArmsPath(stack, "0.06", 13).floor_slip_force(friction(mu))
+        worst = max(worst, abs(other / force - 1))
+        rows.append([*map(label, (mu, stiffness, kappa, *pair, *floor)), text(force)])
+    print("separate arms: coarser steps, largest relative change", mp.nstr(worst, 3))
+    write("separate_arms.csv", "mu stiffness kappa pair_torque_arm pair_kinematic_arm "
+          "floor_torque_arm floor_kinematic_arm floor_slip_force".split(), rows)
+
+
 def main():
     print("mpmath", mpmath.__version__)
     for table, digits in ((small_displacement, DIGITS), (quasistatic, DIGITS),
-                          (arms, ARMS_DIGITS)):
+                          (arms, ARMS_DIGITS), (separate_arms, ARMS_DIGITS)):
         started = time.time()
         with mp.workdps(digits):
             table()

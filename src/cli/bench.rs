@@ -1,6 +1,6 @@
 //! `tristack bench`.
 
-use super::options::{Format, selected_codes, writable, write_all};
+use super::options::{CodeParser, Format, selected_codes, writable, write_all};
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::{Code, RunContext};
 use crate::files::FileError;
@@ -20,8 +20,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack bench --codes native,lammps --repeats 3")]
 pub struct Arguments {
-    /// Which codes, separated by commas; each must be installed [default: all that are, YADE on its box]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    /// Which codes, separated by commas; each must be installed [default: all that are, of each the first variant]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// How often everything is measured; medians are printed
     #[arg(long, value_name = "N")]
@@ -65,7 +65,7 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
         return Ok(StackBench::installed());
     }
-    let mut names = vec![Code::Native];
+    let mut names = vec![Code::NATIVE];
     names.extend(named);
     let codes = selected_codes(&names)?;
     Ok(codes.iter().map(|who| who.name).collect())

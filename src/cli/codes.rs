@@ -17,7 +17,10 @@ pub struct Arguments {
 
 /// Prints every code that tristack knows.
 pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let found = Code::ALL.map(Inventory::take);
+    let found = Code::all()
+        .into_iter()
+        .map(Inventory::take)
+        .collect::<Vec<_>>();
     let tables = [inventory(&found)];
     let people = || tables[0].shown().terminal();
     super::print(&arguments.format.render(&tables, command, people))

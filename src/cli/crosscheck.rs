@@ -1,7 +1,7 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{Format, RunOptions, selected_codes, writable, write_all};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -29,7 +29,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     profile: Profile,
     /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]

@@ -3,7 +3,6 @@
 use crate::code::{Code, Failure, FailureKind};
 use crate::files::FileError;
 use crate::model::{CaseError, InvalidValue, shown};
-use crate::output::PdfError;
 use crate::paper::claims::RegisterError;
 use crate::paper::reproduction::ReproductionError;
 use crate::runs::StoreError;
@@ -22,7 +21,7 @@ pub enum ExitStatus {
     Inconclusive,
     /// A disagreement was found.
     Disagreement,
-    /// An code failed, timed out or is missing.
+    /// A code failed, timed out or is missing.
     EngineFailed,
     /// Wrong usage or input.
     WrongInput,
@@ -85,7 +84,7 @@ pub enum CliError {
     /// The store cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// An code was asked for by name, but is not installed.
+    /// A code was asked for by name, but is not installed.
     #[error("{0} is not installed: its program is not in the search path, or does not say its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
     MissingEngine(Code),
     /// A run that everything else needs is not there.
@@ -94,10 +93,7 @@ pub enum CliError {
     /// The register of claims is wrong.
     #[error(transparent)]
     Register(#[from] RegisterError),
-    /// A figure cannot be written as PDF.
-    #[error(transparent)]
-    Pdf(#[from] PdfError),
-    /// An code failed.
+    /// A code failed.
     #[error(transparent)]
     InstalledCode(#[from] Box<Failure>),
 }

@@ -9,7 +9,6 @@ use crate::output::explanation;
 use crate::runs::SelectedCode;
 use crate::study::Campaign;
 use crate::study::yield_force::{measure_with_twin, plan};
-use clap::ValueEnum;
 
 /// One row of a crosscheck.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +23,8 @@ pub fn row_name(text: &str) -> Result<RowName, String> {
     let [code, mu, stiffness] = parts[..] else {
         return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
     };
-    let code = Code::from_str(code, true).map_err(|_| {
-        let names: Vec<&str> = Code::ALL.iter().map(|name| name.as_str()).collect();
+    let code = Code::named(code).ok_or_else(|| {
+        let names: Vec<&str> = Code::all().into_iter().map(Code::as_str).collect();
         format!("`{code}` is no code; accepted are {}", names.join(", "))
     })?;
     let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;

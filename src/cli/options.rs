@@ -1,7 +1,7 @@
 //! Options that several commands share.
 
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::Code;
+use crate::code::{Code, ManifestError};
 use crate::files::{FileError, write_atomically};
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
@@ -9,8 +9,11 @@ use crate::model::{
 };
 use crate::output::{DataTable, json};
 use crate::runs::Store;
-use crate::runs::{Recorded, SelectedCode, Settings};
+use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -214,22 +217,67 @@ fn directory_from(variable: &str) -> Option<PathBuf> {
     value.map(PathBuf::from)
 }
 
+/// Reads a code: a name, or the path of a folder with a manifest, which has a `/` and, where the folder describes
+/// several codes, ends in `:NAME`.
+#[derive(Debug, Clone, Copy)]
+pub struct CodeParser;
+
+impl TypedValueParser for CodeParser {
+    type Value = Code;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Code, clap::Error> {
+        let text = value.to_string_lossy();
+        if text.contains('/') {
+            return code_in_folder(&text).map_err(|error| {
+                clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
+            });
+        }
+        let name = names().parse_ref(command, argument, value)?;
+        Ok(Code::named(&name).unwrap_or(Code::NATIVE))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = Code::all().into_iter().map(Code::as_str);
+        Some(Box::new(names.map(PossibleValue::new)))
+    }
+}
+
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Code::all().into_iter().map(Code::as_str))
+}
+
+fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
+    match text.rsplit_once(':') {
+        Some((folder, name)) if !name.contains('/') => {
+            Code::in_folder(Path::new(folder), Some(name))
+        }
+        _ => Code::in_folder(Path::new(text), None),
+    }
+}
+
 /// The codes named, each of which must be installed; all codes if none is named.
 pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(Code::ALL.into_iter().map(SelectedCode::find).collect());
+        return Ok(find_all(&Code::all()));
     }
     let mut names = named.to_vec();
     names.sort();
     names.dedup();
-    let found = names.into_iter().map(|name| {
-        let selected = SelectedCode::find(name);
-        let installed = selected.code.is_some();
-        installed
-            .then_some(selected)
-            .ok_or(CliError::MissingEngine(name))
+    let found = find_all(&names).into_iter().map(|selected| {
+        let missing = CliError::MissingEngine(selected.name);
+        selected.code.is_some().then_some(selected).ok_or(missing)
     });
     found.collect()
+}
+
+/// The codes named, as they are installed here. All programs are asked for their versions at the same time.
+fn find_all(names: &[Code]) -> Vec<SelectedCode> {
+    in_parallel(names, names.len(), |name| SelectedCode::find(*name))
 }
 
 /// Creates `directory` and makes sure that files can be written there.

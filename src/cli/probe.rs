@@ -1,6 +1,6 @@
 //! `tristack probe`.
 
-use super::options::{Format, RunOptions, selected_codes};
+use super::options::{CodeParser, Format, RunOptions, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -22,7 +22,7 @@ use clap::Args;
 #[command(after_help = "Example: tristack probe --codes native,lammps --format json")]
 pub struct Arguments {
     /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     #[command(flatten)]
     run: RunOptions,

@@ -1,6 +1,6 @@
 //! `tristack record`.
 
-use super::options::{RunOptions, reference_directory, selected_codes};
+use super::options::{CodeParser, RunOptions, reference_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::trajectories::plans;
@@ -37,7 +37,7 @@ enum Set {
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub struct Arguments {
     /// Which codes, separated by commas; each must be installed [default: all external ones]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Only what one command needs [default: all]
     #[arg(long, value_enum, value_name = "COMMAND")]
@@ -49,7 +49,7 @@ pub struct Arguments {
 /// Runs and records, code by code; an code with a failed run keeps its old recordings.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let external: Vec<Code> = match arguments.codes.as_slice() {
-        [] => Code::ALL
+        [] => Code::all()
             .into_iter()
             .filter(|name| !name.accepts_any_convention())
             .collect(),

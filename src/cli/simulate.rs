@@ -1,6 +1,8 @@
 //! `tristack simulate`.
 
-use super::options::{ArmOptions, Format, StackOptions, as_flag, friction, time_limit, writable};
+use super::options::{
+    ArmOptions, CodeParser, Format, StackOptions, as_flag, friction, time_limit, writable,
+};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Run;
 use crate::code::{Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
@@ -36,7 +38,7 @@ enum PreparationKind {
 )]
 pub struct Arguments {
     /// Who runs it
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
     #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "pair_kinematic_arm", "floor_arm", "floor_kinematic_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
@@ -56,7 +58,7 @@ pub struct Arguments {
     stack: StackOptions,
     #[command(flatten)]
     arms: ArmOptions,
-    /// How the stack is brought to rest; native, liggghts and yade offer side walls
+    /// How the stack is brought to rest; a code without a deck for side walls refuses them
     #[arg(long, value_enum, default_value_t = PreparationKind::GravityRamp)]
     preparation: PreparationKind,
     /// How far each side wall is pushed in, A in r [default: 0]
@@ -174,7 +176,7 @@ fn remove_vtk_series(directory: &Path) -> Result<(), FileError> {
 /// Every sampled moment of the run. The native DEM, whose series leaves out the forces between the cylinders,
 /// runs once more, to the same bits.
 fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
-    if code != Code::Native {
+    if code != Code::NATIVE {
         return Ok(Frames::of_trace(&run.series, run.case.protocol.wall_speed));
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());

@@ -2,7 +2,8 @@
 
 use super::crosscheck::conclude;
 use super::options::{
-    ArmOptions, Format, RunOptions, StackOptions, as_flag, friction, selected_codes, writable,
+    ArmOptions, CodeParser, Format, RunOptions, StackOptions, as_flag, friction, selected_codes,
+    writable,
 };
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -29,7 +30,7 @@ const STACKS_AT_ONCE: usize = 2000;
 )]
 pub struct Arguments {
     /// Who measures
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     /// Floor frictions from A to B in steps, or a single one
     #[arg(long, value_name = "A:B:STEP", value_parser = Frictions::parse, allow_negative_numbers = true)]

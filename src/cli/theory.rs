@@ -36,7 +36,7 @@ pub struct Arguments {
 
 /// Prints the predictions for every combination of friction and stiffness.
 pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let convention = arguments.arms.convention(Code::Native)?;
+    let convention = arguments.arms.convention(Code::NATIVE)?;
     let stacks = arguments
         .stack
         .stacks(&arguments.mu, &arguments.stiffness)?;

@@ -1,6 +1,6 @@
 //! `tristack trajectories`.
 
-use super::options::{Format, RunOptions, selected_codes, writable, write_all};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out results")]
 pub struct Arguments {
     /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "E1,E2")]
+    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Directory for trajectories.csv, trajectories.json and trajectories.md
     #[arg(long, value_name = "DIR")]
@@ -42,12 +42,12 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes)?;
     let mut codes = selected_codes(&arguments.codes)?;
-    codes.retain(|selected| selected.name != Code::Native);
+    codes.retain(|selected| selected.name != Code::NATIVE);
     if let Some(directory) = &arguments.out {
         writable(directory)?;
     }
     let plans = plans(codes.iter().map(|selected| selected.name));
-    codes.push(SelectedCode::find(Code::Native));
+    codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let reporter = Reporter::new();
     let planned = plans.len();
@@ -71,13 +71,13 @@ pub(super) fn plans(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
 }
 
 fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
-    if !named.contains(&Code::Native) {
+    if !named.contains(&Code::NATIVE) {
         return Ok(());
     }
-    let others = Code::ALL.into_iter().skip(1).map(Code::as_str);
+    let others = Code::all().into_iter().skip(1).map(Code::as_str);
     Err(InvalidValue {
         key: "--codes".to_owned(),
-        value: Code::Native.to_string(),
+        value: Code::NATIVE.to_string(),
         accepted: format!(
             "{}: the native code is what they are compared with",
             others.collect::<Vec<_>>().join(", ")

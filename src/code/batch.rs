@@ -1,10 +1,12 @@
 //! Tasks for one process of an external code: run directories, the runner, blame, outcomes read back.
 
-use super::deck::only_numbers;
-use super::external::ExternalCode;
-use super::process::{Ending, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
-use super::task::{Deck, Task};
-use super::{Failure, FailureKind, Finished, RunContext};
+use super::failure::{Failure, FailureKind};
+use super::installation::InstalledProgram;
+use super::installed::{Finished, RunContext};
+use super::manifest::{Definition, ResultFile};
+use super::parameters::only_numbers;
+use super::process::{Ending, Environment, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
+use super::task::Task;
 use crate::files::{FileError, remove_abandoned};
 use std::ffi::OsString;
 use std::fs;
@@ -12,22 +14,15 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Some thirty times the start-up and the slowest step that were ever seen.
-pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
-const LONGEST_STEP: Duration = Duration::from_micros(100);
 const LAST_LINES: usize = 4;
 const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
 
-/// Time after which a task of so many steps counts as hanging.
-pub fn time_limit(steps: u64) -> Duration {
-    LONGEST_START + LONGEST_STEP.saturating_mul(u32::try_from(steps).unwrap_or(u32::MAX))
-}
-
-/// Some tasks for one process.
+/// Some tasks of one kind for one process.
 pub struct Batch<'a, T: Task> {
-    code: &'a ExternalCode,
-    deck: &'a Deck<T>,
+    program: &'a InstalledProgram,
+    definition: &'static Definition,
+    result: ResultFile,
     tasks: &'a [T],
     directory: PathBuf,
     /// Directories of the tasks, relative to `directory`.
@@ -41,13 +36,9 @@ pub struct Batch<'a, T: Task> {
 type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 
 impl<'a, T: Task> Batch<'a, T> {
-    /// `tasks` for one process of `code`, in `directory`.
-    pub fn new(
-        code: &'a ExternalCode,
-        deck: &'a Deck<T>,
-        tasks: &'a [T],
-        directory: PathBuf,
-    ) -> Self {
+    /// `tasks`, at least one, for one process of `program`, in `directory`.
+    pub fn new(program: &'a InstalledProgram, tasks: &'a [T], directory: PathBuf) -> Self {
+        let definition = program.code.definition();
         let task_directories: Vec<String> = match tasks {
             [_] => vec![".".to_owned()],
             _ => (0..tasks.len())
@@ -55,8 +46,9 @@ impl<'a, T: Task> Batch<'a, T> {
                 .collect(),
         };
         Self {
-            code,
-            deck,
+            program,
+            definition,
+            result: definition.result(tasks[0].kind()),
             tasks,
             directory,
             task_directories,
@@ -112,28 +104,34 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn prepare(&self) -> Result<(), FailureKind> {
-        self.code.installation.check_unchanged()?;
-        let adapter = self.code.adapter;
+        self.program.installation.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let accepted = adapter.name.check_convention(task.convention());
+            let accepted = self.program.code.check_convention(task.convention());
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let (file, parameters) = (adapter.parameter_file, task.parameters());
+            let (file, parameters) = (&self.definition.parameters, task.parameters());
             only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
-            write(&directory.join(file.name()), &file.content(&parameters))?;
+            let content = file.format.content(&parameters);
+            write(&directory.join(&file.file), content.as_bytes())?;
             for (name, content) in task.files() {
-                write(&directory.join(name), &content)?;
+                write(&directory.join(name), content.as_bytes())?;
             }
             // What an earlier run left behind must not pass for the result of this one.
-            for stale in self.deck.completion_file.iter().chain(adapter.logs) {
+            for stale in self.logs().iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
         }
-        for (name, content) in self.deck.files {
+        for (name, content) in self.definition.files(self.tasks[0].kind()) {
             write(&self.directory.join(name), content)?;
         }
         Ok(())
+    }
+
+    /// Files of the program's own that say what went wrong.
+    fn logs(&self) -> &'static [String] {
+        let program = self.definition.program.as_ref();
+        program.map_or(&[], |program| &program.logs)
     }
 
     fn run_process(
@@ -141,9 +139,12 @@ impl<'a, T: Task> Batch<'a, T> {
         context: &RunContext,
         report: Report<T>,
     ) -> Result<Ending, FailureKind> {
-        let command = self.code.command(self.deck, &self.task_directories);
+        let kind = self.tasks[0].kind();
+        let command = self.program.command(kind, &self.task_directories);
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
-        command[0] = self.code.installation.program.clone().into_os_string();
+        command[0] = self.program.installation.program.clone().into_os_string();
+        let none = Environment::new();
+        let own = self.definition.program.as_ref();
         let directory = self.directory.clone();
         // In the directory of a user, a killed program may have left one.
         remove_abandoned(&directory, HOME.as_ref());
@@ -157,7 +158,7 @@ impl<'a, T: Task> Batch<'a, T> {
             command: &command,
             directory: &directory,
             home: &std::path::absolute(home.path()).map_err(FailureKind::Start)?,
-            environment: self.code.adapter.environment,
+            environment: own.map_or(&none, |program| &program.environment),
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
@@ -165,12 +166,8 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn time_limit(&self, context: &RunContext) -> Duration {
-        let longest = self
-            .tasks
-            .iter()
-            .map(Task::time_limit)
-            .max()
-            .unwrap_or(LONGEST_START);
+        let steps = self.tasks.iter().map(Task::steps).max();
+        let longest = self.definition.time_limit(steps.unwrap_or(0));
         context.time_limit.unwrap_or(longest)
     }
 
@@ -185,8 +182,8 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn is_complete(&self, index: usize) -> bool {
-        let file = self.deck.completion_file;
-        file.is_some_and(|file| self.task_directory(index).join(file).is_file())
+        let file = self.task_directory(index).join(&self.result.file);
+        self.definition.runs_many() && file.is_file()
     }
 
     fn task_directory(&self, index: usize) -> PathBuf {
@@ -198,9 +195,10 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn read(&mut self, index: usize, report: Report<T>) {
         let directory = self.task_directory(index);
-        let outcome = (self.deck.read)(&directory, &self.tasks[index]).map_err(FailureKind::Series);
+        let outcome = self.tasks[index].read_outcome(&directory, &self.result);
+        let outcome = outcome.map_err(FailureKind::Series);
         // A program that was replaced meanwhile may not be the one that answered.
-        let unchanged = self.code.installation.check_unchanged();
+        let unchanged = self.program.installation.check_unchanged();
         match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
                 let seconds = self.last_report.elapsed().as_secs_f64();
@@ -212,7 +210,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn fail(&mut self, index: usize, kind: FailureKind, report: Report<T>) {
         let failure = Failure {
-            code: self.code.adapter.name,
+            code: self.program.code,
             subject: self.tasks[index].to_string(),
             kind,
             run_directory: Some(self.task_directory(index)),
@@ -233,7 +231,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn last_lines(&self) -> Vec<String> {
-        let logs = self.code.adapter.logs.iter().copied();
+        let logs = self.logs().iter().map(String::as_str);
         logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
             .flat_map(|name| {
                 let lines = tail(&self.directory.join(name));
@@ -243,8 +241,11 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 }
 
-fn write(path: &Path, content: &str) -> Result<(), FailureKind> {
-    fs::write(path, content).map_err(|error| FileError::writing(path)(error).into())
+/// Writes a file of a task, which may lie in a folder of its own.
+fn write(path: &Path, content: &[u8]) -> Result<(), FailureKind> {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, content));
+    written.map_err(|error| FileError::writing(path)(error).into())
 }
 
 fn remove(path: &Path) -> Result<(), FailureKind> {

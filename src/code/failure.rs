@@ -1,6 +1,6 @@
 //! A run that did not deliver, with everything needed to look into it.
 
-use super::Code;
+use super::registry::Code;
 use crate::files::FileError;
 use crate::model::{InvalidValue, shown};
 use crate::series::SeriesError;
@@ -9,7 +9,7 @@ use std::process::ExitStatus;
 use std::time::Duration;
 use thiserror::Error;
 
-/// Why an code delivered no series.
+/// Why a code delivered no series.
 #[derive(Debug, Error)]
 pub enum FailureKind {
     /// The code cannot run this case.

@@ -1,8 +1,10 @@
-//! Which binary an code is, and which version.
+//! The program of a code as it is installed here: which file, and which version.
 
-use super::batch::LONGEST_START;
-use super::process::{self, Ending, Interrupt, Job};
-use super::{Environment, FailureKind};
+use super::definition::LONGEST_START;
+use super::failure::FailureKind;
+use super::manifest::{TaskKind, VersionQuestion};
+use super::process::{self, Ending, Environment, Interrupt, Job};
+use super::registry::Code;
 use crate::model::sha256_hex;
 use std::ffi::OsString;
 use std::os::unix::fs::MetadataExt;
@@ -14,6 +16,7 @@ const TRIES: usize = 3;
 
 /// A version in characters: it stands in tables.
 const LONGEST_VERSION: usize = 100;
+const UNKNOWN: &str = "unknown";
 
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,29 +57,48 @@ impl Stamp {
     }
 }
 
-/// How a program says its version.
-pub struct VersionQuestion {
-    /// Arguments that make it print the version.
-    pub arguments: &'static [&'static str],
-    /// What stands before the version in the first line it prints.
-    pub before_version: &'static str,
-    /// Whether the version of its package, which is quicker to know, is as good.
-    pub package_says_it: bool,
+/// A code whose program is installed.
+pub struct InstalledProgram {
+    /// Whose tasks it carries out.
+    pub code: Code,
+    /// First word of the command: that of the manifest, or a build in another precision.
+    pub word: String,
+    /// Where it was found.
+    pub installation: Installation,
+}
+
+impl InstalledProgram {
+    /// The program `word` as it is installed here, started like that of `code`.
+    pub fn find(code: Code, word: &str) -> Option<Self> {
+        let program = code.definition().program.as_ref()?;
+        Some(Self {
+            code,
+            word: word.to_owned(),
+            installation: find(word, &program.version, &program.environment)?,
+        })
+    }
+
+    /// Program and arguments that carry out tasks of one kind in `directories`.
+    pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
+        let mut command = self.code.definition().command(kind, directories);
+        command[0].clone_from(&self.word);
+        command
+    }
 }
 
 /// Looks for `program` in the search path and asks the package manager, or the program itself in its
 /// `environment`, for its version. One that does not say within [`LONGEST_START`] which it is counts as not there:
 /// its runs would be kept under a wrong name.
-pub fn find(
+fn find(
     program: &str,
     question: &VersionQuestion,
-    environment: Environment,
+    environment: &Environment,
 ) -> Option<Installation> {
     let program = in_search_path(program)?;
     let stamp = Stamp::of(&program)?;
     let package = owning_package(&program).ok()?;
     let version = match &package {
-        Some((_, version)) if question.package_says_it => upstream(version).to_owned(),
+        Some((_, version)) if question.package => upstream(version).to_owned(),
         _ => own_version(&program, question, environment).ok()?,
     };
     let hash = sha256_hex(&std::fs::read(&program).ok()?);
@@ -107,7 +129,7 @@ fn owning_package(program: &Path) -> Result<Option<(String, String)>, TooSlow> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
         command.extend(arguments);
-        answer(&command, &[], LONGEST_START)
+        answer(&command, &Environment::new(), LONGEST_START)
     };
     let Ok(resolved) = program.canonicalize() else {
         return Ok(None);
@@ -136,25 +158,28 @@ fn upstream(version: &str) -> &str {
 fn own_version(
     program: &Path,
     question: &VersionQuestion,
-    environment: Environment,
+    environment: &Environment,
 ) -> Result<String, TooSlow> {
+    if question.arguments.is_empty() {
+        return Ok(UNKNOWN.to_owned());
+    }
     let mut command = vec![program.as_os_str().to_owned()];
     command.extend(question.arguments.iter().map(OsString::from));
     let text = answer(&command, environment, LONGEST_START)?.unwrap_or_default();
-    Ok(version_in_answer(&text, question.before_version))
+    Ok(version_in_answer(&text, &question.before))
 }
 
 /// The version in what a program answers when asked for it: the first line, as far as it goes from
-/// `before_version` to a comma; `unknown` if there is nothing readable.
-pub fn version_in_answer(answer: &str, before_version: &str) -> String {
+/// `before` to a comma; `unknown` if there is nothing readable.
+pub fn version_in_answer(answer: &str, before: &str) -> String {
     let first = answer.lines().find(|line| !line.trim().is_empty());
     let line = first.unwrap_or_default().trim();
-    let rest = line.strip_prefix(before_version).unwrap_or(line);
+    let rest = line.strip_prefix(before).unwrap_or(line);
     let version = rest.split(',').next().unwrap_or(rest);
     let readable = version.chars().filter(|char| !char.is_control());
     let version: String = readable.take(LONGEST_VERSION).collect();
     match version.trim() {
-        "" => "unknown".to_owned(),
+        "" => UNKNOWN.to_owned(),
         version => version.to_owned(),
     }
 }
@@ -166,7 +191,7 @@ struct TooSlow;
 /// What a command that succeeds writes to its standard output.
 fn answer(
     command: &[OsString],
-    environment: Environment,
+    environment: &Environment,
     time_limit: Duration,
 ) -> Result<Option<String>, TooSlow> {
     let job = Job {
@@ -205,7 +230,7 @@ mod tests {
 
     fn ask(command: &[&str]) -> Result<Option<String>, TooSlow> {
         let command: Vec<OsString> = command.iter().map(OsString::from).collect();
-        answer(&command, &[], Duration::from_secs(1))
+        answer(&command, &Environment::new(), Duration::from_secs(1))
     }
 
     #[test]
@@ -217,11 +242,8 @@ mod tests {
 
     #[test]
     fn a_program_that_does_not_exist_is_not_installed() {
-        let question = VersionQuestion {
-            arguments: &[],
-            before_version: "",
-            package_says_it: false,
-        };
-        assert_eq!(find("tristack-has-no-such-code", &question, &[]), None);
+        let question = VersionQuestion::default();
+        let found = find("tristack-has-no-such-code", &question, &Environment::new());
+        assert_eq!(found, None);
     }
 }

@@ -3,6 +3,7 @@
 use super::capture::Capture;
 use super::guard;
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
+use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::path::Path;
@@ -20,6 +21,9 @@ const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 pub const STANDARD_OUTPUT: &str = "stdout.txt";
 /// See [`STANDARD_OUTPUT`].
 pub const STANDARD_ERROR: &str = "stderr.txt";
+
+/// Variables for the environment of a program.
+pub type Environment = BTreeMap<String, String>;
 
 /// The user's wish to stop, shared by everything that runs.
 #[derive(Debug, Default)]
@@ -51,7 +55,7 @@ pub struct Job<'a> {
     /// Its home, and the place of its temporary files.
     pub home: &'a Path,
     /// Further variables of its otherwise minimal environment.
-    pub environment: &'a [(&'a str, &'a str)],
+    pub environment: &'a Environment,
     /// Longest time without progress.
     pub time_limit: Duration,
     /// Set when the user wants to stop.
@@ -153,7 +157,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
             .env("TMPDIR", job.home)
             .env("LC_ALL", "C.UTF-8")
             .env("OMP_NUM_THREADS", "1")
-            .envs(job.environment.iter().copied())
+            .envs(job.environment)
             // A guard watches its end; for other programs nothing is ever in it.
             .stdin(if prefix.is_empty() {
                 Stdio::null()

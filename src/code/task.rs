@@ -1,41 +1,62 @@
-//! What an code can be asked to do, and the files in which an external code is told.
+//! Tasks: what a code turns into an outcome.
 
-use crate::model::{Case, ContactConvention, ContactTest, Pyramid};
+use super::format::pyramid_in_log;
+use super::manifest::{ResultFile, TaskKind};
+use super::parameters::{DeckParameters, ProbeParameters, PyramidParameters, placed_cylinders};
+use super::registry::Code;
+use super::written::read;
+use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use serde::Serialize;
 use std::path::Path;
-use std::time::Duration;
 
-use super::batch::time_limit;
-use super::deck::{DeckParameters, ProbeParameters, PyramidParameters, placed_cylinders};
+/// The dump is the last thing that a deck does, so that it is not of an earlier run if the code has succeeded.
+const CENTRES: &str = "centres.txt";
 
-/// Something that an code turns into an outcome: a case into a series, a micro-test into a motion.
+/// A task of a code: a case becomes a series, a micro-test a motion.
 pub trait Task: Copy + std::fmt::Display + Sync {
     /// What comes out.
     type Outcome;
 
+    /// Which deck carries it out.
+    fn kind(&self) -> TaskKind;
+
     /// What a contact must be to the code.
     fn convention(&self) -> &ContactConvention;
 
-    /// Time steps in all.
+    /// Steps of a stack that take as long, at the most.
     fn steps(&self) -> u64;
 
-    /// What a deck has to be told, as an object of named numbers.
+    /// Named numbers for the deck.
     fn parameters(&self) -> serde_json::Value;
 
-    /// What a deck has to be told beyond that: files by name and content.
+    /// Every value in its range, or the first one that is not.
+    fn validate(&self) -> Result<(), InvalidValue> {
+        Ok(())
+    }
+
+    /// Further files for the deck, by name and content.
     fn files(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 
-    /// Time after which it counts as hanging.
-    fn time_limit(&self) -> Duration {
-        time_limit(self.steps())
-    }
+    /// Reads the outcome that a program has written into `directory`.
+    ///
+    /// # Errors
+    /// If it is not there, or is not that of the task.
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<Self::Outcome, SeriesError>;
 }
 
 impl Task for Case {
     type Outcome = Series;
+
+    fn kind(&self) -> TaskKind {
+        TaskKind::of(&self.protocol.preparation)
+    }
 
     fn convention(&self) -> &ContactConvention {
         &self.convention
@@ -48,10 +69,18 @@ impl Task for Case {
     fn parameters(&self) -> serde_json::Value {
         named(&DeckParameters::new(self))
     }
+
+    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Series, SeriesError> {
+        result.format.series(&read(directory, &result.file)?, self)
+    }
 }
 
 impl Task for ContactTest {
     type Outcome = Motion;
+
+    fn kind(&self) -> TaskKind {
+        TaskKind::Motion
+    }
 
     fn convention(&self) -> &ContactConvention {
         &self.convention
@@ -64,79 +93,67 @@ impl Task for ContactTest {
     fn parameters(&self) -> serde_json::Value {
         named(&ProbeParameters::new(self))
     }
+
+    fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Motion, SeriesError> {
+        result.format.motion(&read(directory, &result.file)?, self)
+    }
 }
 
 impl Task for Pyramid {
     type Outcome = PyramidRun;
 
+    fn kind(&self) -> TaskKind {
+        TaskKind::Pyramid
+    }
+
     fn convention(&self) -> &ContactConvention {
         &self.convention
     }
 
+    /// As if every cylinder took as long as a whole stack.
     fn steps(&self) -> u64 {
-        self.total_steps()
+        let cylinders = self.cylinder_count() as u64;
+        self.total_steps().saturating_mul(cylinders)
     }
 
     fn parameters(&self) -> serde_json::Value {
         named(&PyramidParameters::new(self))
     }
 
+    fn validate(&self) -> Result<(), InvalidValue> {
+        Self::validate(self)
+    }
+
     fn files(&self) -> Vec<(&'static str, String)> {
         vec![placed_cylinders(self)]
     }
 
-    /// As if every cylinder took as long as a whole stack.
-    fn time_limit(&self) -> Duration {
-        let cylinders = self.cylinder_count() as u64;
-        time_limit(self.steps().saturating_mul(cylinders))
+    fn read_outcome(
+        &self,
+        directory: &Path,
+        result: &ResultFile,
+    ) -> Result<PyramidRun, SeriesError> {
+        let [log, dump] = [result.file.as_str(), CENTRES].map(|name| read(directory, name));
+        pyramid_in_log(&log?, &dump?, self)
+    }
+}
+
+impl Code {
+    /// Hash of everything that this version of tristack would give the code for `task`: files, parameters, command
+    /// and environment. For the native code its sources take the place of the files.
+    pub fn deck_hash<T: Task>(self, task: &T) -> String {
+        let definition = self.definition();
+        let kind = task.kind();
+        let file = &definition.parameters;
+        let content = file.format.content(&task.parameters());
+        let command = definition.command(kind, &[".".to_owned()]);
+        let program = definition.program.as_ref();
+        let environment = program.map(|program| &program.environment);
+        let given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
+        sha256_hex(format!("{}\n{given}", self.files_hash(kind)).as_bytes())
     }
 }
 
 fn named(parameters: &impl Serialize) -> serde_json::Value {
     serde_json::to_value(parameters).expect("a struct of finite numbers has a JSON form")
-}
-
-/// How a parameter file is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ParameterFile {
-    /// `parameters.json`, numbers in their shortest exact form.
-    Json,
-    /// `parameters.in`, variables of LAMMPS and LIGGGHTS; of string style, because it alone passes every
-    /// digit.
-    Lammps,
-}
-
-impl ParameterFile {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Json => "parameters.json",
-            Self::Lammps => "parameters.in",
-        }
-    }
-
-    /// Its content.
-    pub fn content(self, parameters: &serde_json::Value) -> String {
-        match self {
-            Self::Json => format!("{parameters:#}\n"),
-            Self::Lammps => {
-                let entries = parameters.as_object().into_iter().flatten();
-                entries
-                    .map(|(name, number)| format!("variable {name} string {number}\n"))
-                    .collect()
-            }
-        }
-    }
-}
-
-/// A deck: what a code is given to carry out tasks of one kind.
-pub struct Deck<T: Task> {
-    /// Files by name and content.
-    pub files: &'static [(&'static str, &'static str)],
-    /// Arguments that carry out the tasks in the given directories.
-    pub arguments: fn(&[String]) -> Vec<String>,
-    /// For a code that does many tasks in one process: the file of a task that appears when it is done.
-    pub completion_file: Option<&'static str>,
-    /// Reads the outcome from the directory of a task.
-    pub read: fn(&Path, &T) -> Result<T::Outcome, SeriesError>,
 }

@@ -18,7 +18,7 @@ pub fn run_contact_test(test: &ContactTest) -> Result<Motion, SeriesError> {
     run_contact_test_with(test, model)
 }
 
-/// The same with any contact law.
+/// Runs `test` with any contact law.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers.

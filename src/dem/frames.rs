@@ -1,4 +1,4 @@
-//! The sampled moments of a native run with all contact forces.
+//! The sampled states of a native run with all contact forces.
 
 use super::contact::SpringDashpot;
 use super::stack_run::{compress_stack_watched, law};
@@ -6,11 +6,11 @@ use super::stack_scene::{FLOOR, StackScene, TOP, TOP_WALL};
 use crate::model::Case;
 use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, Series, SeriesError};
 
-/// Does what [`compress_stack`](super::compress_stack) does, to the same bits, and keeps every contact force
+/// Compresses the stack like [`compress_stack`](super::compress_stack), to the same bits, and keeps every contact force
 /// at every row of the series.
 ///
 /// # Errors
-/// If the motion leaves the finite numbers, or is no longer wanted.
+/// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack_into_frames(
     case: &Case,
     wanted: impl Fn() -> bool,
@@ -32,7 +32,7 @@ pub fn compress_stack_into_frames(
     Ok((series, frames))
 }
 
-/// The scene as it is, without a date.
+/// The present state of the scene, at time 0.
 fn frame(scene: &StackScene<f64, SpringDashpot<f64>>) -> Frame {
     let cylinders = scene.cylinders.iter().map(|cylinder| PlacedCylinder {
         position: cylinder.position,

@@ -7,13 +7,13 @@ use super::stack_scene::StackScene;
 use crate::model::Case;
 use crate::series::{DropWatch, Sample};
 
-/// Some milliseconds.
+/// Steps between two calls of `wanted`: some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
-/// How far one lane is.
+/// The run in one lane.
 #[derive(Debug, Clone)]
 pub(super) struct Lane {
-    /// Which case it is, to those who have put it there.
+    /// Index of the case.
     pub(super) index: usize,
     pub(super) case: Case,
     /// Steps done, from the start of the preparation.
@@ -22,13 +22,13 @@ pub(super) struct Lane {
     pub(super) samples: Vec<Sample>,
     program: LoadingProgram,
     next_event: Option<u64>,
-    /// What ends the run early, and the step of the compression from which it counts.
+    /// The drop of the wall force that ends the run early, and the step of the compression from which it counts.
     drop: (DropWatch, u64),
     is_over: bool,
 }
 
 impl Lane {
-    /// A run of `case` of which `step` steps are done and `samples` taken.
+    /// A run of `case`, after `step` steps and with the `samples` taken so far.
     pub(super) fn new(index: usize, case: Case, step: u64, samples: Vec<Sample>) -> Self {
         let program = LoadingProgram::new(&case);
         let mut lane = Self {
@@ -45,7 +45,7 @@ impl Lane {
         lane
     }
 
-    /// Takes in a row; nothing happens any more after the last one.
+    /// Adds a row; the run ends after the last one.
     fn take(&mut self, sample: Sample) {
         let (watch, from) = &mut self.drop;
         if sample.step >= *from && watch.has_dropped(sample.wall_force) {
@@ -63,15 +63,15 @@ impl Lane {
     }
 }
 
-/// Fills lanes, and takes out what is in them.
+/// Supplies the lanes with runs, and receives the results.
 pub(super) trait Supervisor<R: Real, Model: ContactModel<R>> {
     /// Puts the next run into a lane, if there is one.
     fn fill(&mut self, stack: &mut StackScene<R, Model>, lane: usize) -> Option<Lane>;
-    /// Whether to go on; asked every few milliseconds.
+    /// Whether to continue; called every few milliseconds.
     fn wanted(&mut self, stack: &StackScene<R, Model>, lanes: &[Option<Lane>]) -> bool;
-    /// A row has been taken.
+    /// Called when a row has been taken.
     fn sampled(&mut self, _stack: &StackScene<R, Model>) {}
-    /// The run of a lane has ended, early if no longer wanted.
+    /// Receives the run of a lane when it has ended, possibly early.
     fn ended(&mut self, lane: Lane);
 }
 
@@ -82,7 +82,7 @@ pub(super) struct LaneGroup<R: Real, Model: ContactModel<R>> {
 }
 
 impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
-    /// Lanes without runs; `stack` says what all their stacks have in common.
+    /// Lanes without runs, which share the properties of `stack`.
     pub(super) fn new(stack: StackScene<R, Model>) -> Self {
         Self {
             stack,
@@ -90,7 +90,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
         }
     }
 
-    /// Fills the lanes again and again, until nothing is left or wanted.
+    /// Runs everything that `supervisor` supplies, until nothing is left or the runs are given up.
     pub(super) fn run(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
         for lane in 0..self.lanes.len() {
             self.lanes[lane] = supervisor.fill(&mut self.stack, lane);
@@ -115,7 +115,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
         }
     }
 
-    /// Steps until something happens in some lane; `None` if all are empty.
+    /// Steps until the next action or row in any lane; `None` if all are empty.
     fn quiet_steps(&self) -> Option<u64> {
         let lanes = self.lanes.iter().flatten();
         lanes
@@ -135,7 +135,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
         scene.time_step.vectorize(Stepping { scene, part });
     }
 
-    /// One step in which something happens.
+    /// One step with an action or a row.
     fn eventful_step(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
         for (index, lane) in eventful(&mut self.lanes) {
             let mut act = |action| self.stack.act(index, action);
@@ -155,7 +155,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
         }
     }
 
-    /// Counts the step, and takes the run out if it was its last.
+    /// Counts the step, and removes the run if it was its last.
     fn step_on(&mut self, index: usize, supervisor: &mut impl Supervisor<R, Model>) {
         let slot = &mut self.lanes[index];
         let Some(lane) = slot else { return };
@@ -170,13 +170,13 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     }
 }
 
-/// What is done in all lanes at once.
+/// Work on all lanes at once.
 enum Part {
-    /// The forces are evaluated.
+    /// Evaluate the forces.
     Forces,
-    /// Velocities, positions and walls are moved by them.
+    /// Advance velocities, positions and walls.
     Motion,
-    /// Both, so many times.
+    /// Both, for so many steps.
     Steps(u64),
 }
 
@@ -200,7 +200,7 @@ impl<R: Real, Model: ContactModel<R>> Work for Stepping<'_, R, Model> {
     }
 }
 
-/// The lanes in which something happens now.
+/// The lanes with an action or a row at this step.
 fn eventful(lanes: &mut [Option<Lane>]) -> impl Iterator<Item = (usize, &mut Lane)> {
     let lanes = lanes.iter_mut().enumerate();
     let lanes = lanes.filter_map(|(index, lane)| Some((index, lane.as_mut()?)));

@@ -7,19 +7,19 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 use std::slice::{from_mut, from_ref};
 
-/// An instruction set, with the alignment that its loads and stores are fastest with: those across cache lines
-/// take twice as long, and delay what reads the same address soon after.
+/// An instruction set, with the alignment at which its loads and stores are fastest: those across cache lines take
+/// twice as long, and delay later reads of the same address.
 pub trait InstructionSet: Simd {
-    /// Something so aligned.
+    /// A type of that alignment.
     type Alignment: Copy + Debug;
 }
 
-/// Something aligned like four doubles.
+/// A type aligned like four doubles.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub struct AlignedLikeFour;
 
-/// Something aligned like eight doubles.
+/// A type aligned like eight doubles.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub struct AlignedLikeEight;
@@ -35,7 +35,7 @@ impl InstructionSet for pulp::x86::V4 {
 }
 
 /// One double for each lane of the instruction set `S`. Products are never fused with sums, and root and
-/// quotient are those of IEEE 754, so that a lane holds the same bits as a double of its own.
+/// quotient are those of IEEE 754, so that a lane holds the same bits as a single double.
 #[derive(Debug, Clone, Copy)]
 pub struct Lanes<S: InstructionSet> {
     simd: S,
@@ -169,7 +169,7 @@ impl<W: Work> WithSimd for Vectorized<W> {
     }
 }
 
-/// Two doubles, for machines of which nothing more is known.
+/// Two doubles, for machines without a known instruction set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair([f64; 2]);
 

@@ -1,27 +1,27 @@
-//! What is done to a stack, and at which step.
+//! The actions on a stack during preparation and compression, and their steps.
 
 use crate::model::{Case, PreparationSteps, Schedule, SideWallSteps};
 use crate::series::DropWatch;
 
-/// Something that is done before the forces of a step are evaluated.
+/// An action before the forces of a step are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Action {
-    /// Gravity becomes this.
+    /// Set gravity.
     SetGravity(f64),
-    /// The side walls move inwards at this speed.
+    /// Move the side walls inwards at this speed.
     MoveSideWalls(f64),
-    /// The side walls are taken away.
+    /// Remove the side walls.
     RemoveSideWalls,
-    /// The top cylinder is put at x = 0.
+    /// Put the top cylinder at x = 0.
     PlaceTop {
         /// Height of its centre.
         height: f64,
         /// Its velocity, upwards.
         velocity: f64,
     },
-    /// The top wall touches the top cylinder and starts to move at this speed.
+    /// Put the top wall onto the top cylinder, moving at this speed.
     StartTopWall(f64),
-    /// The top wall moves on at this speed.
+    /// Change the speed of the top wall.
     MoveTopWall(f64),
 }
 
@@ -30,12 +30,12 @@ pub(super) enum Action {
 pub(super) struct LoadingProgram {
     schedule: Schedule,
     gravity: f64,
-    /// Of the wall, at first and later.
+    /// Speed of the wall, at first and later.
     speeds: [f64; 2],
 }
 
 impl LoadingProgram {
-    /// The program of `case`.
+    /// The loading of `case`.
     pub(super) fn new(case: &Case) -> Self {
         Self {
             schedule: case.protocol.schedule(),
@@ -55,14 +55,13 @@ impl LoadingProgram {
         (self.schedule.row_from(step) == Some(step)).then_some(step)
     }
 
-    /// The drop of the wall force that ends the run, to be looked for in the rows from this step of the
-    /// compression on.
+    /// The drop of the wall force that ends the run, and the step of the compression from whose rows on it counts.
     pub(super) fn drop_watch(&self) -> (DropWatch, u64) {
         let watch = DropWatch::new(self.schedule.stop_at_drop);
         (watch, self.schedule.fine_from_step)
     }
 
-    /// The first step from `step` on at which something is done or a row is taken; none after the last row.
+    /// The first step from `step` on with an action or a row; `None` after the last row.
     pub(super) fn event_from(&self, step: u64) -> Option<u64> {
         let compression = self.preparation();
         if step >= compression {
@@ -90,7 +89,7 @@ impl LoadingProgram {
         fast + (slow - fast) * slowed
     }
 
-    /// Tells `act` everything that is done at `step`, in order.
+    /// Calls `act` for every action at `step`, in order.
     pub(super) fn actions_at(&self, step: u64, act: &mut impl FnMut(Action)) {
         let compression = self.preparation();
         if step == compression {
@@ -126,7 +125,7 @@ fn smooth_step(step: u64, steps: u64) -> f64 {
     x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x))
 }
 
-/// When the phases of the preparation between side walls begin (see [`crate::model::SideWalls`]).
+/// First steps of the phases of the preparation between side walls (see [`crate::model::SideWalls`]).
 struct SideWallPhases<'a> {
     steps: &'a SideWallSteps,
     hold: u64,
@@ -152,7 +151,7 @@ impl<'a> SideWallPhases<'a> {
         }
     }
 
-    /// The top cylinder is held step by step until it is let go.
+    /// Hold the top cylinder at every step until its release.
     fn event_from(&self, step: u64) -> Option<u64> {
         if step <= self.settle {
             return Some(step);

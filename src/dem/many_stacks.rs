@@ -14,15 +14,15 @@ use serde::{Deserialize, Serialize};
 /// A run that is not complete yet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenRun {
-    /// Which one it is, to the caller.
+    /// Index, as the caller counts.
     pub index: usize,
-    /// What is run.
+    /// The case.
     pub case: Case,
-    /// How far it has come before; `None` at the start. One that does not fit the case is not believed.
+    /// State to continue from; `None` at the start. A checkpoint that does not fit the case is ignored.
     pub checkpoint: Option<Checkpoint>,
 }
 
-/// All that is needed to go on with a run, to the same bits.
+/// The state of a run, from which it continues to the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Steps done, from the start of the preparation.
@@ -34,8 +34,8 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Whether a run of `case` can have come to this: exactly the rows that are taken before the step, and as
-    /// many numbers as there are in its scene. Whether they are the right numbers cannot be told.
+    /// Whether this can be a state of a run of `case`: it has exactly the rows that are taken before the step, and as
+    /// many numbers as the scene. The values of the numbers cannot be checked.
     pub fn fits(&self, case: &Case) -> bool {
         let schedule = case.protocol.schedule();
         let done = self.step.saturating_sub(schedule.preparation.total());
@@ -56,26 +56,26 @@ impl Checkpoint {
     }
 }
 
-/// Where runs come from, and where their series go.
+/// Source of runs, and receiver of their series.
 pub trait RunQueue {
     /// The next run. All must be of the same [`LaneKind`].
     fn next(&mut self) -> Option<OpenRun>;
-    /// Whether to go on; asked every few milliseconds.
+    /// Whether to continue; called every few milliseconds.
     fn wanted(&mut self, open: &dyn OpenRuns) -> bool;
-    /// Run `index` has ended: its series, truncated if no longer wanted.
+    /// Receives the series of run `index`, truncated if the run was given up.
     fn ended(&mut self, index: usize, series: Result<Series, SeriesError>);
 }
 
-/// The runs that are in lanes, by index.
+/// The runs in the lanes, by index.
 pub trait OpenRuns {
-    /// Steps that each has done.
+    /// Steps done by each.
     fn steps(&self) -> Vec<(usize, u64)>;
-    /// What is needed to go on with each.
+    /// Checkpoint of each.
     fn checkpoints(&self) -> Vec<(usize, Checkpoint)>;
 }
 
-/// What the cases in the lanes of one vector must have in common: what a contact does is one program for all
-/// of them, in which only numbers differ.
+/// The properties that the cases in the lanes of one vector share: all of them execute the same instructions, on
+/// different numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneKind {
     convention: ContactConvention,
@@ -97,7 +97,7 @@ impl LaneKind {
     }
 }
 
-/// How many doubles this machine adds in one instruction.
+/// Number of doubles that this machine adds in one instruction.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneWidth(Instructions);
 
@@ -127,7 +127,7 @@ impl LaneWidth {
         widths
     }
 
-    /// The widest of them.
+    /// The widest that can be used here.
     pub fn widest() -> Self {
         let available = Self::available();
         available.into_iter().next_back().unwrap_or(Self::ONE)
@@ -145,8 +145,8 @@ impl LaneWidth {
         }
     }
 
-    /// Carries out all runs of `queue`, a lane each, each to the bits of [`compress_stack`], for as long as
-    /// they are wanted.
+    /// Carries out all runs of `queue`, a lane each, to the bits of [`compress_stack`], for as long as they are
+    /// wanted.
     ///
     /// [`compress_stack`]: super::compress_stack
     pub fn compress_stacks(self, queue: &mut impl RunQueue) {

@@ -1,7 +1,7 @@
 //! Native time stepping: the paper's DEM for any number of cylinders and plane walls.
 //!
-//! The stepping code uses +, −, ×, ÷ and √ alone, in a fixed order and without fused multiply-add, so
-//! that its results are the same bits on every machine.
+//! The stepping uses only +, −, ×, ÷ and √, in a fixed order and without fused multiply-add, so that its results are
+//! the same bits on every machine.
 
 mod contact;
 mod contact_run;

@@ -1,5 +1,5 @@
-//! The numbers that the stepping is done in: doubles, double-doubles to see what rounding does to them, or
-//! several doubles side by side, one for each of as many runs.
+//! The numbers of the time stepping: doubles, double-doubles to measure rounding, or several doubles side by side, one
+//! for each of as many runs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
@@ -17,7 +17,7 @@ pub trait Real:
     + AddAssign
     + MulAssign
 {
-    /// Where something holds.
+    /// The lanes in which a condition holds.
     type Mask: Copy;
 
     /// Number of lanes.
@@ -29,7 +29,7 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// Where it is less than `other`.
+    /// The lanes in which it is less than `other`.
     fn less(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
@@ -39,16 +39,16 @@ pub trait Real:
     fn all(self, mask: Self::Mask) -> bool;
     /// The number in one lane, to double precision.
     fn lane(self, lane: usize) -> f64;
-    /// Takes over one lane of `other`.
+    /// Copies one lane of `other`.
     fn set_lane(&mut self, lane: usize, other: Self);
-    /// Does `work`, compiled for the instruction set of these numbers.
+    /// Executes `work`, compiled for the instruction set of these numbers.
     fn vectorize(self, work: impl Work);
 }
 
-/// Something to do with numbers. Only what is inlined into it is compiled for their instruction set; the rest
-/// gives the same bits many times more slowly.
+/// A computation. Only what is inlined into it is compiled for the instruction set of the numbers; the rest gives the
+/// same bits, many times more slowly.
 pub trait Work {
-    /// Does it; to be inlined always.
+    /// Executes it; must always be inlined.
     fn carry_out(self);
 }
 
@@ -106,12 +106,12 @@ impl Real for f64 {
     }
 }
 
-/// Something made of real numbers, always the same ones in the same order.
+/// A value that consists of a fixed sequence of real numbers.
 pub trait Composite<R: Real>: Clone {
-    /// Shows `visit` every number of this beside its counterpart in `other`.
+    /// Calls `visit` with every number and its counterpart in `other`.
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R));
 
-    /// Takes over one lane of `other`.
+    /// Copies one lane of `other`.
     fn take_lane(&mut self, lane: usize, other: &Self) {
         self.visit(other, &mut |number, other| number.set_lane(lane, *other));
     }
@@ -132,7 +132,7 @@ impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
     }
 }
 
-/// Something that can differ from lane to lane.
+/// A value that can differ from lane to lane.
 pub trait LaneWise<R: Real>: Composite<R> {
     /// `yes` where `mask` holds, `no` elsewhere.
     fn choose(mask: R::Mask, yes: Self, no: Self) -> Self;

@@ -6,7 +6,7 @@ use super::real::{Composite, Real, composite, lane_wise};
 use super::wall::PlaneWall;
 use crate::model::{Arms, CYLINDER_INERTIA};
 
-/// A loop over all indices below a count, the first three of which the compiler knows.
+/// A loop over all indices below a count, the first three unrolled.
 macro_rules! unrolled {
     ($index:ident below $count:ident $body:block) => {
         if $count > 0 {
@@ -62,8 +62,8 @@ impl<R: Real> Cylinder<R> {
     }
 }
 
-/// Cylinders, walls and the state of all their contacts; as many as the compiler knows, which then keeps them
-/// in registers as far as it can.
+/// Cylinders, walls and the state of all their contacts. Their numbers are known to the compiler, which keeps them in
+/// registers as far as possible.
 #[derive(Debug, Clone)]
 pub struct Scene<
     const CYLINDERS: usize,
@@ -75,7 +75,7 @@ pub struct Scene<
     pub cylinders: [Cylinder<R>; CYLINDERS],
     /// The walls.
     pub walls: [PlaneWall<R>; WALLS],
-    /// Which walls there are; the others are passed over.
+    /// The walls that exist; the others are skipped.
     pub wall_exists: [bool; WALLS],
     /// Contact law of every contact.
     pub model: Model,
@@ -89,7 +89,7 @@ pub struct Scene<
     pub gravity: R,
     /// Time step.
     pub time_step: R,
-    /// By the higher index and the lower one.
+    /// Contacts of pairs, by the higher index and the lower one.
     pair_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; CYLINDERS],
     wall_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; WALLS],
     loads: [Load<R>; CYLINDERS],
@@ -107,7 +107,7 @@ pub struct Load<R = f64> {
 impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>>
     Scene<CYLINDERS, WALLS, R, Model>
 {
-    /// A scene without friction between cylinders and without gravity, every contact stress free.
+    /// A scene without friction between cylinders and without gravity; every contact is free of stress.
     pub fn new(
         cylinders: [Cylinder<R>; CYLINDERS],
         walls: [PlaneWall<R>; WALLS],
@@ -142,8 +142,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         &self.loads[cylinder]
     }
 
-    /// Force of a cylinder on another, the one with the higher index being named first, as of the last
-    /// evaluation of the forces.
+    /// Force between two cylinders, the one with the higher index first, as of the last evaluation of the forces.
     pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R> {
         &self.pair_contacts[first][second].force
     }
@@ -161,7 +160,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         self.accelerate(&self.loads.clone());
     }
 
-    /// Both. The contact forces are not kept.
+    /// Evaluates the forces and advances. The contact forces are not kept.
     #[inline(always)]
     pub fn step(&mut self) {
         let loads = self.forces::<false>();

@@ -8,20 +8,20 @@ use super::stack_scene::StackScene;
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
 
-/// Prepares and compresses the stack of `case`, and samples the compression as planned. Gives up once
-/// `wanted` is false; the series is then reported as truncated.
+/// Prepares and compresses the stack of `case`, and samples the compression as planned. The run is given up once
+/// `wanted` is false.
 ///
 /// # Errors
-/// If the motion leaves the finite numbers, or is no longer wanted.
+/// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Series, SeriesError> {
     compress_stack_with(case, law(case, 0.0), wanted)
 }
 
-/// The same in double-double arithmetic, 106 bits, at some forty times the cost: what is left of the
-/// difference to [`compress_stack`] is the round-off of the latter.
+/// The same in double-double arithmetic, 106 bits, at some forty times the cost: the difference from [`compress_stack`]
+/// is the round-off of the latter.
 ///
 /// # Errors
-/// If the motion leaves the finite numbers, or is no longer wanted.
+/// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack_precisely(
     case: &Case,
     wanted: impl Fn() -> bool,
@@ -35,10 +35,10 @@ pub(super) fn law<R: Real>(case: &Case, number: R) -> SpringDashpot<R> {
     SpringDashpot::like(number, &case.convention, case.stack.tangential_stiffness())
 }
 
-/// The same as [`compress_stack`], with any contact law.
+/// Like [`compress_stack`], with any contact law.
 ///
 /// # Errors
-/// If the motion leaves the finite numbers, or is no longer wanted.
+/// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack_with<Model: ContactModel<f64>>(
     case: &Case,
     model: Model,
@@ -47,7 +47,7 @@ pub fn compress_stack_with<Model: ContactModel<f64>>(
     compress_stack_watched(case, (model, 0.0), wanted, |_| ())
 }
 
-/// The same in numbers like `number`, every sampled state being shown to `watch`.
+/// Like [`compress_stack`], in numbers like `number`; `watch` receives every sampled state.
 pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
     case: &Case,
     (model, number): (Model, R),

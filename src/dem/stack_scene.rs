@@ -16,10 +16,10 @@ pub(super) const FLOOR: usize = 0;
 const SIDE_WALLS: [usize; 2] = [1, 2];
 pub(super) const TOP_WALL: usize = 3;
 
-/// Three cylinders on the floor, between the side walls that some preparations have, under the top wall.
+/// Three cylinders on the floor, between the side walls of some preparations, under the top wall.
 pub(super) type StackScene<R, Model> = Scene<3, 4, R, Model>;
 
-/// Offset of a wall that is out of reach.
+/// Offset of a wall out of reach.
 const OUT_OF_REACH: f64 = f64::MIN;
 
 impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
@@ -84,7 +84,7 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
         wall.speed.set_lane(lane, speed);
     }
 
-    /// Does `action` to one lane.
+    /// Applies `action` to one lane.
     pub(super) fn act(&mut self, lane: usize, action: Action) {
         let number = self.time_step;
         match action {
@@ -117,7 +117,7 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
         }
     }
 
-    /// One lane of the stack, at the given step of the compression and at its time.
+    /// The state of one lane, at the given step of the compression.
     pub(super) fn sample(&self, lane: usize, step: u64, time: f64) -> Sample {
         let [top, right, left] = [TOP, RIGHT, LEFT].map(|index| &self.cylinders[index]);
         let on_right = self.wall_force(FLOOR, RIGHT);

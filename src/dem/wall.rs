@@ -3,7 +3,7 @@
 use super::contact::ContactForce;
 use super::real::{Real, composite};
 
-/// Where the normal n of a wall points to: the side on which the cylinders are.
+/// Direction of the normal n of a wall, towards the cylinders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Facing {
     /// n = (0, 1), a floor.

@@ -3,7 +3,7 @@
 use super::{ContactEstimate, Experiment, GRAVITY};
 use crate::model::{Arms, CRITICAL_FRICTION, InvalidValue, Stack};
 use crate::theory::{
-    Event, FailureMode, Limit, Outcome, pair_overlap, perturbation_load, quasistatic_limit,
+    Event, FailureMode, Limit, LoadingOutcome, pair_overlap, perturbation_load, quasistatic_limit,
 };
 use serde::Serialize;
 use std::fmt;
@@ -239,7 +239,7 @@ fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
 /// knows: the yield, and the saturated force of slipping cylinders.
 fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
-        && let Some(outcome) = Outcome::of(stack)
+        && let Some(outcome) = LoadingOutcome::of(stack)
     {
         return match outcome.failure_mode {
             FailureMode::Collapses => Some(0.0),

@@ -182,7 +182,7 @@ mod tests {
         let hash = case().content_hash();
         assert_eq!(
             hash,
-            "2ae49df1aa0222f0c023995230b641e3036441e8a056e9ef3445cb9c7fdf9486"
+            "6e121619e8566e12c4e39739b2c790e89dc842e04b59f1dce84eff96fee0b2f0"
         );
         let mut other = case();
         other.stack.cylinder_friction = 0.71;

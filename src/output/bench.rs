@@ -157,7 +157,7 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {
         let mut all = costs.iter();
-        let native = all.find(|cost| cost.code == Code::Native);
+        let native = all.find(|cost| cost.code == Code::NATIVE);
         costs.iter().map(move |cost| (cost, native))
     });
     Columns::<PyramidRow>::new(
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn ratios_are_to_native_lanes() {
-        let liggghts = BenchTarget::External(Code::Liggghts);
+        let liggghts = BenchTarget::External(Code::named("liggghts").unwrap());
         let costs = [cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)];
         let ratios = beside_lanes(&costs)
             .iter()

@@ -1,7 +1,7 @@
 //! The codes that tristack knows, as they are installed here.
 
 use super::table::{Columns, DataTable};
-use crate::code::{Code, Identity};
+use crate::code::{Code, Identity, TaskKind};
 use crate::model::ContactArms;
 
 /// One code, and its program where it is installed.
@@ -66,10 +66,10 @@ pub fn inventory(codes: &[Inventory]) -> DataTable<'_> {
         own.arms(own.code.convention().arms.floor)
     })
     .text("deck_hash", "SHA-256 of the deck", |own| {
-        own.code.static_deck_hash()
+        own.code.files_hash(TaskKind::Stack)
     })
     .shown("deck")
-    .cell(|own| own.code.static_deck_hash()[..12].to_owned())
+    .cell(|own| own.code.files_hash(TaskKind::Stack)[..12].to_owned())
     .text("install", "how to install it", |own| {
         own.code.installation_hint()
     })

@@ -12,8 +12,6 @@ mod page;
 mod probe;
 mod regimes;
 mod simulation;
-mod stack_figure;
-mod svg;
 mod table;
 mod theory;
 mod trajectory;
@@ -22,7 +20,9 @@ mod vtk;
 pub use bench::{bench, bench_machine, bench_markdown, pyramids, scaling};
 pub use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub use explain::explanation;
-pub use figures::{Figure, PdfError, figures, performance_svg, regimes_svg};
+pub use figures::{
+    Figure, StackPanel, figures, performance_svg, regimes_svg, representative_panels, run_svg,
+};
 pub use forecast::{forecast_text, forecasts};
 pub use formats::formats_page;
 pub use inventory::{Inventory, inventory};
@@ -31,7 +31,6 @@ pub use page::{Origin, ReportFile, report_files};
 pub use probe::{probe, probe_by_code};
 pub use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
 pub use simulation::{Simulation, simulations};
-pub use stack_figure::{StackPanel, representative_panels, run_svg, stack_svg};
 pub(crate) use table::json;
 pub use table::{DataTable, Table};
 pub use theory::{theories_by_stack, theory};

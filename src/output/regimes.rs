@@ -7,12 +7,13 @@ use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
 use crate::theory::{
-    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingPhase, Outcome, Regime, RegimeMap,
+    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingOutcome, LoadingPhase, Regime,
+    RegimeMap,
 };
 
 /// The map as a grid of `columns` values on the axis by `rows` floor frictions.
 pub fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
-    Columns::<(Axis, Stack, Outcome)>::new(
+    Columns::<(Axis, Stack, LoadingOutcome)>::new(
         "regimes",
         "A row is one stack of a regime map and what happens first on its way up in load.",
         "`tristack regimes` (regimes.csv)",
@@ -39,14 +40,14 @@ pub fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_>
     .rows(maps.iter().flat_map(|map| grid(map, columns, rows)))
 }
 
-fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, Outcome)> {
+fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, LoadingOutcome)> {
     let mut grid = Vec::new();
     for value in map.axis_values(columns) {
         let path = EquilibriumPath::new(&map.axis.set(&map.base, value));
         let stacks = map.friction_values(rows).into_iter();
         let stacks = stacks.map(|friction| map.stack(value, friction));
         grid.extend(stacks.filter_map(|stack| {
-            let outcome = Outcome::on(&path, &stack)?;
+            let outcome = LoadingOutcome::on(&path, &stack)?;
             Some((map.axis, stack, outcome))
         }));
     }

@@ -154,7 +154,7 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
         .iter()
         .flat_map(|judgement| judgement.comparisons())
     {
-        let documented = comparison.documented;
+        let documented = &comparison.documented;
         if !seen.contains(&documented) {
             text += &format!(
                 "- `{}`: {}.\n",

@@ -122,12 +122,12 @@ impl Recorded {
         let Some(record) = record.filter(own) else {
             return Err(RecordedError::Absent { code, path });
         };
-        if let Some(answer) = record.outdated(|test| code.probe_hash(test)) {
+        if let Some(answer) = record.outdated(|test| code.deck_hash(test)) {
             return Err(RecordedError::OtherDeck {
                 code,
                 path,
                 recorded: answer.input_hash.clone(),
-                current: code.probe_hash(&answer.test),
+                current: code.deck_hash(&answer.test),
             });
         }
         Ok(record)

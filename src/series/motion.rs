@@ -91,6 +91,28 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// Names of its columns, in order.
+    pub const COLUMNS: [&'static str; 18] = [
+        "step",
+        "x1",
+        "y1",
+        "vx1",
+        "vy1",
+        "spin1",
+        "fx1",
+        "fy1",
+        "torque1",
+        "x2",
+        "y2",
+        "vx2",
+        "vy2",
+        "spin2",
+        "fx2",
+        "fy2",
+        "torque2",
+        "wall_force",
+    ];
+
     /// A motion of `rows`, which must be those of the steps 0 to `steps`.
     ///
     /// # Errors

@@ -246,6 +246,17 @@ pub struct Series {
 }
 
 impl Series {
+    /// Names of its columns, in order.
+    pub const COLUMNS: [&'static str; 16] = {
+        let mut names = [""; 16];
+        let mut column = 0;
+        while column < names.len() {
+            names[column] = COLUMNS[column].name;
+            column += 1;
+        }
+        names
+    };
+
     /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
     pub fn new(
         samples: Vec<Sample>,

@@ -121,7 +121,7 @@ impl<'a> Campaign<'a> {
 
     /// The same for workloads of the native code, which need not take part in the campaign.
     pub fn read_native<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
-        let native = [SelectedCode::find(Code::Native)];
+        let native = [SelectedCode::find(Code::NATIVE)];
         read_all(workloads, &native, self.settings, self.progress)
     }
 

@@ -2,22 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The verdict on a measured number. Only `agrees` is a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// The verdict on a measured number, from best to worst. Only `agrees` is a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Within the tolerance of what it should be.
     Agrees,
-    /// Further from what it should be than both tolerance and uncertainty.
-    Differs,
     /// The uncertainty is larger than the tolerance, or something else speaks against an agreement.
     Inconclusive,
+    /// Further from what it should be than both tolerance and uncertainty.
+    Differs,
     /// The series, or the theory, shows no yield.
     NoYield,
-    /// The code did not deliver.
-    Failed,
     /// The code is not installed, and no recorded run stands in for it.
     Missing,
+    /// The code did not deliver.
+    Failed,
 }
 
 impl Verdict {
@@ -99,6 +99,8 @@ pub enum Ground {
         /// What to say if it does not agree.
         note: Option<String>,
     },
+    /// A condition that must hold does.
+    Held,
     /// A condition that must hold does not.
     Violation(String),
     /// Speaks against an agreement, but decides nothing.
@@ -137,6 +139,7 @@ impl Ground {
                 _ => note.as_deref(),
             },
             Self::NoYield(note) => note.as_deref(),
+            Self::Held => None,
             Self::Violation(note)
             | Self::Doubt(note)
             | Self::Blur { note, .. }
@@ -161,6 +164,7 @@ impl Ground {
                 Verdict::Differs if error.abs() <= blur => Verdict::Inconclusive,
                 verdict => verdict,
             }),
+            Self::Held => Some(Verdict::Agrees),
             Self::Violation(_) => Some(Verdict::Differs),
             Self::Doubt(_) | Self::Blur { .. } | Self::Undecidable(_) | Self::NotJudged { .. } => {
                 Some(Verdict::Inconclusive)
@@ -188,6 +192,14 @@ impl Grounds {
         self.0.push(ground);
     }
 
+    /// Adds a condition that must hold; `violation` is said if it does not.
+    pub fn hold(&mut self, holds: bool, violation: &str) {
+        self.add(match holds {
+            true => Ground::Held,
+            false => Ground::Violation(violation.to_owned()),
+        });
+    }
+
     /// Adds a measured number with what it should be; `note` is said if the two do not agree.
     pub fn compare(&mut self, error: f64, uncertainty: f64, tolerance: f64, note: Option<String>) {
         self.add(Ground::Deviation {
@@ -202,32 +214,22 @@ impl Grounds {
     ///
     /// 1. A failed or missing run leaves nothing to judge.
     /// 2. Without the right reference, or where nothing can be decided, the row is inconclusive.
-    /// 3. A row without a yield says so.
-    /// 4. Of the deviations and violations the worst counts, `differs` before `inconclusive` before `agrees`.
-    /// 5. A doubt turns `agrees` into `inconclusive`; without any comparison nothing agrees.
+    /// 3. Otherwise the worst ground counts: no yield, then a deviation or violation, then a doubt.
+    /// 4. Without any comparison nothing agrees.
     pub fn verdict(&self) -> Verdict {
         let blurs = self.0.iter().map(|ground| match ground {
             Ground::Blur { up_to, .. } => *up_to,
             _ => 0.0,
         });
         let blur = blurs.fold(0.0, f64::max);
-        let has = |wanted: Verdict| self.0.iter().any(|one| one.verdict(blur) == Some(wanted));
+        let each = self.0.iter().filter_map(|ground| ground.verdict(blur));
+        let worst = each.max().unwrap_or(Verdict::Inconclusive);
         let is_open =
             |ground: &Ground| matches!(ground, Ground::Undecidable(_) | Ground::NotJudged { .. });
-        if has(Verdict::Failed) {
-            Verdict::Failed
-        } else if has(Verdict::Missing) {
-            Verdict::Missing
-        } else if self.0.iter().any(is_open) {
-            Verdict::Inconclusive
-        } else if has(Verdict::NoYield) {
-            Verdict::NoYield
-        } else if has(Verdict::Differs) {
-            Verdict::Differs
-        } else if has(Verdict::Inconclusive) || !has(Verdict::Agrees) {
-            Verdict::Inconclusive
-        } else {
-            Verdict::Agrees
+        match worst {
+            Verdict::Missing | Verdict::Failed => worst,
+            _ if self.0.iter().any(is_open) => Verdict::Inconclusive,
+            _ => worst,
         }
     }
 

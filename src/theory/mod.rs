@@ -21,7 +21,7 @@ pub use predictions::{Prediction, Predictions};
 pub use quasistatic::closed_form_limit;
 pub use regimes::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, CriticalState, EquilibriumPath,
-    FailureMode, Line, LoadingPhase, Outcome, Regime, RegimeMap, released_frictions,
+    FailureMode, Line, LoadingOutcome, LoadingPhase, Regime, RegimeMap, released_frictions,
 };
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};

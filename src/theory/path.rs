@@ -5,8 +5,8 @@
 //! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  2(a cos ψ + b sin ψ) = L,
 //!
 //! where L is the load carried by cylinder 1: its growing weight along the gravity ramp, f + m g under
-//! the wall. The springs accumulate ρ dψ − S_c dθ and dx₂ + S_f dθ, with the kinematic arms S_c and S_f of the
-//! same form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
+//! the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the kinematic arms R̃ of the same
+//! form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
 //! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
 //!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it

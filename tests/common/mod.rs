@@ -5,7 +5,6 @@ pub mod network;
 pub mod replay;
 
 use assert_cmd::Command;
-use clap::ValueEnum;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -101,7 +100,7 @@ impl Bench {
 pub fn installed(codes: &[Code]) -> Vec<Code> {
     let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
     for name in required.split(',').filter(|name| !name.is_empty()) {
-        let code = Code::from_str(name, true).expect("TRISTACK_REQUIRE_ENGINES names codes");
+        let code = Code::named(name).expect("TRISTACK_REQUIRE_ENGINES names codes");
         assert!(
             code.find().is_some(),
             "{code} is required, but not installed"

@@ -4,7 +4,7 @@
 use super::Bench;
 use std::fs;
 use std::path::Path;
-use tristack::code::{ParameterFile, Task};
+use tristack::code::{ParameterFormat, Task};
 use tristack::model::{Case, sha256_hex};
 use tristack::runs::ProbeRecord;
 use tristack::series::MotionRow;
@@ -42,7 +42,7 @@ fn install_runs(replay: &Path, recorded: &str, disturb: impl Fn(&Case) -> Distur
     for entry in fs::read_dir(recorded).expect("recorded runs").flatten() {
         let case = Case::read(&entry.path().join("case.json")).expect("a case");
         let series = fs::read_to_string(entry.path().join("series.csv")).expect("a series");
-        let address = sha256_hex(ParameterFile::Json.content(&case.parameters()).as_bytes());
+        let address = sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes());
         let write = |extension: &str, text: &str| {
             fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
         };
@@ -65,7 +65,7 @@ pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
         .expect("a record")
         .expect("it is there");
     for answer in record.answers {
-        let parameters = ParameterFile::Json.content(&answer.test.parameters());
+        let parameters = ParameterFormat::Json.content(&answer.test.parameters());
         let address = sha256_hex(parameters.as_bytes());
         let mut writer =
             csv::Writer::from_path(replay.join(format!("{address}.csv"))).expect("a file");

@@ -4,7 +4,7 @@ use super::common::Bench;
 use super::common::replay::{self, Disturbance};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use tristack::code::{Code, ParameterFile, Task};
+use tristack::code::{Code, ParameterFormat, Task};
 use tristack::model::{Case, Stack, sha256_hex};
 use tristack::study::yield_force::plan;
 
@@ -35,9 +35,18 @@ impl Workloads {
         replay::install(&shared, |_| Disturbance::None);
         let place = Bench::with_system_programs();
         install(&place, &shared.path("replay"));
-        let replayed = Workload::new(&place, Code::Yade, &[0.2, 0.3], 100.0);
-        let codes = [Code::Liggghts, Code::Lammps, Code::Yade];
-        let mut real = vec![(Code::Native, 1e4)];
+        let replayed = Workload::new(
+            &place,
+            Code::named("yade").expect("it is built in"),
+            &[0.2, 0.3],
+            100.0,
+        );
+        let codes = [
+            Code::named("liggghts").expect("it is built in"),
+            Code::named("lammps").expect("it is built in"),
+            Code::named("yade").expect("it is built in"),
+        ];
+        let mut real = vec![(Code::NATIVE, 1e4)];
         let installed = codes.iter().filter(|code| code.find().is_some());
         real.extend(installed.map(|&code| (code, 100.0)));
         let real = real.into_iter().map(|(code, stiffness)| {
@@ -69,7 +78,7 @@ impl Workloads {
 
 /// What the replayed code calls a case.
 pub fn address(case: &Case) -> String {
-    sha256_hex(ParameterFile::Json.content(&case.parameters()).as_bytes())
+    sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes())
 }
 
 impl Workload {

@@ -156,7 +156,11 @@ fn steps_that_took_less_than_no_time_are_refused() {
 /// They reached the deck as `null`.
 #[test]
 fn a_micro_test_with_a_number_that_is_none_is_not_put() {
-    for name in installed(&[Code::Liggghts, Code::Yade, Code::Lammps]) {
+    for name in installed(&[
+        Code::named("liggghts").expect("it is built in"),
+        Code::named("yade").expect("it is built in"),
+        Code::named("lammps").expect("it is built in"),
+    ]) {
         let directory = tempfile::tempdir().expect("a directory");
         let interrupt = Interrupt::new();
         let mut test = ContactTest {

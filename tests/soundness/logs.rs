@@ -3,9 +3,10 @@
 
 use super::scenes::{short_case, short_test};
 use super::{Seed, marked, series};
-use tristack::code::{motion_in_log, pyramid_in_log, series_in_log, version_in_answer};
+use tristack::code::{ResultFormat, pyramid_in_log, version_in_answer};
 use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::{ContactConvention, Pyramid};
+use tristack::series::Motion;
 
 /// What separates log and dump in an input.
 const BETWEEN: u8 = 0;
@@ -18,13 +19,13 @@ pub fn check(data: &[u8]) {
     match kind % 4 {
         0 => {
             let case = short_case();
-            if let Ok(series) = series_in_log(log, ["step", "time"], &case) {
+            if let Ok(series) = ResultFormat::LammpsThermo.series(log, &case) {
                 series::is_sound(&series, &case);
             }
         }
         1 => {
             let test = short_test();
-            if let Ok(motion) = motion_in_log(log, ["v_step", "v_x1"], &test) {
+            if let Ok(motion) = ResultFormat::LammpsThermo.motion(log, &test) {
                 assert_eq!(motion.rows().len() as u64, test.steps + 1);
             }
         }
@@ -63,11 +64,12 @@ pub fn seeds() -> Vec<Seed> {
     let motion = run_contact_test(&short_test()).expect("a finite motion");
     let rows = serde_json::to_value(motion.rows()).expect("rows of numbers");
     let rows = rows.as_array().expect("rows").iter().map(|row| {
-        let cells = series::MOTION_COLUMNS.map(|name| row[name].to_string());
+        let cells = Motion::COLUMNS.map(|name| row[name].to_string());
         cells.join(" ") + "\n"
     });
     let motion = format!(
-        "LAMMPS\nv_step v_x1 v_y1\n{}Loop time of 0.1 on 1 procs\n",
+        "LAMMPS\nv_{}\n{}Loop time of 0.1 on 1 procs\n",
+        Motion::COLUMNS.join(" v_"),
         rows.collect::<String>()
     );
     let pyramid = "Loop time of 0.25 on 1 procs for 10 steps\n\0ITEM: ATOMS id x y \n1 -1 1\n2 1 1\n3 0 2.7\n";

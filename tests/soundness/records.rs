@@ -35,7 +35,7 @@ fn check_probe(text: &[u8]) {
         assert_eq!(answer.motion.rows().len() as u64, answer.test.steps + 1);
         assert!(record.answer(&[answer.test]).is_some());
     }
-    let _ = record.outdated(|test| Code::Native.probe_hash(test));
+    let _ = record.outdated(|test| Code::NATIVE.deck_hash(test));
 }
 
 fn check_readings(text: &[u8]) {

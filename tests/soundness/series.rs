@@ -102,32 +102,10 @@ fn motion_csv() -> String {
     let motion = run_contact_test(&short_test()).expect("a finite motion");
     let rows = serde_json::to_value(motion.rows()).expect("rows of numbers");
     let rows = rows.as_array().expect("rows");
-    let header = MOTION_COLUMNS.join(",") + "\n";
+    let header = Motion::COLUMNS.join(",") + "\n";
     let lines = rows.iter().map(|row| {
-        let cells = MOTION_COLUMNS.map(|name| row[name].to_string());
+        let cells = Motion::COLUMNS.map(|name| row[name].to_string());
         cells.join(",") + "\n"
     });
     header + &lines.collect::<String>()
 }
-
-/// In the order of the file.
-pub const MOTION_COLUMNS: [&str; 18] = [
-    "step",
-    "x1",
-    "y1",
-    "vx1",
-    "vy1",
-    "spin1",
-    "fx1",
-    "fy1",
-    "torque1",
-    "x2",
-    "y2",
-    "vx2",
-    "vy2",
-    "spin2",
-    "fx2",
-    "fy2",
-    "torque2",
-    "wall_force",
-];

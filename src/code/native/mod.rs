@@ -3,8 +3,10 @@
 mod checkpoints;
 mod lanes;
 
-use super::{Batching, Code, Failure, FailureKind, Finished, InstalledCode, RunContext, Tasks};
-use crate::code::{Identity, Provenance, Run};
+use super::failure::{Failure, FailureKind};
+use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+use super::provenance::{Identity, Provenance, Run};
+use super::registry::Code;
 use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
@@ -37,7 +39,7 @@ impl Native {
     fn computing(version: &str, arithmetic: Arithmetic) -> Self {
         Self {
             identity: Identity {
-                code: Code::Native.as_str().to_owned(),
+                code: Code::NATIVE.as_str().to_owned(),
                 version: version.to_owned(),
                 package: None,
                 program_hash: None,
@@ -89,7 +91,7 @@ impl Native {
             "case.json",
         ];
         let command = command.map(str::to_owned).to_vec();
-        let (identity, deck_hash) = (self.identity.clone(), Code::Native.deck_hash(case));
+        let (identity, deck_hash) = (self.identity.clone(), Code::NATIVE.deck_hash(case));
         let (steps, seconds) = (case.total_steps(), duration.as_secs_f64());
         Run {
             case: *case,
@@ -135,7 +137,7 @@ fn why(error: SeriesError, context: &RunContext, late: Option<Duration>) -> Fail
 
 fn failure(subject: &impl ToString, kind: FailureKind) -> Failure {
     Failure {
-        code: Code::Native,
+        code: Code::NATIVE,
         subject: subject.to_string(),
         kind,
         run_directory: None,
@@ -145,7 +147,7 @@ fn failure(subject: &impl ToString, kind: FailureKind) -> Failure {
 
 impl InstalledCode for Native {
     fn name(&self) -> Code {
-        Code::Native
+        Code::NATIVE
     }
 
     fn identity(&self) -> &Identity {

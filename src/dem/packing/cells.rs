@@ -1,7 +1,6 @@
-//! Cell list: which cylinders are near which.
+//! Cell list: neighbours by square cells.
 
-/// Points sorted into square cells, row by row. Cells without a point take no room, so that a point may
-/// be anywhere.
+/// Points sorted into square cells, row by row. Empty cells take no memory, so that points may be anywhere.
 pub(super) struct CellList {
     /// Cell row, cell column and index of every point, in this order.
     entries: Vec<(i64, i64, u32)>,
@@ -9,7 +8,7 @@ pub(super) struct CellList {
 }
 
 impl CellList {
-    /// Sorts `points`, which are to be found within `reach` of each other.
+    /// Sorts `points` into cells of size `reach`.
     pub fn new(points: impl Iterator<Item = [f64; 2]>, reach: f64) -> Self {
         let mut entries: Vec<_> = (0..)
             .zip(points)
@@ -25,8 +24,8 @@ impl CellList {
         }
     }
 
-    /// Calls `visit` with the indices of all points in the cell of `point` and the eight around it; everything
-    /// within reach is among them.
+    /// Calls `visit` with the indices of all points in the cell of `point` and the eight around it, which contain
+    /// every point within reach.
     pub fn visit_around(&self, point: [f64; 2], mut visit: impl FnMut(u32)) {
         let [column, row] = cell_of(point, self.edge);
         for row in row.saturating_sub(1)..=row.saturating_add(1) {

@@ -1,10 +1,10 @@
 //! Forces of all contacts.
 
-use super::pairs::FORGOTTEN;
+use super::bodies::{Packing, weight};
+use super::pairs::UNSTRETCHED;
 use super::walls::{NO_FORCE, overlap};
-use super::{Packing, weight};
-use crate::dem::contact::{along, tangential};
-use crate::dem::{Contact, ContactModel, Load};
+use crate::dem::contact::{Contact, ContactModel, along, tangential};
+use crate::dem::scene::Load;
 
 impl Packing {
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
@@ -36,7 +36,7 @@ impl Packing {
                 let dy = i.position[1] - j.position[1];
                 let square = dx * dx + dy * dy;
                 if square >= 4.0 {
-                    *memory = FORGOTTEN;
+                    *memory = UNSTRETCHED;
                     continue;
                 }
                 let distance = square.sqrt();
@@ -69,7 +69,7 @@ impl Packing {
             let body = &self.cylinders[state.cylinder as usize];
             let overlap = overlap(plane, body);
             if overlap <= 0.0 {
-                state.memory = FORGOTTEN;
+                state.memory = UNSTRETCHED;
                 state.force = NO_FORCE;
                 continue;
             }

@@ -1,24 +1,24 @@
-//! Verlet list: the pairs of cylinders that may touch, with what their contacts remember.
+//! Verlet list: the pairs of cylinders that may touch, with their tangential springs.
 
 use super::cells::CellList;
-use crate::dem::{Cylinder, Spring};
+use crate::dem::contact::Spring;
+use crate::dem::scene::Cylinder;
 
-/// A contact without a past.
-pub(super) const FORGOTTEN: Spring<f64> = Spring {
+/// The spring of a new contact.
+pub(super) const UNSTRETCHED: Spring<f64> = Spring {
     length: 0.0,
     normal: [0.0; 2],
 };
 
-/// All pairs up to some distance, each named once. Those of one first cylinder stand together, and the
-/// second one has the lower index; both indices ascend, so that sums over pairs are taken in an order that
-/// depends on the indices alone.
+/// All pairs up to some distance, each once, grouped by their first cylinder. The second one has the lower index.
+/// Both indices ascend, so that the order of sums over pairs depends on the indices alone.
 #[derive(Debug, Clone)]
 pub(super) struct PairList {
-    /// Where the pairs of each first cylinder end, which is where those of the next one begin.
+    /// End of the pairs of each first cylinder, where those of the next one begin.
     pub ends: Vec<u32>,
     /// Second cylinder of each pair.
     pub seconds: Vec<u32>,
-    /// What each contact remembers.
+    /// Tangential spring of each pair.
     pub memories: Vec<Spring<f64>>,
 }
 
@@ -32,7 +32,7 @@ impl PairList {
         }
     }
 
-    /// The pairs whose centres are less than `reach` apart. A pair of `self` keeps its memory.
+    /// The pairs whose centres are less than `reach` apart. A pair of `self` keeps its spring.
     pub fn renewed(&self, cylinders: &[Cylinder], reach: f64) -> Self {
         let cells = CellList::new(cylinders.iter().map(|cylinder| cylinder.position), reach);
         let mut list = Self {
@@ -62,7 +62,7 @@ impl PairList {
         let start = first.checked_sub(1).map_or(0, |before| self.ends[before]);
         let range = start as usize..self.ends[first] as usize;
         let found = self.seconds[range.clone()].binary_search(&second);
-        found.map_or(FORGOTTEN, |place| self.memories[range.start + place])
+        found.map_or(UNSTRETCHED, |place| self.memories[range.start + place])
     }
 }
 
@@ -135,7 +135,7 @@ mod tests {
                     assert_eq!(*memory, old.memories[place]);
                     remembered += 1;
                 }
-                Err(_) => assert_eq!(*memory, FORGOTTEN),
+                Err(_) => assert_eq!(*memory, UNSTRETCHED),
             }
         }
         assert!(remembered > 100 && remembered < new.memories.len());

@@ -1,7 +1,8 @@
 //! A pyramid as a packing.
 
-use super::{Material, Packing};
-use crate::dem::{Cylinder, Facing, PlaneWall};
+use super::bodies::{Material, Packing};
+use crate::dem::scene::Cylinder;
+use crate::dem::wall::{Facing, PlaneWall};
 use crate::model::Pyramid;
 use crate::series::{PyramidRun, SeriesError};
 use std::time::Instant;
@@ -9,7 +10,7 @@ use std::time::Instant;
 /// Index of the floor among the walls of a pyramid.
 pub const PYRAMID_FLOOR: usize = 0;
 
-/// Some tenths of a second for the largest pyramid.
+/// Steps between two calls of `wanted`: some tenths of a second for the largest pyramid.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 4;
 
 impl Packing {
@@ -37,10 +38,10 @@ impl Packing {
     }
 }
 
-/// Runs `pyramid` to its end. Gives up once `wanted` is false; the run is then reported as truncated.
+/// Runs `pyramid` to its end, or gives up once `wanted` is false.
 ///
 /// # Errors
-/// If the motion leaves the finite numbers, or is no longer wanted.
+/// If the motion leaves the finite numbers, or the run is given up.
 pub fn run_pyramid(
     pyramid: &Pyramid,
     wanted: impl Fn() -> bool,

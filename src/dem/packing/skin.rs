@@ -1,28 +1,28 @@
-//! How long a neighbour list stays complete.
+//! The motion after which a neighbour list is no longer complete.
 
 use super::pairs::square_distance;
-use crate::dem::{Cylinder, PlaneWall};
+use crate::dem::scene::Cylinder;
+use crate::dem::wall::PlaneWall;
 
 /// A list of everything within a skin is complete until some body has moved by half of the skin since it was
 /// made.
 ///
-/// Speeds are summed up step by step, which costs no memory access of its own, and only when their sum
-/// reaches the limit is the distance to where the cylinders were looked at: what merely trembles needs no
-/// new list.
+/// The largest speeds are summed up step by step, which costs no memory access of its own. Only when their sum reaches
+/// the limit are the distances themselves computed: vibrations need no new list.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
-    /// Half of the skin, less what rounding may hide.
+    /// Half of the skin, less a margin for rounding.
     limit: f64,
-    /// No body can have moved farther.
+    /// Upper bound of the distance that any body has moved.
     travelled: f64,
-    /// The part of it that walls have moved.
+    /// The part of it that is due to walls.
     wall_travel: f64,
-    /// Where the cylinders were.
+    /// Positions of the cylinders when the list was made.
     anchors: Vec<Cylinder>,
 }
 
 impl Skin {
-    /// For lists that are made now, of everything closer than `width`.
+    /// A skin of `width` around the present positions.
     pub fn new(width: f64, cylinders: &[Cylinder]) -> Self {
         Self {
             limit: 0.499 * width,
@@ -32,8 +32,8 @@ impl Skin {
         }
     }
 
-    /// Takes note of a step at the end of which the cylinders have at most the square speed
-    /// `fastest_square`. Says whether lists must be made anew, and if so takes it for done.
+    /// Counts a step at the end of which the square speed of the cylinders is at most `fastest_square`. Returns
+    /// whether lists must be made anew, and then starts over at the present positions.
     pub fn is_used_up(
         &mut self,
         fastest_square: f64,

@@ -1,7 +1,9 @@
-//! The cylinders that may touch a wall, with what these contacts remember and exert.
+//! The cylinders that may touch a wall, with the springs and forces of these contacts.
 
-use super::pairs::FORGOTTEN;
-use crate::dem::{ContactForce, Cylinder, PlaneWall, Spring};
+use super::pairs::UNSTRETCHED;
+use crate::dem::contact::{ContactForce, Spring};
+use crate::dem::scene::Cylinder;
+use crate::dem::wall::PlaneWall;
 
 /// A cylinder beside a wall.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +20,7 @@ pub(super) const NO_FORCE: ContactForce<f64> = ContactForce {
 };
 
 /// The cylinders whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
-/// keep memory and force.
+/// keep spring and force.
 pub(super) fn beside_wall(
     wall: &PlaneWall,
     cylinders: &[Cylinder],
@@ -32,7 +34,7 @@ pub(super) fn beside_wall(
         if -overlap(wall, body) < gap {
             contacts.push(old.unwrap_or(WallContact {
                 cylinder,
-                memory: FORGOTTEN,
+                memory: UNSTRETCHED,
                 force: NO_FORCE,
             }));
         }
@@ -40,7 +42,7 @@ pub(super) fn beside_wall(
     contacts
 }
 
-/// How deep `body` is in `wall`.
+/// Overlap of `body` with `wall`.
 pub(super) fn overlap(wall: &PlaneWall, body: &Cylinder) -> f64 {
     1.0 - (wall.facing.along(body.position) - wall.offset)
 }

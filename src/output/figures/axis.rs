@@ -1,11 +1,5 @@
 //! An axis: what it measures, from where to where.
 
-use kuva::render::layout::TickFormat;
-use std::sync::Arc;
-
-/// Lowest value on a logarithmic axis of kuva.
-const LOWEST: f64 = 1e-10;
-
 /// What an axis measures, and from where to where.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
@@ -22,7 +16,7 @@ pub(super) struct Axis {
 pub(super) enum Scale {
     /// At multiples of a step, printed with so many decimals.
     Linear(f64, usize),
-    /// At powers of ten.
+    /// At powers of ten or, on short axes, also at 2 and 5 times these.
     Log,
     /// Nowhere.
     Bare,
@@ -50,11 +44,11 @@ impl Axis {
         Self::linear(label, range, step, decimals as usize)
     }
 
-    /// An axis with a tick at every power of ten. It begins at 1e-10 at the lowest, as those of kuva do.
-    pub fn log(label: &str, (low, high): (f64, f64)) -> Self {
+    /// A logarithmic axis.
+    pub fn log(label: &str, range: (f64, f64)) -> Self {
         Self {
             label: label.to_owned(),
-            range: (low.max(LOWEST), high),
+            range,
             scale: Scale::Log,
         }
     }
@@ -96,17 +90,50 @@ impl Axis {
         (self.range.0..=self.range.1).contains(&value)
     }
 
-    /// How its ticks are printed.
-    pub fn ticks(&self) -> TickFormat {
-        match self.scale {
-            Scale::Linear(_, decimals) => {
-                let print = move |value: f64| format!("{value:.decimals$}").replace('-', "−");
-                TickFormat::Custom(Arc::new(print))
-            }
-            Scale::Log => TickFormat::Custom(Arc::new(power_of_ten)),
-            Scale::Bare => TickFormat::Custom(Arc::new(|_| String::new())),
-        }
+    /// `value`, or the end of the axis that it is beyond.
+    pub fn clamp(&self, value: f64) -> f64 {
+        value.clamp(self.range.0, self.range.1)
     }
+
+    /// Its ticks and what is printed there.
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        let (low, high) = self.range;
+        let log_range = (libm::log10(low).floor(), libm::log10(high));
+        let ticks: Vec<(f64, String)> = match self.scale {
+            Scale::Linear(step, decimals) => multiples(self.range, step)
+                .map(|index| index as f64 * step)
+                .map(|tick| (tick, format!("{tick:.decimals$}").replace('-', "−")))
+                .collect(),
+            Scale::Log if high / low > SHORT => multiples(log_range, 1.0)
+                .map(|exponent| scientific(1, exponent))
+                .map(|tick| (tick, power_of_ten(tick)))
+                .collect(),
+            Scale::Log => multiples(log_range, 1.0)
+                .flat_map(|exponent| [1, 2, 5].map(|digit| scientific(digit, exponent)))
+                .map(|tick| (tick, tick.to_string()))
+                .collect(),
+            Scale::Bare => Vec::new(),
+        };
+        let on_axis = |tick: &(f64, String)| (-SLACK..=1.0 + SLACK).contains(&self.part(tick.0));
+        ticks.into_iter().filter(on_axis).collect()
+    }
+}
+
+/// A logarithmic axis whose ends differ by less than this factor is short.
+const SHORT: f64 = 1e3;
+/// How far round-off may move a tick beyond an end of its axis, in parts of the axis.
+const SLACK: f64 = 1e-9;
+
+/// The multiples of `step` in `range`.
+fn multiples((low, high): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
+    let slack = SLACK * (high - low).abs();
+    let first = ((low - slack) / step).ceil() as i64;
+    first..=((high + slack) / step).floor() as i64
+}
+
+/// The number that is printed so, which is not always the product.
+fn scientific(digit: u8, exponent: i64) -> f64 {
+    format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
 /// `value` as a power of ten with the exponent raised; nothing for the values between.
@@ -135,6 +162,25 @@ mod tests {
         assert_eq!(power_of_ten(1e-10), "10⁻¹⁰");
         assert_eq!(power_of_ten(200.0), "");
         assert_eq!(power_of_ten(0.0), "");
+    }
+
+    #[test]
+    fn ticks_are_on_the_axis_and_printed() {
+        let printed = |axis: Axis| -> Vec<String> {
+            axis.ticks().into_iter().map(|(_, text)| text).collect()
+        };
+        let linear = Axis::linear("x", (-0.2, 0.3), 0.1, 1);
+        assert_eq!(
+            printed(linear),
+            ["−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
+        );
+        assert_eq!(
+            printed(Axis::log("x", (1e-2, 3e2))),
+            ["10⁻²", "10⁻¹", "10⁰", "10¹", "10²"]
+        );
+        let few = Axis::log("x", (0.2, 20.0));
+        assert_eq!(printed(few), ["0.2", "0.5", "1", "2", "5", "10", "20"]);
+        assert!(printed(Axis::bare((0.0, 3.0))).is_empty());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Panel, Point, Sample};
-use super::style::{GUIDE, Mark, code_label};
+use super::style::{GUIDE, Mark};
 use crate::code::Code;
 use crate::study::MAX_TOLERANCE;
 use crate::study::yield_force::Judgement;
@@ -15,16 +15,16 @@ pub(super) fn load_axis(range: (f64, f64)) -> Axis {
     Axis::log("load at yield F + 3 = (f + 3 m g)/(m g)", range)
 }
 
-/// The codes that have at least one row, in the order of [`Code::ALL`].
+/// The codes that have at least one row, in the order of [`Code::all`].
 pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
     let has_row = |code: &Code| judgements.iter().any(|own| own.code == *code);
-    Code::ALL.into_iter().filter(has_row).collect()
+    Code::all().into_iter().filter(has_row).collect()
 }
 
-/// F + 3 of every row that has a yield force. YADE's facets are left out: they do what its box does.
+/// F + 3 of every row that has a yield force. Variants of a code that repeat the contacts of another are left out.
 pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Judgement) -> f64) {
     mark(panel, judgements, Mark::small, |row| {
-        let shown = row.code != Code::YadeFacet;
+        let shown = !row.code.repeats_another();
         Some((x(row), row.yield_force().filter(|_| shown)? + 3.0))
     });
 }
@@ -52,8 +52,22 @@ pub(super) fn error_panel(
 pub(super) fn key(panel: &mut Panel, judgements: &[Judgement], (right, down): Point) {
     panel.key_at(right, down);
     for code in present(judgements) {
-        panel.key(Sample::Mark(Mark::of(code)), code_label(code));
+        panel.key(Sample::Mark(Mark::of(code)), &code.label());
     }
+}
+
+/// The sentence on the codes of `judgements` that [`loads`] leaves out, if there are any.
+pub(super) fn left_out(judgements: &[Judgement]) -> String {
+    let repeating = present(judgements).into_iter();
+    let repeating = repeating.filter(|code| code.repeats_another());
+    let names: Vec<String> = repeating.map(Code::label).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        " Left out of (a), because another variant of the code has the same contacts: {}.",
+        names.join("; ")
+    )
 }
 
 fn mark(

@@ -2,8 +2,8 @@
 
 use super::Figure;
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Point, Sample, draw};
-use super::style::{GUIDE, Mark, Stroke, THIN, THIN_DASHED, code_label};
+use super::panel::{Anchor, Panel, Point, Sample, Stroke, draw};
+use super::style::{GUIDE, Mark, THIN, THIN_DASHED};
 use crate::code::Code;
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
@@ -32,9 +32,9 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
         PAPER_TIME_STEP, PAPER_TIME_STEP
     );
     peaks.key_at(0.03, 0.02);
-    for code in Code::ALL {
+    for code in Code::all() {
         if study.time_steps.iter().any(|point| point.code == code) {
-            peaks.key(Sample::Mark(Mark::of(code)), code_label(code));
+            peaks.key(Sample::Mark(Mark::of(code)), &code.label());
         }
     }
     let panels = [speeds(study), peaks, slips];
@@ -101,10 +101,10 @@ fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
 
 /// Marks for every code, and a line for the native one.
 fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
-    for code in Code::ALL {
+    for code in Code::all() {
         let mut points = runs(code);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        if code == Code::Native {
+        if code == Code::NATIVE {
             panel.line(stroke, points.iter().copied());
         }
         let points = points.into_iter();

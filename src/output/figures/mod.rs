@@ -1,12 +1,12 @@
-//! The figures: every one computed from what was run, none from a stored picture.
+//! The figures: each computed from runs and theory, none from a stored picture.
 
 mod axis;
 mod codes;
 mod convergence;
+mod drawing;
 mod force_series;
 mod model_form;
 mod panel;
-mod pdf;
 mod performance;
 mod preparation;
 mod regimes;
@@ -18,13 +18,14 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
-pub use pdf::PdfError;
 pub use performance::performance_svg;
 pub use regimes::regimes_svg;
+pub use stack::{StackPanel, representative_panels, run_svg};
 
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::Reproduction;
 use axis::Axis;
+use drawing::Drawing;
 use serde::Serialize;
 
 /// A panel that shares the width of a page with another one, in pixels.
@@ -33,18 +34,18 @@ const HALF_PAGE: (f64, f64) = (350.0, 320.0);
 const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
 
 /// A figure.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
     /// The name of its files, without extension.
     pub name: &'static str,
     /// What it shows, from which runs, and how to make it again.
     pub caption: String,
-    /// The figure itself.
-    pub svg: String,
+    #[serde(skip)]
+    drawing: Drawing,
 }
 
 impl Figure {
-    fn new(name: &'static str, caption: impl Into<String>, svg: String) -> Self {
+    fn new(name: &'static str, caption: impl Into<String>, drawing: Drawing) -> Self {
         let caption: String = caption.into();
         let files = format!(
             "Made by `tristack report --out DIR`: figures/{name}.svg and figures/{name}.pdf."
@@ -52,16 +53,18 @@ impl Figure {
         Self {
             name,
             caption: format!("{caption} {files}"),
-            svg,
+            drawing,
         }
     }
 
+    /// The figure as SVG.
+    pub fn svg(&self) -> String {
+        self.drawing.svg()
+    }
+
     /// The figure as a page of its own size, with its font embedded: the same bytes on every machine.
-    ///
-    /// # Errors
-    /// If its SVG is none, which only `svg` put in from elsewhere can be.
-    pub fn pdf(&self) -> Result<Vec<u8>, PdfError> {
-        pdf::pdf(&self.svg)
+    pub fn pdf(&self) -> Vec<u8> {
+        self.drawing.pdf()
     }
 }
 

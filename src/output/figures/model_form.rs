@@ -3,33 +3,75 @@
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::panel::{Anchor, Panel, Sample, draw};
-use super::style::{GUIDE, Mark, STIFFNESS_STROKES, code_label};
+use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
-use crate::paper::reproduction::Curves;
+use crate::paper::reproduction::{Curves, codes_by_arms};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
-/// Difference to the paper's convention, as theory has it and as the codes measured it.
+/// Panels whose curves stay above this, in percent, have the finer axis.
+const SMALL: f64 = -2.5;
+
+/// Difference to the paper's convention, as theory has it and as the codes measured it: a panel for every pair of
+/// arms.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let half_arms = [Code::Liggghts, Code::Yade, Code::YadeFacet];
-    let small = Axis::linear(LABEL, (-2.5, 0.5), 0.5, 1);
-    let large = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
-    let mut left = panel(small, &half_arms, judgements, curves);
-    left.key_at(0.62, 0.56);
-    left.words("arms −½, −½", (0.5, 0.35), Anchor::End);
-    let mut right = panel(large, &[Code::YadeWall], judgements, curves);
-    right.key_at(0.05, 0.5);
-    right.words("arms −½, −1", (0.5, 3.2), Anchor::End);
-    let caption = "Not in the paper: (F − F_paper)/(F_paper + 3), what the torque arms r + r₁·overlap of a code \
-                  do to the yield force F = f/(m g), over the floor friction μ at three stiffnesses kₙ r/(m g) \
-                  and κ = 2.5. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
-                  wall speed. (a) r₁ = −½ between cylinders and at the floor, (b) r₁ = −½ and −1; the paper has \
-                  r₁ = 0.";
-    Figure::new(
-        "model-form",
-        caption,
-        draw(&[left, right], 2, super::HALF_PAGE),
-    )
+    let groups = codes_by_arms();
+    let panels: Vec<Panel> = groups
+        .iter()
+        .map(|codes| arms_panel(codes, judgements, curves))
+        .collect();
+    let letters = ('a'..).zip(&groups).map(|(letter, codes)| {
+        let [pair, floor] = arms(codes[0]);
+        match pair == floor {
+            true => format!("({letter}) r₁ = {pair} between cylinders and at the floor"),
+            false => format!("({letter}) r₁ = {pair} between cylinders and {floor} at the floor"),
+        }
+    });
+    let letters: Vec<String> = letters.collect();
+    let caption = format!(
+        "Not in the paper: (F − F_paper)/(F_paper + 3), what the torque arms r + r₁·overlap of a code \
+         do to the yield force F = f/(m g), over the floor friction μ at three stiffnesses kₙ r/(m g) \
+         and κ = 2.5. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
+         wall speed. {}; the paper has r₁ = 0.",
+        letters.join(", ")
+    );
+    Figure::new("model-form", caption, draw(&panels, 2, super::HALF_PAGE))
+}
+
+/// The arm coefficients of pair and floor in words.
+fn arms(code: Code) -> [String; 2] {
+    let arms = code.convention().arms;
+    [arms.pair.torque, arms.floor.torque].map(|arm| {
+        let text = if arm == -0.5 {
+            "−½".to_owned()
+        } else {
+            arm.to_string()
+        };
+        text.replace('-', "−")
+    })
+}
+
+fn arms_panel(codes: &[Code], judgements: &[Judgement], curves: &Curves) -> Panel {
+    let own = curves.model_form.iter();
+    let own = own.filter(|point| point.code == codes[0]);
+    let lowest = own
+        .map(|point| 100.0 * point.difference)
+        .fold(0.0, f64::min);
+    let (axis, key, words) = if lowest > SMALL {
+        let axis = Axis::linear(LABEL, (SMALL, 0.5), 0.5, 1);
+        (axis, (0.62, 0.56), (0.5, 0.35))
+    } else {
+        let axis = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
+        (axis, (0.05, 0.5), (0.5, 3.2))
+    };
+    let mut panel = panel(axis, codes, judgements, curves);
+    panel.key_at(key.0, key.1);
+    panel.words(
+        format!("arms {}", arms(codes[0]).join(", ")),
+        words,
+        Anchor::End,
+    );
+    panel
 }
 
 const LABEL: &str = "(F − F_{paper})/(F_{paper} + 3) in %";
@@ -51,7 +93,7 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
         let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
         panel.marks(Mark::of(code), own.filter_map(measured));
-        panel.key(Sample::Mark(Mark::of(code)), code_label(code));
+        panel.key(Sample::Mark(Mark::of(code)), &code.label());
     }
     panel
 }

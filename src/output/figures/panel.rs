@@ -1,29 +1,13 @@
-//! A panel: axes by kuva; lines, marks, words and key by us, since kuva neither clips lines nor leaves marks open.
+//! A panel: axes, and what is drawn between them.
 
 use super::axis::{Axis, Scale};
-use super::style::{INK, Mark, Shape, Stroke};
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
-use kuva::render::color::Color;
-use kuva::render::figure::Figure;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use super::drawing::{Drawing, Paint, Place};
+use super::style::{
+    FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark, PADDING,
+    SPACING, Shape, TEXT_SIZE, TICK,
+};
 
-/// Lines of a legend are this far apart, in pixels.
-const KEY_LINE: f64 = 15.0;
-/// Length of a line in a legend.
-const KEY_SAMPLE: f64 = 26.0;
-const TEXT_SIZE: u32 = 11;
-/// Half the height of a small letter.
-const HALF_LETTER: f64 = 3.8;
-/// Around the axes of a panel: left, right, top, bottom.
-const MARGINS: (f64, f64, f64, f64) = (62.0, 12.0, 24.0, 44.0);
-/// A distance of ticks so large that none is on the axis.
-const TICKLESS: f64 = 1e9;
-const SPACING: f64 = 10.0;
-const PADDING: f64 = 4.0;
-pub(super) const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
+pub(super) use super::drawing::{Anchor, Stroke};
 
 /// A point, in units of the axes.
 pub(super) type Point = (f64, f64);
@@ -32,6 +16,7 @@ pub(super) type Point = (f64, f64);
 pub(super) struct Panel {
     x: Axis,
     y: Axis,
+    areas: Vec<(&'static str, Vec<Point>)>,
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
     words: Vec<Words>,
@@ -43,14 +28,6 @@ struct Words {
     text: String,
     place: Point,
     anchor: Anchor,
-}
-
-/// Which end of a text is at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
-    Start,
-    Middle,
-    End,
 }
 
 /// What stands in a key beside its words.
@@ -67,6 +44,7 @@ impl Panel {
         Self {
             x,
             y,
+            areas: Vec::new(),
             lines: Vec::new(),
             marks: Vec::new(),
             words: Vec::new(),
@@ -86,6 +64,13 @@ impl Panel {
         }
         self.lines.push((stroke, part));
         self.lines.retain(|(_, points)| points.len() > 1);
+    }
+
+    /// A coloured area with its corners at `points`, behind everything else; what is beyond the axes is cut off.
+    pub fn area(&mut self, colour: &'static str, points: impl IntoIterator<Item = Point>) {
+        let points = points.into_iter();
+        let points = points.map(|(x, y)| (self.x.clamp(x), self.y.clamp(y)));
+        self.areas.push((colour, points.collect()));
     }
 
     /// Words at the right end of the line at `y`, a little above it.
@@ -108,11 +93,10 @@ impl Panel {
 
     /// A mark at each of `points`. Those beyond the upper or lower end of the axis stand at that end.
     pub fn marks(&mut self, mark: Mark, points: impl IntoIterator<Item = Point>) {
-        let (low, high) = self.y.range;
         let points = points.into_iter();
         let points = points.filter(|point| self.x.contains(point.0) && !point.1.is_nan());
         self.marks
-            .extend(points.map(|(x, y)| (mark, (x, y.clamp(low, high)))));
+            .extend(points.map(|(x, y)| (mark, (x, self.y.clamp(y)))));
     }
 
     /// Words at `place`, in units of the axes.
@@ -135,241 +119,201 @@ impl Panel {
     pub fn key(&mut self, sample: Sample, words: &str) {
         self.key.push((sample, words.to_owned()));
     }
-
-    fn layout(&self) -> Layout {
-        let (left, right, top, bottom) = MARGINS;
-        let layout = Layout::new(self.x.range, self.y.range)
-            .with_x_axis_min(self.x.range.0)
-            .with_x_axis_max(self.x.range.1)
-            .with_y_axis_min(self.y.range.0)
-            .with_y_axis_max(self.y.range.1)
-            .with_clamp_axis()
-            .with_show_grid(false)
-            .with_box_axes()
-            .with_font_family(FONT)
-            .with_label_size(13)
-            .with_tick_size(11)
-            .with_x_label(&self.x.label)
-            .with_y_label(&self.y.label)
-            .with_x_tick_format(self.x.ticks())
-            .with_y_tick_format(self.y.ticks())
-            .with_force_margins(left, right)
-            .with_force_margins_y(top, bottom);
-        let layout = match self.x.scale {
-            Scale::Linear(step, _) => layout.with_x_tick_step(step),
-            Scale::Log => layout.with_log_x(),
-            Scale::Bare => layout.with_x_tick_step(TICKLESS),
-        };
-        match self.y.scale {
-            Scale::Linear(step, _) => layout.with_y_tick_step(step),
-            Scale::Log => layout.with_log_y(),
-            Scale::Bare => layout.with_y_tick_step(TICKLESS),
-        }
-    }
 }
 
 /// Panels side by side, row by row, each of a size in pixels.
-pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)) -> String {
+pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)) -> Drawing {
+    let whole = |count: usize, size: f64| {
+        2.0 * PADDING + count as f64 * size + count.saturating_sub(1) as f64 * SPACING
+    };
     let rows = panels.len().div_ceil(columns);
-    let empty = || vec![Plot::Line(LinePlot::new())];
-    let mut scene = Figure::new(rows, columns)
-        .with_plots(panels.iter().map(|_| empty()).collect())
-        .with_layouts(panels.iter().map(Panel::layout).collect())
-        .with_cell_size(width, height)
-        .with_spacing(SPACING)
-        .with_padding(PADDING)
-        .with_labels_lowercase()
-        .render();
+    let mut drawing = Drawing::new(whole(columns, width), whole(rows, height));
     for (index, panel) in panels.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
-        let (left, right, top, bottom) = MARGINS;
-        let frame = Frame {
-            left: PADDING + column as f64 * (width + SPACING) + left,
-            top: PADDING + row as f64 * (height + SPACING) + top,
-            width: width - left - right,
-            height: height - top - bottom,
+        let view = View {
+            panel,
+            left: PADDING + column as f64 * (width + SPACING) + MARGINS.0,
+            top: PADDING + row as f64 * (height + SPACING) + MARGINS.2,
+            width: width - MARGINS.0 - MARGINS.1,
+            height: height - MARGINS.2 - MARGINS.3,
         };
-        frame.fill(panel, index, &mut scene);
+        view.draw(&mut drawing, char::from(b'a' + (index % 26) as u8));
     }
-    written(&scene)
+    drawing
 }
 
-/// `scene` as SVG, the same whatever was drawn before.
-pub(super) fn written(scene: &Scene) -> String {
-    lowered(&renumbered(&SvgBackend::new().render_scene(scene)))
-}
-
-/// `svg` with kuva's clip paths numbered by their order in it; kuva goes on counting from figure to figure.
-fn renumbered(svg: &str) -> String {
-    const CLIP: &str = "kuva-clip-";
-    let mut parts = svg.split(CLIP);
-    let mut renumbered = parts.next().unwrap_or_default().to_owned();
-    let mut known = Vec::new();
-    for part in parts {
-        let end = part.find(|letter: char| !letter.is_ascii_digit());
-        let (number, rest) = part.split_at(end.unwrap_or(part.len()));
-        let index = known.iter().position(|&other| other == number);
-        let index = index.unwrap_or_else(|| {
-            known.push(number);
-            known.len() - 1
-        });
-        renumbered += &format!("{CLIP}{index}{rest}");
-    }
-    renumbered
-}
-
-/// `svg` with every `_{…}` in its texts as a subscript, for which there are no letters.
-pub(super) fn lowered(svg: &str) -> String {
-    let mut parts = svg.split("_{");
-    let mut lowered = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (subscript, rest) = part.split_once('}').unwrap_or((part, ""));
-        let (after, rest) = rest.split_at(rest.find("</text>").unwrap_or(rest.len()));
-        lowered += &format!("<tspan font-size=\"75%\" dy=\"3\">{subscript}</tspan>");
-        if !after.is_empty() {
-            lowered += &format!("<tspan dy=\"-3\">{after}</tspan>");
-        }
-        lowered += rest;
-    }
-    lowered
-}
-
-/// The rectangle between the axes, in pixels.
-struct Frame {
+/// A panel and the rectangle between its axes, in pixels.
+struct View<'a> {
+    panel: &'a Panel,
     left: f64,
     top: f64,
     width: f64,
     height: f64,
 }
 
-impl Frame {
-    fn fill(&self, panel: &Panel, index: usize, scene: &mut Scene) {
-        self.clip(index, scene);
-        for (stroke, points) in &panel.lines {
-            let places = points.iter().map(|&point| self.place(panel, point));
-            scene.add(polyline(*stroke, places.collect()));
+impl View<'_> {
+    fn draw(&self, drawing: &mut Drawing, letter: char) {
+        let panel = self.panel;
+        for (colour, points) in &panel.areas {
+            drawing.polygon(self.places(points), Paint::Filled(colour));
         }
-        scene.add(Primitive::ClipEnd);
+        let corners = [self.at((0.0, 0.0)), self.at((1.0, 1.0))];
+        for (stroke, points) in &panel.lines {
+            for part in visible_parts(&self.places(points), corners) {
+                drawing.line(part, *stroke);
+            }
+        }
+        self.axes(drawing, letter);
         for &(mark, point) in &panel.marks {
-            draw_mark(mark, self.place(panel, point), scene);
+            draw_mark(drawing, mark, self.place(point));
         }
         for words in &panel.words {
-            let (x, y) = self.at(words.place);
-            scene.add(text(&words.text, (x, y), words.anchor));
+            drawing.text(&words.text, self.at(words.place), TEXT_SIZE, words.anchor);
         }
-        let (x, y) = self.at(panel.key_place);
-        for (line, (sample, words)) in panel.key.iter().enumerate() {
-            let y = y + KEY_LINE * (line as f64 + 0.5);
+        self.key(drawing);
+    }
+
+    /// Frame, ticks, labels, and the letter that names the panel.
+    fn axes(&self, drawing: &mut Drawing, letter: char) {
+        let ([left, top], [right, bottom]) = (self.at((0.0, 0.0)), self.at((1.0, 1.0)));
+        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+        drawing.polygon(corners, Paint::Outlined(FRAME));
+        for (value, printed) in self.panel.x.ticks() {
+            let x = left + self.panel.x.part(value) * self.width;
+            drawing.line([[x, bottom], [x, bottom + TICK]], FRAME);
+            let below = [x, bottom + TICK + 10.2];
+            drawing.text(printed, below, TEXT_SIZE, Anchor::Middle);
+        }
+        for (value, printed) in self.panel.y.ticks() {
+            let y = bottom - self.panel.y.part(value) * self.height;
+            drawing.line([[left - TICK, y], [left, y]], FRAME);
+            let beside = [left - TICK - 3.0, y + HALF_LETTER];
+            drawing.text(printed, beside, TEXT_SIZE, Anchor::End);
+        }
+        let below = [0.5 * (left + right), bottom + MARGINS.3 - 6.5];
+        drawing.text(&self.panel.x.label, below, LABEL_SIZE, Anchor::Middle);
+        let beside = [left - MARGINS.0 + 15.8, 0.5 * (top + bottom)];
+        drawing.upward_text(&self.panel.y.label, beside, LABEL_SIZE);
+        let corner = [left - MARGINS.0 + 8.0, top - 7.0];
+        drawing.bold_text(letter, corner, LETTER_SIZE);
+    }
+
+    fn key(&self, drawing: &mut Drawing) {
+        let [x, top] = self.at(self.panel.key_place);
+        for (line, (sample, words)) in self.panel.key.iter().enumerate() {
+            let y = top + KEY_LINE * (line as f64 + 0.5);
+            let mut indent = KEY_SAMPLE + 6.0;
             match sample {
-                Sample::Line(stroke) => {
-                    scene.add(polyline(*stroke, vec![(x, y), (x + KEY_SAMPLE, y)]));
-                }
-                Sample::Mark(mark) => draw_mark(*mark, (x + 0.5 * KEY_SAMPLE, y), scene),
-                Sample::Heading => {}
+                Sample::Line(stroke) => drawing.line([[x, y], [x + KEY_SAMPLE, y]], *stroke),
+                Sample::Mark(mark) => draw_mark(drawing, *mark, [x + 0.5 * KEY_SAMPLE, y]),
+                Sample::Heading => indent = 0.0,
             }
-            let indent = match sample {
-                Sample::Heading => 0.0,
-                _ => KEY_SAMPLE + 6.0,
-            };
-            let place = (x + indent, y + HALF_LETTER);
-            scene.add(text(words, place, Anchor::Start));
+            let beside = [x + indent, y + HALF_LETTER];
+            drawing.text(words, beside, TEXT_SIZE, Anchor::Start);
         }
     }
 
-    fn clip(&self, index: usize, scene: &mut Scene) {
-        let Self {
-            left,
-            top,
-            width,
-            height,
-        } = *self;
-        let id = format!("panel{index}");
-        scene.defs.push(format!(
-            "<clipPath id=\"{id}\"><rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/></clipPath>"
-        ));
-        scene.add(Primitive::ClipStart {
-            x: left,
-            y: top,
-            width,
-            height,
-            id,
-        });
-    }
-
-    fn at(&self, (right, down): Point) -> Point {
-        (
+    /// The place in parts of the panel, from its upper left corner.
+    fn at(&self, (right, down): Point) -> Place {
+        [
             self.left + right * self.width,
             self.top + down * self.height,
-        )
+        ]
     }
 
-    fn place(&self, panel: &Panel, (x, y): Point) -> Point {
-        self.at((panel.x.part(x), 1.0 - panel.y.part(y)))
+    fn place(&self, (x, y): Point) -> Place {
+        self.at((self.panel.x.part(x), 1.0 - self.panel.y.part(y)))
+    }
+
+    fn places(&self, points: &[Point]) -> Vec<Place> {
+        points.iter().map(|&point| self.place(point)).collect()
     }
 }
 
-fn polyline(stroke: Stroke, points: Vec<Point>) -> Primitive {
-    Primitive::PolyLine {
-        points,
-        stroke: Color::from(stroke.colour),
-        stroke_width: stroke.width,
-        stroke_dasharray: (!stroke.dashes.is_empty()).then(|| stroke.dashes.to_owned()),
-    }
-}
-
-fn text(content: &str, (x, y): Point, anchor: Anchor) -> Primitive {
-    Primitive::Text {
-        x,
-        y,
-        content: content.to_owned(),
-        size: TEXT_SIZE,
-        anchor: match anchor {
-            Anchor::Start => TextAnchor::Start,
-            Anchor::Middle => TextAnchor::Middle,
-            Anchor::End => TextAnchor::End,
-        },
-        rotate: None,
-        bold: false,
-        color: Some(Color::from(INK)),
-    }
-}
-
-fn draw_mark(mark: Mark, (x, y): Point, scene: &mut Scene) {
-    let (size, colour) = (mark.size, Color::from(mark.colour));
-    if matches!(mark.shape, Shape::Dot | Shape::Circle) {
-        let filled = mark.shape == Shape::Dot;
-        scene.add(Primitive::Circle {
-            cx: x,
-            cy: y,
-            r: size,
-            fill: if filled { colour.clone() } else { Color::None },
-            fill_opacity: None,
-            stroke: (!filled).then_some(colour),
-            stroke_width: (!filled).then_some(1.0),
-        });
-        return;
-    }
-    let (left, right, top, bottom) = (x - size, x + size, y - size, y + size);
-    let d = match mark.shape {
+fn draw_mark(drawing: &mut Drawing, mark: Mark, [x, y]: Place) {
+    let stroke = Stroke::new(mark.colour, 1.0, &[]);
+    let (left, right, top, bottom) = (x - mark.size, x + mark.size, y - mark.size, y + mark.size);
+    let outline = Paint::Outlined(stroke);
+    match mark.shape {
+        Shape::Dot => drawing.circle([x, y], mark.size, Paint::Filled(mark.colour)),
+        Shape::Circle => drawing.circle([x, y], mark.size, outline),
         Shape::Square => {
-            format!("M{left:.2} {top:.2}H{right:.2}V{bottom:.2}H{left:.2}Z")
+            let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+            drawing.polygon(corners, outline);
         }
         Shape::Diamond => {
-            format!("M{left:.2} {y:.2}L{x:.2} {top:.2}L{right:.2} {y:.2}L{x:.2} {bottom:.2}Z")
+            drawing.polygon([[left, y], [x, top], [right, y], [x, bottom]], outline);
         }
         Shape::Cross => {
-            format!(
-                "M{left:.2} {top:.2}L{right:.2} {bottom:.2}M{left:.2} {bottom:.2}L{right:.2} {top:.2}"
-            )
+            drawing.line([[left, top], [right, bottom]], stroke);
+            drawing.line([[left, bottom], [right, top]], stroke);
         }
-        _ => format!("M{left:.2} {y:.2}H{right:.2}M{x:.2} {top:.2}V{bottom:.2}"),
-    };
-    scene.add(Primitive::Path(Box::new(PathData {
-        d,
-        fill: None,
-        stroke: colour,
-        stroke_width: 1.0,
-        opacity: None,
-        stroke_dasharray: None,
-    })));
+        Shape::Plus => {
+            drawing.line([[left, y], [right, y]], stroke);
+            drawing.line([[x, top], [x, bottom]], stroke);
+        }
+    }
+}
+
+/// The parts of the line through `points` that are between the corners of a rectangle.
+fn visible_parts(points: &[Place], corners: [Place; 2]) -> Vec<Vec<Place>> {
+    let mut parts: Vec<Vec<Place>> = Vec::new();
+    for pair in points.windows(2) {
+        let Some([from, to]) = visible_part([pair[0], pair[1]], corners) else {
+            continue;
+        };
+        match parts.last_mut() {
+            Some(part) if part.last() == Some(&from) => part.push(to),
+            _ => parts.push(vec![from, to]),
+        }
+    }
+    parts
+}
+
+/// The part of a straight line that is between the corners, by Liang and Barsky: each side of the rectangle
+/// bounds the share of the line at which it enters, or at which it leaves.
+fn visible_part([from, to]: [Place; 2], corners: [Place; 2]) -> Option<[Place; 2]> {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let step = to[axis] - from[axis];
+        let [low, high] = corners.map(|corner| corner[axis] - from[axis]);
+        if step == 0.0 && (low > 0.0 || high < 0.0) {
+            return None;
+        }
+        if step != 0.0 {
+            enters = enters.max((low / step).min(high / step));
+            leaves = leaves.min((low / step).max(high / step));
+        }
+    }
+    let at = |share: f64| [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+    let start = if enters > 0.0 { at(enters) } else { from };
+    let end = if leaves < 1.0 { at(leaves) } else { to };
+    (enters < leaves).then_some([start, end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_at_the_frame() {
+        let corners = [[0.0, 0.0], [10.0, 10.0]];
+        let inside = [[1.0, 1.0], [5.0, 5.0], [9.0, 1.0]];
+        assert_eq!(visible_parts(&inside, corners), [inside.to_vec()]);
+        let across = [
+            [-5.0, 5.0],
+            [5.0, 5.0],
+            [5.0, 20.0],
+            [8.0, 20.0],
+            [8.0, 0.0],
+        ];
+        assert_eq!(
+            visible_parts(&across, corners),
+            [
+                vec![[0.0, 5.0], [5.0, 5.0], [5.0, 10.0]],
+                vec![[8.0, 10.0], [8.0, 0.0]]
+            ]
+        );
+        assert!(visible_parts(&[[-1.0, 3.0], [-1.0, 8.0]], corners).is_empty());
+    }
 }

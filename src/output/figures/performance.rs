@@ -2,20 +2,18 @@
 
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, draw};
-use super::style::{EXACT, GUIDE, INK, Mark, Stroke};
-use crate::code::Code;
+use super::style::{BAR, EXACT, GUIDE, POINT};
 use crate::output::bench::{beside_lanes, times_lanes};
 use crate::output::number::plain;
 use crate::study::cost::{Scaling, ScalingRow, StackCost};
 
-const MAX_TOLERANCE: Stroke = Stroke::new(INK, 9.0, "");
 /// Distance of the words of a bar from the bar, in bars.
 const ABOVE: f64 = 0.27;
 
 /// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
 pub fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
     let panels = [bars(costs), speedups(&scaling.cases)];
-    draw(&panels, 2, super::HALF_PAGE)
+    draw(&panels, 2, super::HALF_PAGE).svg()
 }
 
 fn bars(costs: &[StackCost]) -> Panel {
@@ -24,7 +22,7 @@ fn bars(costs: &[StackCost]) -> Panel {
     let mut panel = Panel::new(time, Axis::bare((0.4, costs.len() as f64 + 0.8)));
     for (place, row) in beside_lanes(costs).iter().rev().enumerate() {
         let (y, ns_per_step) = (place as f64 + 1.0, row.0.median());
-        panel.line(MAX_TOLERANCE, [(1.0, Some(y)), (ns_per_step, Some(y))]);
+        panel.line(BAR, [(1.0, Some(y)), (ns_per_step, Some(y))]);
         let ratio = times_lanes(row).map_or_else(String::new, |ratio| {
             format!(", {} times native-lanes", plain(ratio))
         });
@@ -51,7 +49,7 @@ fn speedups(rows: &[ScalingRow]) -> Panel {
         EXACT,
         points().map(|(cases, speedup)| (cases, Some(speedup))),
     );
-    panel.marks(Mark::of(Code::Liggghts), points());
+    panel.marks(POINT, points());
     panel
 }
 

@@ -3,7 +3,7 @@
 use super::Figure;
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, Point, Sample, draw};
-use super::style::{EXACT, GUIDE, Mark, THIN, code_label};
+use super::style::{EXACT, GUIDE, Mark, THIN};
 use crate::code::Code;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
@@ -27,7 +27,7 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
         force.level(EXACT, exact);
         force.words_on("gravity ramp, exact", exact);
     }
-    for code in Code::ALL {
+    for code in Code::all() {
         let rows = || study.rows_of(code, code).filter(|row| row.push.is_some());
         if rows().next().is_none() {
             continue;
@@ -42,7 +42,7 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
             code,
             rows().filter_map(|row| point(row, epsilon, row.yield_force)),
         );
-        contact.key(Sample::Mark(Mark::of(code)), code_label(code));
+        contact.key(Sample::Mark(Mark::of(code)), &code.label());
     }
     contact.key_at(0.6, 0.5);
     let caption = format!(
@@ -67,7 +67,7 @@ fn point(row: &PreparationRow, epsilon: f64, value: Option<f64>) -> Option<Point
 /// Marks, and a line for the native DEM.
 fn draw_rows(panel: &mut Panel, code: Code, points: impl Iterator<Item = Point>) {
     let points: Vec<Point> = points.collect();
-    if code == Code::Native {
+    if code == Code::NATIVE {
         panel.line(THIN, points.iter().map(|&(x, y)| (x, Some(y))));
     }
     panel.marks(Mark::of(code), points);

@@ -1,27 +1,24 @@
 //! The three maps as a figure: how a stack ends, over floor friction and one more property.
 
-use super::axis::power_of_ten;
-use super::panel::{FONT, written};
-use super::style::INK;
+use super::axis::Axis as Ruler;
+use super::drawing::Drawing;
+use super::panel::{Anchor, Panel, Point, Stroke, draw};
+use super::style::{
+    BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NO_PEAK_TOUCHING, NOT_CONFIRMED,
+    SATURATES, SATURATES_TOUCHING, YIELDS, YIELDS_TOUCHING,
+};
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Survey};
 use crate::theory::{
-    Axis, Boundary, EquilibriumPath, Event, FailureMode, Outcome, RegimeMap, released_frictions,
+    Axis, Boundary, EquilibriumPath, Event, FailureMode, LoadingOutcome, RegimeMap,
+    released_frictions,
 };
-use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{BandPlot, LinePlot, ScatterPlot};
-use kuva::render::annotations::TextAnnotation;
-use kuva::render::figure::Figure;
-use kuva::render::layout::{Layout, TickFormat};
-use kuva::render::plots::Plot;
-use std::sync::Arc;
 
 /// Points on a curve, between two lines that cut the axis.
 const SAMPLES: usize = 61;
 /// Size of a panel in pixels, axes and labels included.
 const PANEL: (f64, f64) = (350.0, 330.0);
-const TEXT_SIZE: u32 = 11;
 /// How far a region reaches into the next strip, as a factor on the axis.
 const OVERLAP: f64 = 1.004;
 /// Distance of two lines of text, in units of μ.
@@ -46,84 +43,49 @@ pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
                    0.7 and 2.5. Regions and lines: the follower of equilibria; solid: another event comes first \
                    beyond it, dashed: the same event, another end. Dots: native runs on both sides agree with \
                    the boundary; crosses: they do not.";
-    super::Figure::new("regimes", caption, regimes_svg(maps, survey))
+    super::Figure::new("regimes", caption, drawn(maps, survey))
 }
 
 /// The figure as SVG.
 pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
-    let panels: Vec<(Vec<Plot>, Layout)> = maps.iter().map(|map| panel(map, survey)).collect();
-    let (plots, layouts) = panels.into_iter().unzip();
-    let scene = Figure::new(1, maps.len())
-        .with_plots(plots)
-        .with_layouts(layouts)
-        .with_cell_size(PANEL.0, PANEL.1)
-        .with_spacing(8.0)
-        .with_padding(6.0)
-        .with_labels_lowercase()
-        .render();
-    written(&scene)
+    drawn(maps, survey).svg()
 }
 
-fn panel(map: &RegimeMap, survey: &Survey) -> (Vec<Plot>, Layout) {
+fn drawn(maps: &[RegimeMap], survey: &Survey) -> Drawing {
+    let panels: Vec<Panel> = maps.iter().map(|map| panel(map, survey)).collect();
+    draw(&panels, maps.len(), PANEL)
+}
+
+fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
+    let frictions = Ruler::linear("floor friction μ", (0.0, map.frictions.1), 0.2, 1);
+    let mut panel = Panel::new(ruler(map), frictions);
     let strips = strips(map);
-    let mut plots: Vec<Plot> = Vec::new();
     for strip in &strips {
-        plots.extend(
-            strip
-                .bands
-                .iter()
-                .map(|band| Plot::Band(band.filled(strip))),
-        );
-    }
-    for strip in &strips {
-        plots.extend(
-            strip
-                .curves
-                .iter()
-                .map(|curve| Plot::Line(curve.drawn(strip))),
-        );
+        for band in &strip.bands {
+            panel.area(colour(band.region), band.outline(strip));
+        }
+        for curve in &strip.curves {
+            let frictions = curve.frictions.iter().map(|&friction| Some(friction));
+            panel.line(curve.stroke(), strip.values.iter().copied().zip(frictions));
+        }
     }
     for line in map.lines() {
         let ends = [map.lowest_friction_of(line), map.frictions.1];
-        let points = ends.map(|friction| (line.value(), friction));
-        plots.push(Plot::Line(ink(points.to_vec())));
+        panel.line(
+            BOUNDARY,
+            ends.map(|friction| (line.value(), Some(friction))),
+        );
     }
-    plots.extend(markers(map, survey));
-    let mut layout = layout(map, &plots);
-    for annotation in labels(map, &strips) {
-        layout = layout.with_annotation(annotation);
-    }
-    (plots, layout)
+    mark(&mut panel, map, survey);
+    label(&mut panel, map, &strips);
+    panel
 }
 
-fn layout(map: &RegimeMap, plots: &[Plot]) -> Layout {
-    let layout = Layout::auto_from_plots(plots)
-        .with_x_axis_min(map.range.0)
-        .with_x_axis_max(map.range.1)
-        .with_y_axis_min(0.0)
-        .with_y_axis_max(map.frictions.1)
-        .with_y_tick_step(0.2)
-        .with_y_tick_format(TickFormat::Fixed(1))
-        .with_clamp_axis()
-        .with_show_grid(false)
-        .with_box_axes()
-        .with_font_family(FONT)
-        .with_label_size(13)
-        .with_tick_size(11)
-        .with_y_label("floor friction μ");
+fn ruler(map: &RegimeMap) -> Ruler {
     match map.axis {
-        Axis::Stiffness => layout
-            .with_log_x()
-            .with_x_tick_format(TickFormat::Custom(Arc::new(power_of_ten)))
-            .with_x_label("stiffness kₙ r/(m g)"),
-        Axis::CylinderFriction => layout
-            .with_x_tick_step(0.2)
-            .with_x_tick_format(TickFormat::Fixed(1))
-            .with_x_label("cylinder friction μ_{d}"),
-        Axis::StiffnessRatio => layout
-            .with_log_x()
-            .with_x_tick_format(TickFormat::Custom(Arc::new(|value| value.to_string())))
-            .with_x_label("stiffness ratio κ = kₙ/kₜ"),
+        Axis::Stiffness => Ruler::log("stiffness kₙ r/(m g)", map.range),
+        Axis::CylinderFriction => Ruler::linear("cylinder friction μ_{d}", map.range, 0.2, 1),
+        Axis::StiffnessRatio => Ruler::log("stiffness ratio κ = kₙ/kₜ", map.range),
     }
 }
 
@@ -166,34 +128,27 @@ impl Band {
         self.height() > LINE_HEIGHT
     }
 
-    fn filled(&self, strip: &Strip) -> BandPlot {
+    fn outline(&self, strip: &Strip) -> impl Iterator<Item = Point> {
         // A little into the next strip, which is drawn over it: adjoining edges would let the paper through.
         let end = strip.values[SAMPLES - 1] * OVERLAP;
-        let values = strip.values.iter().copied().chain([end]);
-        let prolonged = |edge: &[f64]| [edge, &edge[SAMPLES - 1..]].concat();
-        BandPlot::new(values, prolonged(&self.lower), prolonged(&self.upper))
-            .with_color(colour(self.region))
-            .with_opacity(1.0)
+        let values: Vec<f64> = strip.values.iter().copied().chain([end]).collect();
+        let edge = |heights: &[f64]| -> Vec<Point> {
+            let heights = heights.iter().chain(heights.last()).copied();
+            values.iter().copied().zip(heights).collect()
+        };
+        let back = edge(&self.upper).into_iter().rev();
+        edge(&self.lower).into_iter().chain(back)
     }
 }
 
 impl Curve {
-    fn drawn(&self, strip: &Strip) -> LinePlot {
-        let values = strip.values.iter().copied();
-        let line = ink(values.zip(self.frictions.iter().copied()).collect());
+    fn stroke(&self) -> Stroke {
         if self.of_events {
-            line
+            BOUNDARY
         } else {
-            line.with_dashed()
+            BOUNDARY_OF_ENDINGS
         }
     }
-}
-
-fn ink(points: Places) -> LinePlot {
-    LinePlot::new()
-        .with_data(points)
-        .with_color(INK)
-        .with_stroke_width(1.2)
 }
 
 fn strips(map: &RegimeMap) -> Vec<Strip> {
@@ -261,7 +216,7 @@ fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, bool)> {
 }
 
 fn region(stack: &Stack) -> Option<Region> {
-    let outcome = Outcome::of(stack)?;
+    let outcome = LoadingOutcome::of(stack)?;
     let ending = match (outcome.end.map(|end| end.event), outcome.failure_mode) {
         (Some(Event::CylinderSlip), _) => Ending::Saturates,
         (Some(_), _) => Ending::Yields,
@@ -272,16 +227,15 @@ fn region(stack: &Stack) -> Option<Region> {
     Some((ending, shares))
 }
 
-/// Light enough for black print on them, and of different lightness.
 fn colour((ending, shares): Region) -> &'static str {
     match (ending, shares) {
-        (Ending::Falls, _) => "#bdbdbd",
-        (Ending::Yields, false) => "#fdf6dc",
-        (Ending::Yields, true) => "#e3f1dc",
-        (Ending::Saturates, false) => "#d3e3f3",
-        (Ending::Saturates, true) => "#c3d9df",
-        (Ending::NoPeak, false) => "#f0cdb4",
-        (Ending::NoPeak, true) => "#bfd9b4",
+        (Ending::Falls, _) => FALLS,
+        (Ending::Yields, false) => YIELDS,
+        (Ending::Yields, true) => YIELDS_TOUCHING,
+        (Ending::Saturates, false) => SATURATES,
+        (Ending::Saturates, true) => SATURATES_TOUCHING,
+        (Ending::NoPeak, false) => NO_PEAK,
+        (Ending::NoPeak, true) => NO_PEAK_TOUCHING,
     }
 }
 
@@ -298,7 +252,7 @@ fn words((ending, shares): Region) -> &'static [&'static str] {
 }
 
 /// Each region is named once, in the middle of the widest part of the axis that it spans without a gap.
-fn labels(map: &RegimeMap, strips: &[Strip]) -> Vec<TextAnnotation> {
+fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     let mut named: Vec<(Region, (f64, f64))> = Vec::new();
     for (index, strip) in strips.iter().enumerate() {
         for band in strip.bands.iter().filter(|band| band.is_visible()) {
@@ -310,13 +264,12 @@ fn labels(map: &RegimeMap, strips: &[Strip]) -> Vec<TextAnnotation> {
             }
         }
     }
-    let places = named.into_iter().filter_map(|(region, span)| {
+    for (region, span) in named {
         let x = map.middle(span);
-        Some((region, (x, height_at(strips, region, x)?)))
-    });
-    places
-        .flat_map(|(region, place)| label(region, place))
-        .collect()
+        if let Some(y) = height_at(strips, region, x) {
+            name(panel, region, (x, y));
+        }
+    }
 }
 
 /// The part of the axis around the strip `index` on which `region` goes on.
@@ -338,21 +291,18 @@ fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
     Some(0.5 * (band.lower[index] + band.upper[index]))
 }
 
-fn label(region: Region, (x, y): (f64, f64)) -> Vec<TextAnnotation> {
+/// Writes the words of `region` in lines around a point.
+fn name(panel: &mut Panel, region: Region, (x, y): Point) {
     let words = words(region);
-    let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 1.0) - 0.5 * LINE_HEIGHT;
-    let lines = words.iter().enumerate();
-    lines
-        .map(|(index, text)| {
-            TextAnnotation::new(*text, x, top - LINE_HEIGHT * index as f64)
-                .with_font_size(TEXT_SIZE)
-                .with_color(INK)
-        })
-        .collect()
+    let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 2.0);
+    for (index, &line) in words.iter().enumerate() {
+        let place = (x, top - LINE_HEIGHT * index as f64);
+        panel.words(line, place, Anchor::Middle);
+    }
 }
 
-/// Filled where the DEM agrees on both sides, crossed where it does not.
-fn markers(map: &RegimeMap, survey: &Survey) -> Vec<Plot> {
+/// Dots where native runs agree on both sides, crosses where they do not.
+fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
     let place = |confirmation: &Confirmation| {
         let stack = &confirmation.point.stack;
         (map.axis.get(stack), stack.floor_friction)
@@ -361,26 +311,16 @@ fn markers(map: &RegimeMap, survey: &Survey) -> Vec<Plot> {
     let of_map = of_map.filter(|confirmation| confirmation.point.map == map.axis);
     let (agreeing, others): (Vec<&Confirmation>, Vec<&Confirmation>) =
         of_map.partition(|confirmation| confirmation.verdict() == Verdict::Agrees);
-    let marked = |places: Places, colour: &str, shape: MarkerShape| {
-        (!places.is_empty()).then(|| {
-            let markers = ScatterPlot::new().with_data(places).with_color(colour);
-            Plot::Scatter(markers.with_size(2.2).with_marker(shape))
-        })
-    };
-    let agreeing: Places = agreeing.into_iter().map(place).collect();
-    let others: Places = others.into_iter().map(place).collect();
     let (released, contradicted) = released_places(map, survey);
-    let agreeing = marked([agreeing, released].concat(), INK, MarkerShape::Circle);
-    let others = marked(
-        [others, contradicted].concat(),
-        "#c00000",
-        MarkerShape::Cross,
+    panel.marks(CONFIRMED, agreeing.into_iter().map(place).chain(released));
+    panel.marks(
+        NOT_CONFIRMED,
+        others.into_iter().map(place).chain(contradicted),
     );
-    agreeing.into_iter().chain(others).collect()
 }
 
 /// Points of a panel: value on the axis and floor friction.
-type Places = Vec<(f64, f64)>;
+type Places = Vec<Point>;
 
 /// The places on the dashed lines whose neighbours were examined: those where both end as they should, and
 /// the others.

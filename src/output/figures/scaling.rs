@@ -13,13 +13,16 @@ pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: 
     let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness());
     codes::key(&mut errors, judgements, (0.05, 0.01));
     let panels = [forces(judgements, exponents, curves), errors];
-    let caption = "Fig. 2(b) of the paper. (a) Yield force F = f/(m g) over the stiffness kₙ r/(m g) for floor \
+    let caption = format!(
+        "Fig. 2(b) of the paper. (a) Yield force F = f/(m g) over the stiffness kₙ r/(m g) for floor \
                   frictions μ = 0.25, μ_c = 2 − √3 and 0.3 at κ = 2.5, with the exponent β of F + 3 ∝ \
                   (kₙ r/(m g))^β, fitted from 10³ on to the native runs (in parentheses what the uncertainties \
                   of the forces can do to the last digit) and to the exact limits at the same stiffnesses, and \
                   its value for infinite stiffness. (b) Distance \
                   of each code from the exact limit under its own convention, relative to F + 3; errors below \
-                  10⁻¹⁰ stand at the lower edge. YADE on facets is left out of (a).";
+                  10⁻¹⁰ stand at the lower edge.{}",
+        codes::left_out(judgements)
+    );
     Figure::new("scaling", caption, draw(&panels, 2, super::HALF_PAGE))
 }
 
@@ -57,7 +60,7 @@ fn fits(panel: &mut Panel, exponents: &[Exponent]) {
     for (x, head) in COLUMNS.into_iter().zip(heads) {
         panel.words(head, (x, LINES[0]), Anchor::Middle);
     }
-    let own = exponents.iter().filter(|own| own.code == Code::Native);
+    let own = exponents.iter().filter(|own| own.code == Code::NATIVE);
     for (fitted, y) in own.zip(&LINES[1..]) {
         let decimals = decimals(fitted.uncertainty);
         let cells = [

@@ -1,6 +1,34 @@
-//! What lines and marks mean, the same in every figure, and told apart without colour.
+//! The look of every figure: fonts, axes, colours, lines and marks, told apart without colour.
 
-use crate::code::Code;
+use super::drawing::Stroke;
+pub(super) use crate::code::Shape;
+use crate::code::{Code, Colour};
+
+/// Fonts of an SVG, the first that a viewer has. A PDF carries DejaVu Sans.
+pub(super) const FONT_FAMILY: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
+/// Size of letters in a panel, at ticks and in captions, in pixels.
+pub(super) const TEXT_SIZE: f64 = 11.0;
+/// Size of the labels of axes.
+pub(super) const LABEL_SIZE: f64 = 13.0;
+/// Size of the letter that names a panel.
+pub(super) const LETTER_SIZE: f64 = 16.0;
+/// Half the height of a small letter of [`TEXT_SIZE`].
+pub(super) const HALF_LETTER: f64 = 3.8;
+
+/// Around the axes of a panel: left, right, top, bottom.
+pub(super) const MARGINS: (f64, f64, f64, f64) = (62.0, 12.0, 24.0, 44.0);
+/// Between two panels.
+pub(super) const SPACING: f64 = 10.0;
+/// Around all panels.
+pub(super) const PADDING: f64 = 4.0;
+/// The frame of a panel and its ticks.
+pub(super) const FRAME: Stroke = Stroke::new(INK, 1.0, &[]);
+/// Length of a tick, outwards.
+pub(super) const TICK: f64 = 5.0;
+/// Lines of a key are this far apart.
+pub(super) const KEY_LINE: f64 = 15.0;
+/// Length of a line in a key.
+pub(super) const KEY_SAMPLE: f64 = 26.0;
 
 /// Black enough for print.
 pub(super) const INK: &str = "#1a1a1a";
@@ -13,46 +41,51 @@ const PURPLE: &str = "#9c4f86";
 const GREEN: &str = "#007d5c";
 const ORANGE: &str = "#c98500";
 
-/// How a line is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke {
-    pub colour: &'static str,
-    pub width: f64,
-    /// Lengths of dashes and gaps in pixels; solid if empty.
-    pub dashes: &'static str,
-}
-
 /// A help to the eye.
-pub(super) const THIN: Stroke = Stroke::new(INK, 0.8, "");
+pub(super) const THIN: Stroke = Stroke::new(INK, 0.8, &[]);
 /// The same for what is the smaller of two.
-pub(super) const THIN_DASHED: Stroke = Stroke::new(INK, 0.8, "5 3");
+pub(super) const THIN_DASHED: Stroke = Stroke::new(INK, 0.8, &[5.0, 3.0]);
 /// A level or a place.
-pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, "3 3");
-/// What everything is held against.
-pub(super) const EXACT: Stroke = Stroke::new(INK, 1.5, "");
+pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, &[3.0, 3.0]);
+/// The exact limit.
+pub(super) const EXACT: Stroke = Stroke::new(INK, 1.5, &[]);
 /// The other theories.
-pub(super) const RIGID: Stroke = Stroke::new(PURPLE, 1.8, "2 2.5");
-pub(super) const PERTURBATION: Stroke = Stroke::new(VERMILION, 1.5, "7 3.5");
-pub(super) const ELASTIC: Stroke = Stroke::new(BLUE, 1.5, "8 3 1.5 3");
-pub(super) const NAIVE: Stroke = Stroke::new(GREEN, 1.5, "3.5 2.5");
+pub(super) const RIGID: Stroke = Stroke::new(PURPLE, 1.8, &[2.0, 2.5]);
+pub(super) const PERTURBATION: Stroke = Stroke::new(VERMILION, 1.5, &[7.0, 3.5]);
+pub(super) const ELASTIC: Stroke = Stroke::new(BLUE, 1.5, &[8.0, 3.0, 1.5, 3.0]);
+pub(super) const NAIVE: Stroke = Stroke::new(GREEN, 1.5, &[3.5, 2.5]);
+/// A bar of a bar chart.
+pub(super) const BAR: Stroke = Stroke::new(INK, 9.0, &[]);
 
 /// The stiffnesses of the paper, softest first.
 pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
-    Stroke::new(INK, 1.5, ""),
-    Stroke::new(BLUE, 1.5, "7 3.5"),
-    Stroke::new(PURPLE, 1.8, "2 2.5"),
+    Stroke::new(INK, 1.5, &[]),
+    Stroke::new(BLUE, 1.5, &[7.0, 3.5]),
+    Stroke::new(PURPLE, 1.8, &[2.0, 2.5]),
 ];
 
-impl Stroke {
-    /// A line of `width` pixels.
-    pub const fn new(colour: &'static str, width: f64, dashes: &'static str) -> Self {
-        Self {
-            colour,
-            width,
-            dashes,
-        }
-    }
-}
+/// The boundaries in a regime map: another event comes first beyond it, or the same one ends otherwise.
+pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
+pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
+/// The regions of a regime map, light enough for black print and of different lightness.
+pub(super) const FALLS: &str = "#bdbdbd";
+pub(super) const YIELDS: &str = "#fdf6dc";
+pub(super) const YIELDS_TOUCHING: &str = "#e3f1dc";
+pub(super) const SATURATES: &str = "#d3e3f3";
+pub(super) const SATURATES_TOUCHING: &str = "#c3d9df";
+pub(super) const NO_PEAK: &str = "#f0cdb4";
+pub(super) const NO_PEAK_TOUCHING: &str = "#bfd9b4";
+
+/// The stack drawn to scale: cylinders, walls, orientations at the start and now.
+pub(super) const BODY: &str = "#5b7fa6";
+pub(super) const BODY_OUTLINE: Stroke = Stroke::new(INK, 1.1, &[]);
+pub(super) const PLANE: Stroke = Stroke::new(INK, 1.6, &[]);
+pub(super) const HATCH: Stroke = Stroke::new(GREY, 0.8, &[]);
+pub(super) const ORIENTATION_AT_START: Stroke = Stroke::new("#9aa7b5", 1.2, &[]);
+pub(super) const ORIENTATION: Stroke = Stroke::new(INK, 1.8, &[]);
+/// Shafts of the arrows of forces.
+pub(super) const NORMAL_FORCE: Stroke = Stroke::new(INK, 2.0, &[]);
+pub(super) const TANGENTIAL_FORCE: Stroke = Stroke::new("#c2410c", 2.0, &[]);
 
 /// What marks a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,15 +96,33 @@ pub(super) struct Mark {
     pub size: f64,
 }
 
-/// Outlines, so that marks at the same place do not hide each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
-    Dot,
-    Circle,
-    Square,
-    Diamond,
-    Cross,
-    Plus,
+/// Marks of codes whose manifests choose none, in turn.
+const UNCHOSEN: [(Shape, Colour); 3] = [
+    (Shape::Square, Colour::Green),
+    (Shape::Diamond, Colour::Blue),
+    (Shape::Plus, Colour::Vermilion),
+];
+
+/// Half the width of a mark: from inside to outside dot, cross, circle, square, diamond and plus.
+const fn size(shape: Shape) -> f64 {
+    match shape {
+        Shape::Dot => 1.7,
+        Shape::Cross => 3.0,
+        Shape::Circle => 3.6,
+        Shape::Square => 4.4,
+        Shape::Diamond | Shape::Plus => 5.0,
+    }
+}
+
+const fn colour(colour: Colour) -> &'static str {
+    match colour {
+        Colour::Ink => INK,
+        Colour::Blue => BLUE,
+        Colour::Vermilion => VERMILION,
+        Colour::Purple => PURPLE,
+        Colour::Orange => ORANGE,
+        Colour::Green => GREEN,
+    }
 }
 
 impl Mark {
@@ -91,31 +142,25 @@ impl Mark {
         }
     }
 
-    /// The mark of an code: from inside to outside dot, cross, circle, plus, square, diamond.
-    pub const fn of(code: Code) -> Self {
-        match code {
-            Code::Native => Self::new(Shape::Dot, INK, 1.7),
-            Code::Liggghts => Self::new(Shape::Circle, BLUE, 3.6),
-            Code::Yade => Self::new(Shape::Cross, VERMILION, 3.0),
-            Code::YadeFacet => Self::new(Shape::Square, PURPLE, 4.4),
-            Code::YadeWall => Self::new(Shape::Diamond, ORANGE, 5.0),
-            Code::Lammps => Self::new(Shape::Plus, GREEN, 5.0),
-        }
+    /// The mark of a code: that of its manifest, or the next of those that are left.
+    pub fn of(code: Code) -> Self {
+        let (shape, own) = code.mark().map_or_else(
+            || {
+                let others = Code::all().into_iter().filter(|other| *other < code);
+                let unchosen = others.filter(|other| other.mark().is_none()).count();
+                UNCHOSEN[unchosen % UNCHOSEN.len()]
+            },
+            |mark| (mark.shape, mark.colour),
+        );
+        Self::new(shape, colour(own), size(shape))
     }
 }
 
-/// The name of an code in a figure.
-pub(super) const fn code_label(code: Code) -> &'static str {
-    match code {
-        Code::Native => "native",
-        Code::Liggghts => "LIGGGHTS",
-        Code::Yade => "YADE, box",
-        Code::YadeFacet => "YADE, facet",
-        Code::YadeWall => "YADE, wall",
-        Code::Lammps => "LAMMPS",
-    }
-}
-
+/// A measured point that belongs to no code.
+pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle));
 /// The onset of slip and the peak on a curve.
 pub(super) const ONSET: Mark = Mark::new(Shape::Circle, BLUE, 4.5);
 pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);
+/// Points of a regime map at which native runs confirm the theory, and at which they do not.
+pub(super) const CONFIRMED: Mark = Mark::new(Shape::Dot, INK, 2.2);
+pub(super) const NOT_CONFIRMED: Mark = Mark::new(Shape::Cross, "#c00000", 2.2);

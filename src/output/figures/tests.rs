@@ -42,8 +42,8 @@ fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
 /// LIGGGHTS at two pushes, of which one has failed.
 fn preparation() -> PreparationStudy {
     let row = |push: f64, force: Option<f64>| PreparationRow {
-        code: Code::Liggghts,
-        convention_of: Code::Liggghts,
+        code: Code::named("liggghts").unwrap(),
+        convention_of: Code::named("liggghts").unwrap(),
         push: Some(push),
         limit_force: None,
         contact_force: force.map(|_| 0.1),
@@ -65,9 +65,9 @@ fn preparation() -> PreparationStudy {
 
 /// Every code at every friction, with LAMMPS having failed.
 fn judgements() -> Vec<Judgement> {
-    let codes = Code::ALL.into_iter();
+    let codes = Code::all().into_iter();
     let rows = codes.flat_map(|code| {
-        let force = (code != Code::Lammps).then_some(4.0);
+        let force = (code != Code::named("lammps").unwrap()).then_some(4.0);
         FRICTIONS.map(|mu| judgement(code, mu, force))
     });
     rows.collect()
@@ -75,7 +75,7 @@ fn judgements() -> Vec<Judgement> {
 
 fn study(force: Option<f64>) -> Convergence {
     let point = |wall_speed, time_step| ConvergencePoint {
-        code: Code::Liggghts,
+        code: Code::named("liggghts").unwrap(),
         wall_speed,
         time_step,
         slip_force: force.map(|force| force + time_step),
@@ -120,7 +120,7 @@ fn curves() -> Curves {
 
 fn exponent() -> Exponent {
     Exponent {
-        code: Code::Native,
+        code: Code::NATIVE,
         mu: 0.3,
         exponent: 0.989_588,
         uncertainty: 2.5e-6,
@@ -168,10 +168,10 @@ fn circles(svg: &str, size: f64) -> usize {
 
 #[test]
 fn every_point_is_marked() {
-    let mark = Mark::of(Code::Liggghts);
+    let mark = Mark::of(Code::named("liggghts").unwrap());
     let (large, small) = (mark.size, mark.small().size);
     for name in ["yield-curves", "scaling"] {
-        let svg = figure(name).svg;
+        let svg = figure(name).svg();
         assert_eq!(circles(&svg, small), FRICTIONS.len(), "{name}: forces");
         assert_eq!(
             circles(&svg, large),
@@ -179,11 +179,11 @@ fn every_point_is_marked() {
             "{name}: key, errors"
         );
     }
-    let model_form = figure("model-form").svg;
+    let model_form = figure("model-form").svg();
     assert_eq!(circles(&model_form, large), 1 + FRICTIONS.len());
     // Key, two forces at two speeds, and two forces at the two time steps other than the paper's.
-    assert_eq!(circles(&figure("convergence").svg, large), 1 + 4 + 4);
-    assert_eq!(circles(&figure("preparation").svg, large), 1 + 2);
+    assert_eq!(circles(&figure("convergence").svg(), large), 1 + 4 + 4);
+    assert_eq!(circles(&figure("preparation").svg(), large), 1 + 2);
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn the_axes_carry_symbols_and_units() {
         ("regimes", ["floor friction μ", "stiffness ratio κ = kₙ/kₜ"]),
         ("preparation", ["push A/(ε r)", "yield force F = f/(m g)"]),
     ] {
-        let svg = figure(name).svg;
+        let svg = figure(name).svg();
         for label in labels {
             assert!(svg.contains(label), "{name}: {label}");
         }
@@ -234,9 +234,9 @@ fn the_same_data_give_the_same_bytes() {
     let [one, other] = [(); 2].map(|()| figures(&reproduction(judgements())));
     assert_eq!(one, other);
     for figure in [&one[0], &one[2]] {
-        let pdf = figure.pdf().unwrap();
+        let pdf = figure.pdf();
         assert!(pdf.starts_with(b"%PDF-"));
-        assert_eq!(pdf, figure.pdf().unwrap());
+        assert_eq!(pdf, figure.pdf());
     }
 }
 
@@ -245,27 +245,12 @@ fn figures_without_any_run_are_still_drawn() {
     let figures = figures(&reproduction(Vec::new()));
     assert_eq!(figures.len(), 9);
     for figure in &figures {
+        let svg = figure.svg();
         assert!(
-            !figure.svg.contains("NaN") && !figure.svg.contains("inf"),
+            !svg.contains("NaN") && !svg.contains("inf"),
             "{}",
             figure.name
         );
-        assert!(figure.pdf().is_ok(), "{}", figure.name);
+        assert!(figure.pdf().starts_with(b"%PDF-"), "{}", figure.name);
     }
-}
-
-#[test]
-fn subscripts_are_lowered_and_what_follows_is_not() {
-    let lowered = panel::lowered("<text>|F_{limit}| + 1</text><text>μ_{c}</text>");
-    assert_eq!(
-        lowered,
-        "<text>|F<tspan font-size=\"75%\" dy=\"3\">limit</tspan><tspan dy=\"-3\">| + 1</tspan></text>\
-         <text>μ<tspan font-size=\"75%\" dy=\"3\">c</tspan></text>"
-    );
-}
-
-#[test]
-fn what_is_no_svg_is_no_pdf() {
-    let figure = Figure::new("broken", "", "<svg".to_owned());
-    assert!(figure.pdf().is_err());
 }

@@ -1,8 +1,8 @@
 //! How far the paper's theories are from the exact limit.
 
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Sample, draw};
-use super::style::{ELASTIC, GUIDE, NAIVE, PERTURBATION, Stroke};
+use super::panel::{Anchor, Panel, Sample, Stroke, draw};
+use super::style::{ELASTIC, GUIDE, NAIVE, PERTURBATION};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::{Curves, SCALING_FRICTIONS, TheoryPoint};

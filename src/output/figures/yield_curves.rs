@@ -14,13 +14,15 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
     let mut errors = error_panel(Axis::friction(), judgements, |row| row.mu());
     codes::key(&mut errors, judgements, (0.05, 0.01));
     let panels = [forces(judgements, curves), errors];
-    let caption = "Fig. 2(a) of the paper. (a) Yield force F = f/(m g) over the floor friction μ for stiffnesses \
+    let caption = format!(
+        "Fig. 2(a) of the paper. (a) Yield force F = f/(m g) over the floor friction μ for stiffnesses \
              kₙ r/(m g) = 10², 10³ and 10⁴ at κ = 2.5: exact quasi-static limit of the paper's model, the \
              paper's perturbation result, the limit of rigid cylinders, and every code under its own contact \
              convention, by slip onset extrapolated to vanishing wall speed (marks as in b). (b) Distance of \
              each code from the exact limit under its own convention, relative to F + 3; errors below \
-             10⁻¹⁰ stand at the lower edge. YADE on facets does what it does on a box and is left out of (a). Runs \
-             of the standard profile.";
+             10⁻¹⁰ stand at the lower edge. Runs of the standard profile.{}",
+        codes::left_out(judgements)
+    );
     Figure::new("yield-curves", caption, draw(&panels, 2, super::HALF_PAGE))
 }
 

@@ -10,7 +10,7 @@ mod sections;
 pub use sections::Origin;
 pub(crate) use sections::declared_tables;
 
-use crate::output::{PdfError, json};
+use crate::output::json;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 use document::Document;
@@ -34,14 +34,11 @@ impl ReportFile {
 }
 
 /// All files of the report. The same runs give the same bytes.
-///
-/// # Errors
-/// If a figure has no PDF form.
 pub fn report_files(
     reproduction: &Reproduction,
     claims: &[ClaimJudgement],
     origin: &Origin,
-) -> Result<Vec<ReportFile>, PdfError> {
+) -> Vec<ReportFile> {
     let document = sections::document(reproduction, claims, origin);
     let mut files = vec![
         ReportFile::new("report.html", html::html(&document)),
@@ -53,10 +50,10 @@ pub fn report_files(
         ReportFile::new("junit.xml", junit::junit(reproduction, claims)),
     ];
     files.extend(tables(&document));
-    files.extend(figures(&document)?);
+    files.extend(figures(&document));
     let crate_ = ro_crate::ro_crate(&document, &files, &reproduction.provenances, origin);
     files.push(ReportFile::new("ro-crate-metadata.json", crate_));
-    Ok(files)
+    files
 }
 
 fn tables(document: &Document) -> Vec<ReportFile> {
@@ -73,18 +70,13 @@ fn tables(document: &Document) -> Vec<ReportFile> {
     tables.collect()
 }
 
-fn figures(document: &Document) -> Result<Vec<ReportFile>, PdfError> {
-    let mut files = Vec::new();
-    for figure in document.figures() {
-        let name = &figure.name;
-        files.push(ReportFile::new(
-            format!("figures/{name}.svg"),
-            figure.svg.clone(),
-        ));
-        files.push(ReportFile::new(
-            format!("figures/{name}.pdf"),
-            figure.pdf()?,
-        ));
-    }
-    Ok(files)
+fn figures(document: &Document) -> Vec<ReportFile> {
+    let figures = document.figures().flat_map(|figure| {
+        let name = figure.name;
+        [
+            ReportFile::new(format!("figures/{name}.svg"), figure.svg()),
+            ReportFile::new(format!("figures/{name}.pdf"), figure.pdf()),
+        ]
+    });
+    figures.collect()
 }

@@ -67,7 +67,7 @@ pub struct Convergence {
 /// The runs of one code: those over the wall speed first.
 fn workload(code: Code) -> Workload {
     let own = |count: usize| match code {
-        Code::Native => count,
+        Code::NATIVE => count,
         _ => count - 1,
     };
     let speeds = WALL_SPEEDS[..own(WALL_SPEEDS.len())]
@@ -157,8 +157,8 @@ mod tests {
 
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
-        for workload in convergence_workloads(&Code::ALL) {
-            let native = workload.code == Code::Native;
+        for workload in convergence_workloads(&Code::all()) {
+            let native = workload.code == Code::NATIVE;
             assert_eq!(workload.cases.len(), if native { 11 } else { 9 });
             for case in &workload.cases {
                 case.validate().unwrap();

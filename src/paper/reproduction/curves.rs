@@ -107,10 +107,25 @@ pub fn curves() -> Curves {
     }
 }
 
+/// The codes whose arms are not the paper's, those with the same arms together.
+pub fn codes_by_arms() -> Vec<Vec<Code>> {
+    let arms = |code: Code| code.convention().arms;
+    let mut groups: Vec<Vec<Code>> = Vec::new();
+    for code in Code::all() {
+        let own = groups.iter_mut().find(|group| arms(group[0]) == arms(code));
+        match own {
+            Some(group) => group.push(code),
+            None => groups.push(vec![code]),
+        }
+    }
+    groups.retain(|group| arms(group[0]) != arms(Code::NATIVE));
+    groups
+}
+
 /// One code for every pair of arms that is not the paper's.
 fn model_form() -> Vec<ModelFormPoint> {
     let mut points = Vec::new();
-    for code in [Code::Liggghts, Code::YadeWall] {
+    for code in codes_by_arms().into_iter().map(|group| group[0]) {
         let convention = code.convention();
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {

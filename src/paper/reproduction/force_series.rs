@@ -68,11 +68,11 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
     let protocol = protocol_at_speed(&limit, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let cases = protocol.map(|protocol| Case {
         stack,
-        convention: Code::Native.convention(),
+        convention: Code::NATIVE.convention(),
         protocol,
     });
     let workload = Workload {
-        code: Code::Native,
+        code: Code::NATIVE,
         cases: cases.into_iter().collect(),
     };
     let results = campaign.read(&[workload]);

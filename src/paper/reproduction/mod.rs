@@ -9,7 +9,7 @@ mod snapshots;
 pub use convergence::{
     Convergence, ConvergencePoint, FAST_WALL, converge, convergence_stack, convergence_workloads,
 };
-pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, codes_by_arms, curves};
 pub use force_series::{ForceSeries, force_series, force_series_stack};
 pub use scaling::{
     Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,

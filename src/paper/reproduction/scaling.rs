@@ -55,7 +55,7 @@ pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
 pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
     let mut fitted = Vec::new();
     for mu in SCALING_FRICTIONS {
-        for code in Code::ALL {
+        for code in Code::all() {
             let own = judgements.iter().filter(|judgement| {
                 let row = judgement;
                 row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM
@@ -159,7 +159,7 @@ mod tests {
         let points: Vec<Point> = [1e3, 1e4, 1e5]
             .map(|stiffness: f64| point(stiffness, 2.0 * stiffness.powf(0.7)))
             .into();
-        let fitted = fit(Code::Native, 0.3, &points);
+        let fitted = fit(Code::NATIVE, 0.3, &points);
         assert!((fitted.exponent - 0.7).abs() < 1e-12);
         assert_eq!(fitted.verdict, Verdict::Agrees);
     }
@@ -168,13 +168,13 @@ mod tests {
     fn a_wrong_force_shows_in_the_exponent() {
         let mut points: Vec<Point> = [1e3, 1e4, 1e5].map(|s: f64| point(s, s.sqrt())).into();
         points[2].load += 1e-3;
-        let fitted = fit(Code::Native, CRITICAL_FRICTION, &points);
+        let fitted = fit(Code::NATIVE, CRITICAL_FRICTION, &points);
         assert_eq!(fitted.verdict, Verdict::Differs);
     }
 
     #[test]
     fn stacks_that_do_not_yield_are_not_planned() {
-        let rows = scaling_measurements(&Code::ALL);
+        let rows = scaling_measurements(&Code::all());
         assert!(rows.iter().all(|row| row.cases.len() == 5));
         assert!(rows.len() > 6 * 15);
     }

@@ -29,7 +29,7 @@ pub struct Snapshots {
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
     let limit = quasistatic_limit(&stack, &Arms::PAPER);
-    let convention = Code::Native.convention();
+    let convention = Code::NATIVE.convention();
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
     let Some(protocol) = protocol else {
         return Ok(None);

@@ -8,7 +8,7 @@ use crate::code::Run;
 use crate::code::{Batching, Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
 use crate::files::FileError;
 use crate::model::{Case, shown};
-use crate::runs::LockOwner;
+use crate::runs::{LockOwner, in_parallel};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -148,12 +148,16 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
     }
 
     /// Fills the slots of the requests whose runs are in the store, and returns the others.
-    fn without_stored(&self, code: &dyn InstalledCode, mut requests: Vec<usize>) -> Vec<usize> {
-        if !self.settings.fresh {
-            // What is damaged is looked at when nobody else is at it.
-            requests.retain(|&request| !self.fill_from_store(code, request, |_| ()));
+    fn without_stored(&self, code: &dyn InstalledCode, requests: Vec<usize>) -> Vec<usize> {
+        if self.settings.fresh {
+            return requests;
         }
-        requests
+        // Damaged runs are put into quarantine later, under a claim.
+        let is_stored = |&request: &usize| self.fill_from_store(code, request, |_| ());
+        let stored = in_parallel(&requests, self.settings.threads, is_stored);
+        let all = requests.into_iter().zip(stored);
+        all.filter_map(|(request, stored)| (!stored).then_some(request))
+            .collect()
     }
 
     /// Fills the slot of `request` if its run is in the store; one that is damaged is `damaged`.

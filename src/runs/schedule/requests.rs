@@ -118,9 +118,9 @@ mod tests {
             cases: cases.concat(),
         };
         let workloads = [
-            load(Code::Native, [&some, &some[1..]]),
-            load(Code::Native, [&others, &some]),
-            load(Code::Yade, [&some, &[]]),
+            load(Code::NATIVE, [&some, &some[1..]]),
+            load(Code::NATIVE, [&others, &some]),
+            load(Code::named("yade").unwrap(), [&some, &[]]),
         ];
         let (requests, wanted) = requests(&workloads);
         assert_eq!(requests.len(), some.len() + others.len() + some.len());

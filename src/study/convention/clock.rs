@@ -1,12 +1,12 @@
-//! Mass and inertia, and the moments at which a code reports its velocities.
+//! Mass, moment of inertia, and the times to which reported velocities belong.
 
-use super::properties::Property;
+use super::finding::Property;
 use super::regression::{Measured, fit};
 use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::{BodyRow, Motion};
 
-/// What free motion says of the bodies and of the integrator.
+/// Properties of the bodies and of the integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// Force over acceleration.
@@ -19,7 +19,7 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Read off the motions of all bodies that feel a force.
+    /// Fits the motions of all bodies that feel a force.
     ///
     /// With the velocities v_{n−1/2} = (x_n − x_{n−1})/dt, mass and lag s follow from
     /// F_n dt = m (v_{n+1/2} − v_{n−1/2}) and v_n = v_{n−1/2} + (1/2 − s)(v_{n+1/2} − v_{n−1/2}); the inertia
@@ -67,7 +67,7 @@ impl Clock {
         }
     }
 
-    /// Properties of the bodies and of the integrator.
+    /// The fitted properties beside the declared ones.
     pub fn properties(&self, declared: &Declaration) -> Vec<Property> {
         let inertia = declared.convention.moment_of_inertia;
         vec![

@@ -1,4 +1,4 @@
-//! A motion as the contact sees it: overlap, relative velocities, force components.
+//! A motion in the frame of the contact: overlap, relative velocities, force components.
 
 use super::clock::Clock;
 use super::experiments::ContactKind;
@@ -30,7 +30,7 @@ pub struct ContactRow {
     pub wall_force: f64,
     /// Time step.
     pub time_step: f64,
-    /// Friction coefficient that was asked for.
+    /// Friction coefficient of the micro-test.
     pub friction: f64,
 }
 

@@ -1,8 +1,8 @@
-//! The micro-tests: how two cylinders are launched so that one contact shows its law.
+//! The micro-tests: initial motions of two cylinders in which one contact shows its law.
 
 use crate::model::{ContactConvention, ContactTest, InitialMotion};
 
-/// Which contact is tested.
+/// The contact that is tested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactKind {
     /// Between the two cylinders.
@@ -26,15 +26,15 @@ impl ContactKind {
 
 /// Weak damping, so that the normal force of a collision rises for a while.
 const RESTITUTION: f64 = 0.9;
-/// A tangential spring that is stiffer than the normal one, so that it reaches the limit while that rises.
+/// k_n/k_t below 1: the tangential spring reaches the limit while the normal force still rises.
 const STIFFNESS_RATIO: f64 = 0.5;
-/// High enough that a contact in gentle motion sticks.
+/// Friction high enough that a contact in gentle motion sticks.
 const ROUGH: f64 = 0.9;
-/// Low enough that a contact in fast motion slides, and sticks again when it has slowed down.
+/// Friction low enough that a contact in fast motion slides, and sticks again when it has slowed down.
 const SLIPPERY: f64 = 0.2;
-/// Low enough that the limit is reached within a few steps by a motion that hardly changes the geometry.
+/// Friction low enough that the limit is reached within a few steps, before the geometry changes noticeably.
 const SLEEK: f64 = 5e-4;
-/// Direction of the line between the cylinders of a pair: askew, so that no component is special.
+/// Direction of the line between the cylinders of a pair, along no axis.
 const PAIR_ANGLE: f64 = 0.4;
 const PAIR_CENTRE: [f64; 2] = [0.0, 2.3];
 const WALL_HEIGHT: f64 = 4.5;
@@ -103,7 +103,7 @@ const GENTLE: [Start; 3] = [
     },
 ];
 
-/// The same motions with half the time step, from which the moments that forces belong to follow.
+/// The same motions with half the time step, from which the times to which forces belong follow.
 pub fn refined(kind: ContactKind, convention: &ContactConvention) -> [ContactTest; 3] {
     let run = Run {
         friction: ROUGH,
@@ -146,7 +146,7 @@ pub fn separating(kind: ContactKind, convention: &ContactConvention) -> ContactT
 }
 
 /// A spin that brings the contact to Coulomb's limit within a few steps, if it is fast enough.
-pub fn brink(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
+pub fn near_slip(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
     let start = Start {
         overlap: 0.2,
         spin,

@@ -1,13 +1,14 @@
 //! The conventions of the codes, measured before anything is judged by them.
 
-use crate::code::{Code, Failure, InstalledCode, RunContext, keep_evidence};
+use super::finding::Finding;
+use super::probe::probe;
+use crate::code::{Code, Failure, InstalledCode, RunContext, TaskKind, keep_evidence};
 use crate::code::{Identity, Provenance};
 use crate::files::FileError;
 use crate::model::{ContactTest, sha256_hex, shown};
 use crate::runs::{Answer, ProbeRecord, in_parallel};
 use crate::runs::{Progress, RecordedError, SelectedCode, Settings};
 use crate::study::Verdict;
-use crate::study::convention::{Finding, probe};
 use std::time::Instant;
 use thiserror::Error;
 
@@ -89,7 +90,7 @@ pub fn record_probe(
         return Ok(settings.recorded.probe(who.name)?);
     };
     // The native code answers faster than its answers are read, and all of tristack decides what they are.
-    if who.name == Code::Native {
+    if who.name == Code::NATIVE {
         return ask(code, settings);
     }
     let address = address(code);
@@ -115,7 +116,7 @@ pub fn record_probe(
 
 /// Whether `record` answers everything that is asked today, as it is asked today.
 fn is_current(record: &ProbeRecord, name: Code) -> bool {
-    if record.outdated(|test| name.probe_hash(test)).is_some() {
+    if record.outdated(|test| name.deck_hash(test)).is_some() {
         return false;
     }
     let answered = |tests: &[ContactTest]| record.answer(tests).ok_or(());
@@ -124,7 +125,7 @@ fn is_current(record: &ProbeRecord, name: Code) -> bool {
 
 /// Content address of the probe of an code: who it is, and which deck it is given.
 fn address(code: &dyn InstalledCode) -> String {
-    let parts = serde_json::json!([code.identity(), code.name().static_probe_hash()]);
+    let parts = serde_json::json!([code.identity(), code.name().files_hash(TaskKind::Motion)]);
     sha256_hex(parts.to_string().as_bytes())
 }
 
@@ -149,7 +150,7 @@ fn ask(code: &dyn InstalledCode, settings: &Settings) -> Result<ProbeRecord, Pro
         let motions = code.probe(tests, &context)?;
         answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
             test: *test,
-            input_hash: name.probe_hash(test),
+            input_hash: name.deck_hash(test),
             motion: motion.clone(),
         }));
         Ok(motions)
@@ -252,7 +253,7 @@ mod tests {
 
     fn probed(verdicts: &[Verdict]) -> Probed {
         let finding = |&verdict: &Verdict| Finding {
-            code: Code::Yade,
+            code: Code::named("yade").unwrap(),
             version: String::new(),
             property: verdict.to_string(),
             measured: Some(1.0),
@@ -289,7 +290,9 @@ mod tests {
             arms_are_measured(&Ok(probed))
         };
         assert!(of_arm(Verdict::Agrees) && !of_arm(Verdict::Inconclusive));
-        assert!(!is_contradicted(&Err(ProbeError::Outdated(Code::Yade))));
+        assert!(!is_contradicted(&Err(ProbeError::Outdated(
+            Code::named("yade").unwrap()
+        ))));
     }
 
     #[test]

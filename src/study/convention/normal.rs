@@ -1,4 +1,4 @@
-//! The normal law: stiffness, damping, and the moments they belong to.
+//! The normal law: stiffness, damping, and the times to which overlap and velocity belong.
 
 use super::contact_frame::ContactRow;
 use super::regression::{Measured, fit};
@@ -10,14 +10,14 @@ pub struct NormalLaw {
     pub stiffness: Measured,
     /// η_n.
     pub damping: Measured,
-    /// o, steps by which the overlap in the force is ahead of the reported one.
+    /// o, lead of the overlap in the force over the reported one, in steps.
     pub overlap_lead: Measured,
-    /// λ, steps by which the velocity in the force lags behind the reported overlap.
+    /// λ, lag of the velocity in the force behind the reported overlap, in steps.
     pub velocity_lag: Measured,
 }
 
 impl NormalLaw {
-    /// Read off rows with a time step and rows with another one.
+    /// Fits rows with two time steps.
     ///
     /// With v_n half a step before δ_n, the force is A δ_n − B v_n with A = k_n/(1 + q dt) and
     /// B = (η_n − k_n o dt)/(1 + q dt), q = η_n (1/2 − λ)/m.

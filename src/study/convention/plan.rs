@@ -1,24 +1,25 @@
-//! The micro-tests of one kind, and the laws read off their motions.
+//! The micro-tests of one kind of contact, and the laws that follow from their motions.
 
 use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
+use super::finding::Property;
 use super::normal::{NormalLaw, pull};
-use super::properties::{Property, normal_properties, sliding_properties, tangential_properties};
+use super::properties::{normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
-use super::sliding::{BRINK, SlidingLaw, is_at_limit, largest_operand};
+use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
 use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 
-/// Spin of the motion from which those to the brink of sliding are scaled.
+/// Spin of the gentle motion from which those to the slip threshold are scaled.
 const GENTLE_SPIN: f64 = 1e-4;
 
 /// Shares of the damping in the Coulomb operand that are tried.
 const SHARES: [f64; 2] = [0.0, 1.0];
 
-/// A micro-test and what came out of it.
-pub type Outcome<'a> = (&'a ContactTest, &'a Motion);
+/// A micro-test and its motion.
+pub type TestedMotion<'a> = (&'a ContactTest, &'a Motion);
 
 /// The micro-tests of one kind.
 pub struct Plan {
@@ -27,7 +28,7 @@ pub struct Plan {
     tests: Vec<ContactTest>,
 }
 
-/// Places of the tests in a plan.
+/// Indices of the tests in a plan.
 const STICKING: std::ops::Range<usize> = 0..3;
 const REFINED: std::ops::Range<usize> = 3..6;
 const SEPARATING: usize = 6;
@@ -43,7 +44,7 @@ impl Plan {
         tests.push(experiments::separating(kind, convention));
         if kind != ContactKind::Wall {
             tests.push(experiments::sliding(kind, convention));
-            tests.push(experiments::brink(kind, convention, GENTLE_SPIN));
+            tests.push(experiments::near_slip(kind, convention, GENTLE_SPIN));
         }
         Self {
             kind,
@@ -57,8 +58,8 @@ impl Plan {
         &self.tests
     }
 
-    /// Reads the laws off the motions of the tests; `turning` is the motion of a pair that turns.
-    pub fn read(self, motions: &[Outcome], turning: &[ContactRow], clock: &Clock) -> Laws {
+    /// Fits the laws to the motions of the tests; `turning` is the motion of a pair that turns.
+    pub fn read(self, motions: &[TestedMotion], turning: &[ContactRow], clock: &Clock) -> Laws {
         let rows: Vec<Vec<ContactRow>> = motions
             .iter()
             .map(|(test, motion)| contact_rows(self.kind, test, motion, clock))
@@ -76,8 +77,8 @@ impl Plan {
     }
 }
 
-/// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ; a
-/// twentieth of the distance from the brink does not matter.
+/// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ. This shifts it by
+/// at most a twentieth of [`MARGIN`].
 fn rounded(spin: f64) -> f64 {
     format!("{spin:.10e}").parse().unwrap_or(spin)
 }
@@ -93,52 +94,52 @@ pub struct Laws {
 
 impl Laws {
     /// Motions to just below and just above Coulomb's limit, for every share of the damping that may count in
-    /// its operand. Sticking is linear in the spin, so that a gentle motion tells how fast they must be.
-    pub fn brinks(&self) -> Vec<ContactTest> {
+    /// its operand. Sticking is linear in the spin: the gentle motion determines how fast they must be.
+    pub fn threshold_tests(&self) -> Vec<ContactTest> {
         let Some(gentle) = self.rows.get(GENTLE) else {
             return Vec::new();
         };
         let spins = SHARES.iter().flat_map(|&share| {
             let largest = largest_operand(gentle, &self.tangential, share);
             let at_limit = GENTLE_SPIN / largest.map_or(f64::NAN, |(_, ratio)| ratio);
-            [at_limit * (1.0 - BRINK), at_limit * (1.0 + BRINK)]
+            [at_limit * (1.0 - MARGIN), at_limit * (1.0 + MARGIN)]
         });
         spins
             .map(|spin| {
-                // A contact without friction or damping has no brink; any other motion tells as much.
+                // A contact without friction or damping has no threshold: any motion will do.
                 let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
-                experiments::brink(self.plan.kind, &self.plan.convention, rounded(spin))
+                experiments::near_slip(self.plan.kind, &self.plan.convention, rounded(spin))
             })
             .collect()
     }
 
     /// The share of the damping in the Coulomb operand: the one with which the contact sticks just below the
     /// limit and slides just above it.
-    fn operand_damping(&self, outcomes: &[Outcome], clock: &Clock) -> Measured {
+    fn operand_damping(&self, outcomes: &[TestedMotion], clock: &Clock) -> Measured {
         let gentle = self.rows.get(GENTLE).map_or(&[][..], Vec::as_slice);
         let candidates = SHARES.iter().zip(outcomes.chunks(2));
         let mut found = candidates.filter_map(|(&share, motions)| {
             let (row, ratio) = largest_operand(gentle, &self.tangential, share)?;
-            let slides = |(test, motion): &Outcome| {
+            let slides = |(test, motion): &TestedMotion| {
                 let rows = contact_rows(self.plan.kind, test, motion, clock);
                 rows.get(row).map(is_at_limit)
             };
             let [below, above] = [motions.first()?, motions.get(1)?].map(slides);
-            let brink = below == Some(false) && above == Some(true);
-            brink.then(|| Measured::new(share, BRINK * self.limit_over_damping(row, ratio)))
+            let found = below == Some(false) && above == Some(true);
+            found.then(|| Measured::new(share, MARGIN * self.limit_over_damping(row, ratio)))
         });
         found.next().unwrap_or(Measured::UNKNOWN)
     }
 
-    /// The limit in units of the damping force, at the brink.
+    /// The limit in units of the damping force, at the slip threshold.
     fn limit_over_damping(&self, row: usize, ratio: f64) -> f64 {
         let row = &self.rows[GENTLE][row];
         let damping = self.tangential.damping.value * self.tangential.surface_speed(row);
         row.friction * row.normal_force * ratio / damping.abs()
     }
 
-    /// All properties of the kind; `brinks` are the outcomes of the motions to the brink of sliding.
-    pub fn properties(&self, brinks: &[Outcome], clock: &Clock) -> Vec<Property> {
+    /// All properties of the kind; `near_slip` are the motions to the slip threshold.
+    pub fn properties(&self, near_slip: &[TestedMotion], clock: &Clock) -> Vec<Property> {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
         let mut properties = normal_properties(kind, &self.normal, self.pull, test);
@@ -146,7 +147,7 @@ impl Laws {
             properties.extend(self.wall_properties());
             return properties;
         }
-        let share = self.operand_damping(brinks, clock);
+        let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
         properties.extend(tangential_properties(kind, &self.tangential, test));
         let test = &self.plan.tests[SLIDING];
@@ -154,7 +155,7 @@ impl Laws {
         properties
     }
 
-    /// The top wall has no friction, and what it reports is what it exerts.
+    /// Friction and reported force of the top wall, which is frictionless and reports the force that it exerts.
     fn wall_properties(&self) -> [Property; 2] {
         let rows = self.rows[STICKING].iter().flatten();
         let against_normal = |value: fn(&ContactRow) -> f64| {

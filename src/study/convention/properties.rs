@@ -1,96 +1,16 @@
-//! What a code declares, property by property, and the verdict on what was measured of each.
+//! Every measured property beside the declared one.
 
 use super::experiments::ContactKind;
+use super::finding::Property;
 use super::normal::NormalLaw;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
-use crate::code::Code;
 use crate::model::{
     ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
 };
-use crate::study::Verdict;
-use serde::{Deserialize, Serialize};
 
-/// Largest deviation of an external code that agrees, relative to the declared value (to 1 where that is
-/// 0): a tenth of the bar for yield forces, and a thousand times what was ever seen.
-pub const TOLERANCE: f64 = 1e-6;
-
-/// The same for the native code, whose rounding alone is between it and its declaration.
-pub const NATIVE_TOLERANCE: f64 = 1e-9;
-
-/// A property of one code, measured.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// Whose.
-    pub code: Code,
-    /// In which version.
-    pub version: String,
-    /// Its name.
-    pub property: String,
-    /// What was measured; absent if it could not be.
-    pub measured: Option<f64>,
-    /// Three standard errors; absent with the measured value.
-    pub uncertainty: Option<f64>,
-    /// What the adapter declares.
-    pub declared: f64,
-    /// What follows.
-    pub verdict: Verdict,
-}
-
-/// A property with its measured and its declared value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Property {
-    /// Name, beginning with the kind if it belongs to one.
-    pub name: String,
-    /// As measured.
-    pub measured: Measured,
-    /// As declared.
-    pub declared: f64,
-}
-
-impl Property {
-    /// A property of the whole code.
-    pub fn new(name: &str, measured: Measured, declared: f64) -> Self {
-        Self {
-            name: name.to_owned(),
-            measured,
-            declared,
-        }
-    }
-
-    /// A property of the contacts at `kind`.
-    pub fn at(kind: ContactKind, name: &str, measured: Measured, declared: f64) -> Self {
-        Self::new(&format!("{}_{name}", kind.as_str()), measured, declared)
-    }
-
-    /// The verdict, as a row for `code`.
-    pub fn judge(self, code: Code, version: &str) -> Finding {
-        let scale = if self.declared == 0.0 {
-            1.0
-        } else {
-            self.declared.abs()
-        };
-        let relative = if code == Code::Native {
-            NATIVE_TOLERANCE
-        } else {
-            TOLERANCE
-        };
-        let Measured { value, uncertainty } = self.measured;
-        let known = value.is_finite() && uncertainty.is_finite();
-        Finding {
-            code,
-            version: version.to_owned(),
-            property: self.name,
-            measured: known.then_some(value),
-            uncertainty: known.then_some(uncertainty),
-            declared: self.declared,
-            verdict: Verdict::of(value - self.declared, uncertainty, relative * scale),
-        }
-    }
-}
-
-/// Properties of the normal force at `kind`, which every code shares but for `pull`.
+/// Properties of the normal force at `kind`; only `pull` differs between codes.
 pub fn normal_properties(
     kind: ContactKind,
     law: &NormalLaw,
@@ -185,22 +105,5 @@ fn damping_share(convention: &ContactConvention) -> f64 {
     match convention.coulomb_operand {
         CoulombOperand::SpringAndDamping => 1.0,
         CoulombOperand::Spring => 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_small_declared_value_has_a_tolerance_of_its_own() {
-        let verdict = |measured: f64, declared: f64| {
-            let property = Property::new("damping", Measured::new(measured, 0.0), declared);
-            property.judge(Code::Yade, "").verdict
-        };
-        assert_eq!(verdict(0.067 * (1.0 + 0.9e-6), 0.067), Verdict::Agrees);
-        assert_eq!(verdict(0.067 * (1.0 + 1.1e-6), 0.067), Verdict::Differs);
-        assert_eq!(verdict(0.9e-6, 0.0), Verdict::Agrees);
-        assert_eq!(verdict(1.1e-6, 0.0), Verdict::Differs);
     }
 }

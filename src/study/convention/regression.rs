@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Standard errors in an uncertainty.
+/// Uncertainty in units of the standard error.
 const COVERAGE: f64 = 3.0;
-/// Singular values of the scaled columns below this are not resolved.
+/// Smallest ratio of singular values of the scaled columns at which the coefficients are resolved.
 const RANK_TOLERANCE: f64 = 1e-9;
 
 /// A number with an uncertainty of three standard errors.
@@ -17,7 +17,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// A number that could not be measured.
+    /// The result of a failed measurement.
     pub const UNKNOWN: Self = Self {
         value: f64::NAN,
         uncertainty: f64::INFINITY,
@@ -47,8 +47,8 @@ impl Measured {
     }
 }
 
-/// Coefficients c with rows · c ≈ targets, each row weighted alike. [`Measured::UNKNOWN`] where there are
-/// too few rows, or where they do not tell the coefficients apart.
+/// Coefficients c with rows · c ≈ targets, all rows with the same weight. [`Measured::UNKNOWN`] if there are too few
+/// rows, or the coefficients are not resolved.
 pub fn fit<const N: usize>(rows: &[([f64; N], f64)]) -> [Measured; N] {
     let general: Vec<(Vec<f64>, f64)> = rows
         .iter()

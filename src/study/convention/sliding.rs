@@ -1,31 +1,31 @@
-//! The contact at Coulomb's limit: friction, operand, damping, and what becomes of the spring.
+//! The contact at Coulomb's limit: friction, operand, damping, and the length of the spring.
 
 use super::contact_frame::ContactRow;
 use super::regression::{Measured, fit};
 use super::tangential::{TangentialLaw, carried};
 
-/// |f_t|/f_n of all rows that slide are equal up to rounding, and up to what a linearised transport of the
-/// spring adds to the normal force (3e-8); where the contact sticks they change by a thousand times more from
+/// Largest relative difference between |f_t|/f_n of rows that slide: rounding, and the contribution of a linearised
+/// history update to the normal force (3e-8). Where the contact sticks, the ratio changes a thousand times as much from
 /// row to row.
 const SAME_RATIO: f64 = 1e-7;
 
-/// How far below and above the limit a contact is brought to see whether it sticks or slides.
-pub const BRINK: f64 = 1e-10;
+/// Relative distance below and above the limit at which the contact is observed to stick or slide.
+pub const MARGIN: f64 = 1e-10;
 
-/// What a motion that slides and sticks again says.
+/// The law of a contact that slides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingLaw {
     /// μ.
     pub friction: Measured,
     /// Damping beyond the limit, in units of η_t.
     pub damping: Measured,
-    /// Part of the spring's length at the onset that is still there at the end, on the scale from the length
-    /// that follows the limit (0) to the frozen one (1).
+    /// Length of the spring at the end of sliding, on the scale from the length that follows the limit (0) to the
+    /// length at the onset (1).
     pub memory: Measured,
 }
 
 impl SlidingLaw {
-    /// Read off one motion; `operand_damping` says how much of the damping counts in the operand.
+    /// Fits one motion that slides and sticks again; `operand_damping` is the share of the damping in the operand.
     pub fn read(rows: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> Self {
         let slides = slides(rows);
         let sliding = rows.iter().zip(&slides).filter(|(_, slides)| **slides);
@@ -44,7 +44,7 @@ impl SlidingLaw {
     }
 }
 
-/// Which rows slide: those with the ratio of forces that most rows have.
+/// Marks the rows that slide: those with the most frequent ratio of forces.
 fn slides(rows: &[ContactRow]) -> Vec<bool> {
     let ratios: Vec<f64> = rows
         .iter()
@@ -59,7 +59,7 @@ fn slides(rows: &[ContactRow]) -> Vec<bool> {
         .collect()
 }
 
-/// The stretch of sliding between two rows that stick on which the two lengths are furthest apart decides.
+/// The memory of the spring, from the stretch of sliding on which the two lengths are furthest apart.
 fn memory(
     rows: &[ContactRow],
     slides: &[bool],
@@ -82,8 +82,8 @@ fn memory(
     })
 }
 
-/// Length of the spring at the end of a stretch of sliding, which is enclosed by two rows that stick: as it
-/// is, as it would be if it followed the limit, and as it was before.
+/// Length of the spring at the end of a stretch of sliding between two rows that stick: as measured, as it would be if
+/// it followed the limit, and as it was before.
 fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> [f64; 3] {
     let stiffness = law.stiffness.value;
     let [before, last, next] = [0, stretch.len() - 2, stretch.len() - 1].map(|at| &stretch[at]);
@@ -97,8 +97,8 @@ fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: 
     ]
 }
 
-/// The row of a motion near the limit at which the operand, with so much of the damping in it, is largest
-/// relative to the limit, and that ratio.
+/// Index of the row with the largest ratio of operand to limit, and that ratio; `operand_damping` is the share of the
+/// damping in the operand.
 pub fn largest_operand(
     rows: &[ContactRow],
     law: &TangentialLaw,
@@ -113,8 +113,8 @@ pub fn largest_operand(
     ratios.max_by(|(_, left), (_, right)| left.total_cmp(right))
 }
 
-/// Whether a row is at the limit rather than a [`BRINK`] below or above it.
+/// Whether a row is at the limit rather than a [`MARGIN`] below or above it.
 pub fn is_at_limit(row: &ContactRow) -> bool {
     let limit = row.friction * row.normal_force;
-    (row.tangential_force.abs() / limit - 1.0).abs() < 0.5 * BRINK
+    (row.tangential_force.abs() / limit - 1.0).abs() < 0.5 * MARGIN
 }

@@ -1,11 +1,11 @@
-//! The tangential law of a contact that sticks: stiffness, damping, arms, transport of the spring.
+//! The tangential law of a contact that sticks: stiffness, damping, arms, history update.
 
 use super::contact_frame::ContactRow;
 use super::regression::{Measured, fit, fit_rows};
 
-/// Contacts closer to Coulomb's limit than this fraction of it are left out.
+/// Fraction of Coulomb's limit up to which rows count as sticking.
 const CERTAINLY_STICKING: f64 = 0.5;
-/// The transport and the other coefficients are fitted in turns; each round gains some two digits.
+/// Rounds in which the transport and the other coefficients are fitted in turn; each gains some two digits.
 const ROUNDS: usize = 8;
 
 /// f_t = −k_t u − η_t w, where the spring u grows by w dt a step and w = v_t − R ω, R = r + r₁ δ.
@@ -36,7 +36,7 @@ const DAMPING_SPIN_OVERLAP: usize = 4;
 const COEFFICIENTS: usize = 5;
 
 impl TangentialLaw {
-    /// Read off several gentle motions, and, for a pair, one in which the contact turns.
+    /// Fits several gentle motions and, for a pair, one in which the contact turns.
     pub fn read(gentle: &[Vec<ContactRow>], turning: Option<&[ContactRow]>) -> Self {
         let gentle: Vec<&[ContactRow]> = gentle.iter().map(|rows| sticking(rows)).collect();
         let (radius, torque_arm) = arms_of_torque(&gentle);
@@ -97,7 +97,7 @@ impl TangentialLaw {
         .with_common_radius(found[SPRING_SPIN].over(found[SPRING]))
     }
 
-    /// The spring's own radius belongs to the same R as the torque's; what is between them counts as
+    /// Adds the difference between the radius of the spring and that of the torque, which should be the same, to the
     /// uncertainty of the latter.
     fn with_common_radius(mut self, of_spring: Measured) -> Self {
         let apart = (of_spring.value - self.radius.value).abs();
@@ -111,12 +111,12 @@ impl TangentialLaw {
         row.tangential_speed - radius * row.spin
     }
 
-    /// Force of the spring, −k_t u, of a row in which the contact sticks.
+    /// Force of the spring, −k_t u, in a row that sticks.
     pub fn spring_force(&self, row: &ContactRow) -> f64 {
         row.tangential_force + self.damping.value * self.surface_speed(row)
     }
 
-    /// The transport from one motion with a stretched spring, everything else being known, by Gauss–Newton
+    /// Fits the transport to one motion with a stretched spring, all other coefficients being known, by Gauss–Newton
     /// in the transport and the initial spring.
     fn fit_transport(&self, rows: &[ContactRow]) -> Measured {
         let Some(first) = rows.first() else {

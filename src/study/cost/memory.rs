@@ -1,31 +1,31 @@
-//! Largest resident memory of processes while something is done, as Linux tells it.
+//! Largest resident memory of processes during some work, from `/proc`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-const BETWEEN_LOOKS: Duration = Duration::from_millis(5);
+const SAMPLING_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Whose memory.
+/// The processes whose memory is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Processes {
-    /// Of this process, as it is at every look.
+    /// This process, sampled.
     Own,
-    /// Of its children and theirs together, each at its own peak so far.
+    /// Its descendants together, each at its own peak so far.
     Children,
 }
 
-/// Does `work`, and looks at the memory of `processes` every few milliseconds meanwhile. The peak is in bytes;
-/// `None` where there is no `/proc`, or no look met a process.
+/// Does `work`, and samples the memory of `processes` every few milliseconds meanwhile. The peak is in bytes; `None`
+/// where there is no `/proc`, or no sample found a process.
 pub(super) fn with_peak<T>(processes: Processes, work: impl FnOnce() -> T) -> (T, Option<u64>) {
     let done = AtomicBool::new(false);
     std::thread::scope(|scope| {
         let watch = scope.spawn(|| {
-            let mut peak = look(processes);
+            let mut peak = sample(processes);
             while !done.load(Ordering::Relaxed) {
-                std::thread::sleep(BETWEEN_LOOKS);
-                peak = peak.max(look(processes));
+                std::thread::sleep(SAMPLING_INTERVAL);
+                peak = peak.max(sample(processes));
             }
             peak
         });
@@ -35,7 +35,7 @@ pub(super) fn with_peak<T>(processes: Processes, work: impl FnOnce() -> T) -> (T
     })
 }
 
-fn look(processes: Processes) -> Option<u64> {
+fn sample(processes: Processes) -> Option<u64> {
     let own = Path::new("/proc/self");
     match processes {
         Processes::Own => status_bytes(own, "VmRSS:"),
@@ -46,7 +46,7 @@ fn look(processes: Processes) -> Option<u64> {
     }
 }
 
-/// A size in the `status` of the process at `directory`.
+/// A size in the `status` of the process at `directory`, in bytes.
 fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
     let status = fs::read_to_string(directory.join("status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix(key))?;
@@ -54,7 +54,7 @@ fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
     Some(1024 * kibibytes)
 }
 
-/// The children of the process at `directory`, and theirs.
+/// The descendants of the process at `directory`.
 fn descendants(directory: &Path) -> Vec<PathBuf> {
     let threads = fs::read_dir(directory.join("task")).into_iter().flatten();
     let lists = threads.flatten();
@@ -79,8 +79,8 @@ mod tests {
         const BYTES: usize = 64 << 20;
         let ((), peak) = with_peak(Processes::Own, || {
             let held = vec![1_u8; BYTES];
-            // However busy the machine, one of so many looks comes in time.
-            std::thread::sleep(200 * BETWEEN_LOOKS);
+            // Even on a busy machine one of so many samples comes in time.
+            std::thread::sleep(200 * SAMPLING_INTERVAL);
             drop(std::hint::black_box(held));
         });
         assert!(peak.is_some_and(|peak| peak > BYTES as u64));

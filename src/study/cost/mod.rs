@@ -1,4 +1,4 @@
-//! What a step costs: native beside the external codes, in one call.
+//! The cost of a step, of a start and of a yield force: native beside the external codes.
 
 mod memory;
 mod pyramid;

@@ -6,13 +6,13 @@ use crate::code::{Code, InstalledCode, RunContext};
 use crate::model::Pyramid;
 use crate::series::PyramidRun;
 
-/// Softer than this the lowest row of a hundred would be pressed flat.
+/// Stiffness at which gravity hardly deforms the lowest of a hundred rows.
 const STIFFNESS: f64 = 1e5;
 
-/// Enough for all rows to carry; the largest pyramid still sways a little then.
+/// Steps a row in which gravity rises: all rows carry then, though the largest pyramid still sways a little.
 const RAMP_STEPS_A_ROW: u64 = 50;
 
-/// Which pyramids are built by whom, and how long is measured.
+/// The pyramids, the codes and the amount of work that are timed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PyramidBench {
     /// Numbers of rows; n rows are n(n + 1)/2 cylinders.
@@ -21,15 +21,14 @@ pub struct PyramidBench {
     pub codes: Vec<Code>,
     /// Steps times cylinders that are timed in every run.
     pub cylinder_steps: u64,
-    /// How often each run is made. Codes and pyramids take turns, so that a machine which is busy for a
-    /// while slows down all of them.
+    /// Repeats of each run. Codes and pyramids take turns, so that other load on the machine slows down all of them.
     pub repeats: usize,
 }
 
-/// What a step of one pyramid costs one code.
+/// The cost of a step of one pyramid with one code.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PyramidCost {
-    /// Who ran it.
+    /// The code.
     pub code: Code,
     /// Its version.
     pub version: String,
@@ -37,18 +36,19 @@ pub struct PyramidCost {
     pub rows: u32,
     /// Number of cylinders.
     pub cylinders: usize,
-    /// Steps that were timed in each run.
+    /// Timed steps of each run.
     pub timed_steps: u64,
     /// Wall time per step and cylinder in nanoseconds, of each repeat in order.
     pub nanoseconds: Vec<f64>,
 }
 
 impl Default for PyramidBench {
-    /// About 1, 2, 5 and 10 thousand cylinders, native, LAMMPS and LIGGGHTS; some minutes.
+    /// About 1, 2, 5 and 10 thousand cylinders, with every code that builds pyramids; some minutes.
     fn default() -> Self {
+        let codes = Code::all().into_iter();
         Self {
             rows: vec![44, 62, 99, 140],
-            codes: vec![Code::Native, Code::Lammps, Code::Liggghts],
+            codes: codes.filter(|code| code.builds_pyramids()).collect(),
             cylinder_steps: 10_000_000,
             repeats: 5,
         }
@@ -57,11 +57,11 @@ impl Default for PyramidBench {
 
 impl PyramidBench {
     /// Measures, in directories of their own in that of `context`. Only the last steps of a run are timed, by
-    /// the code itself (the loop time in the log of LAMMPS and LIGGGHTS): start-up, neighbour lists of the
+    /// the code itself (the loop time in its log): start-up, neighbour lists of the
     /// beginning and the rise of gravity do not count.
     ///
     /// # Errors
-    /// If an code is missing or does not build pyramids, or a run fails.
+    /// If a code is missing or does not build pyramids, or a run fails.
     pub fn measure(&self, context: &RunContext) -> Result<Vec<PyramidCost>, BenchError> {
         let find = |name: &Code| name.find().ok_or(BenchError::Missing { code: *name });
         let codes: Vec<_> = self.codes.iter().map(find).collect::<Result<_, _>>()?;
@@ -83,8 +83,8 @@ impl PyramidBench {
         Ok(costs)
     }
 
-    /// The pyramid of so many rows as `code` builds it. Native takes the convention of LAMMPS, so that the two
-    /// compute the same thing.
+    /// The pyramid of so many rows as `code` builds it. Native takes the convention of an external code with
+    /// the paper's arms, so that the two compute the same thing.
     pub fn pyramid(&self, code: Code, rows: u32) -> Pyramid {
         let pyramid = Pyramid::touching(rows, STIFFNESS, convention(code));
         let cylinders = pyramid.cylinder_count().max(1) as u64;
@@ -120,18 +120,17 @@ impl PyramidCost {
         self.nanoseconds.push(nanoseconds);
     }
 
-    /// The median of the repeats, in nanoseconds per step and cylinder; not a number if there is none.
+    /// The median of the repeats, in nanoseconds per step and cylinder; NaN without repeats.
     pub fn median(&self) -> f64 {
         median(&self.nanoseconds)
     }
 
-    /// The fastest of the repeats, which a busy machine disturbs least, in nanoseconds per step and cylinder.
+    /// The fastest of the repeats, which other load on the machine disturbs least, in nanoseconds per step and cylinder.
     pub fn fastest(&self) -> f64 {
         fastest(&self.nanoseconds)
     }
 
-    /// How many times the cost of `other` this is: the median of the ratios of those runs that were made one
-    /// after the other.
+    /// The cost in units of that of `other`: the median of the ratios of consecutive runs.
     pub fn ratio_to(&self, other: &Self) -> f64 {
         let pairs = self.nanoseconds.iter().zip(&other.nanoseconds);
         let ratios: Vec<f64> = pairs.map(|(own, other)| own / other).collect();
@@ -145,7 +144,7 @@ mod tests {
 
     fn cost(nanoseconds: &[f64]) -> PyramidCost {
         PyramidCost {
-            code: Code::Native,
+            code: Code::NATIVE,
             version: String::new(),
             rows: 2,
             cylinders: 3,

@@ -1,4 +1,4 @@
-//! How native lanes scale: with the number of cases on one core, and with cores.
+//! Scaling of native lanes with the number of cases on one core, and with cores.
 
 use super::stack::{LENGTHS, StackBench, timed_cases};
 use super::statistics::median;
@@ -9,33 +9,33 @@ use crate::runs::in_parallel;
 use serde::Serialize;
 use std::time::Instant;
 
-/// What is varied.
+/// The sizes that are measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScalingBench {
     /// Numbers of cases on one core.
     pub cases: Vec<usize>,
     /// Steps of each of them.
     pub steps: u64,
-    /// Cases that are run together at the least, so that few of them are not over before a clock notices.
+    /// Smallest number of cases that are timed together, so that the time of a few can be resolved.
     pub least_cases: usize,
     /// Numbers of cores.
     pub cores: Vec<usize>,
-    /// Stacks whose planned runs are dealt out to these cores.
+    /// Stacks whose planned runs are distributed over these cores.
     pub stacks: usize,
-    /// How often everything is measured, one after the other.
+    /// Repeats of the whole measurement.
     pub repeats: usize,
 }
 
-/// What was found.
+/// The measured scaling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scaling {
-    /// One row a number of cases.
+    /// A row for each number of cases.
     pub cases: Vec<ScalingRow>,
-    /// One row a number of cores.
+    /// A row for each number of cores.
     pub cores: Vec<ScalingRow>,
 }
 
-/// What a step costs at one size.
+/// The cost of a step at one size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScalingRow {
     /// Number of cases.
@@ -44,12 +44,12 @@ pub struct ScalingRow {
     pub cores: usize,
     /// Wall time per step and case in nanoseconds, the median of the repeats.
     pub ns_per_step: f64,
-    /// How many times as fast as the first row.
+    /// Speed in units of that of the first row.
     pub speedup: f64,
 }
 
 impl Default for ScalingBench {
-    /// Up to 256 cases, and all cores of this machine; half a minute.
+    /// Up to 256 cases, and all cores of this machine: half a minute.
     fn default() -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let doubled = std::iter::successors(Some(1), |cores| Some(2 * cores));
@@ -74,10 +74,10 @@ struct Size {
 }
 
 impl ScalingBench {
-    /// Measures, in directories of their own in that of `context`.
+    /// Measures, each call in a directory of its own in that of `context`.
     ///
     /// # Errors
-    /// If a run is interrupted, or there is no place for files.
+    /// If a run is interrupted, or files cannot be written.
     pub fn measure(&self, context: &RunContext) -> Result<Scaling, BenchError> {
         let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
         let planned = self.planned_cases();
@@ -114,7 +114,7 @@ impl ScalingBench {
             stacks: self.stacks,
             ..StackBench::default()
         };
-        let plans = bench.plans(Code::Native).into_iter();
+        let plans = bench.plans(Code::NATIVE).into_iter();
         plans.flat_map(|plan| plan.cases).collect()
     }
 
@@ -125,7 +125,7 @@ impl ScalingBench {
         count: usize,
         context: &RunContext,
     ) -> Result<f64, BenchError> {
-        let cases = timed_cases(Code::Native, count, self.steps, LENGTHS);
+        let cases = timed_cases(Code::NATIVE, count, self.steps, LENGTHS);
         let steps: u64 = cases.iter().map(Case::total_steps).sum();
         let calls = self.least_cases.div_ceil(count.max(1));
         let mut seconds = 0.0;
@@ -136,7 +136,7 @@ impl ScalingBench {
     }
 }
 
-/// Nanoseconds per step and case of `cases`, dealt out to so many cores.
+/// Nanoseconds per step and case of `cases`, distributed over so many `cores`.
 fn on_cores(
     lanes: &InstalledTarget,
     cases: &[Case],

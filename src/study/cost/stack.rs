@@ -1,4 +1,4 @@
-//! What the stack of three costs: a step, a start, and a yield force.
+//! The cost of the stack of three cylinders: a step, a start, and a yield force.
 
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget, TimedRuns, convention};
@@ -8,50 +8,49 @@ use crate::runs::RunSummary;
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{Measurement, extrapolate, plan};
 
-/// Everything is measured at this stiffness, the middle one of the paper, …
+/// Stiffness of all stacks, the middle one of the paper.
 const STIFFNESS: f64 = 1e3;
-/// … around this friction.
+/// Friction of the first stack.
 const FRICTION: f64 = 0.3;
-/// Between the frictions of two neighbouring cases.
+/// Difference between the frictions of two neighbouring stacks.
 const FRICTION_STEP: f64 = 1e-3;
-/// Wall travel of the timed steps in r. It ends long before the yield, where a measurement spends nearly all
-/// of its steps.
+/// Wall travel of the timed steps in r. It ends long before the yield, as nearly all steps of a measurement do.
 const TRAVEL: f64 = 0.05;
-/// How many times as long as the short run the long one is.
+/// Length of the long run in units of the short one.
 pub(super) const LENGTHS: u64 = 8;
-/// As in planned runs.
+/// Time step, as in planned runs.
 const TIME_STEP: f64 = 0.1;
 /// Duration of gravity ramp and of rest, as in planned runs.
 const RAMP_TIME: f64 = 100.0;
 const FINE_INTERVAL: f64 = 10.0;
 
-/// Who is measured on the stack, and how long.
+/// The targets and the amount of work that are timed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackBench {
-    /// Who.
+    /// The targets.
     pub targets: Vec<BenchTarget>,
     /// Steps of the compression in the longer one of the two runs whose difference is the cost of a step.
     pub steps: u64,
-    /// Cases that native runs for that, since its steps are so much faster; external codes run one.
+    /// Native cases in each of these runs, since native steps are so much faster; external codes run one.
     pub native_cases: usize,
-    /// Stacks whose yield force is measured, each by the runs that a crosscheck plans, all in one call.
+    /// Stacks whose yield force is measured by the runs that a crosscheck plans, all in one call.
     pub stacks: usize,
-    /// How often everything is measured. The targets take turns, so that a machine which is busy for a
-    /// while slows down all of them.
+    /// Repeats of the whole measurement. The targets take turns, so that other load on the machine slows down all of
+    /// them.
     pub repeats: usize,
 }
 
-/// What the stack costs one target.
+/// The cost of the stack for one target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackCost {
-    /// Who.
+    /// The target.
     pub target: BenchTarget,
     /// Its version.
     pub version: String,
-    /// Steps of all cases together that were timed in each repeat.
+    /// Timed steps of all cases together in each repeat.
     pub steps: u64,
-    /// Wall time per step and case in nanoseconds, of each repeat in order: the difference of a long and a
-    /// short run over the difference of their steps, so that whatever comes before the first step does not count.
+    /// Wall time per step and case in nanoseconds, of each repeat in order: the difference between a long and a short
+    /// run over the difference of their steps, so that time before the first step does not count.
     pub nanoseconds: Vec<f64>,
     /// Wall time of the short run beyond its steps, in seconds: start, preparation of files, end.
     pub start_up_seconds: Vec<f64>,
@@ -59,13 +58,13 @@ pub struct StackCost {
     pub seconds_per_yield_force: Vec<f64>,
     /// Largest distance of these yield forces from the exact limit, relative to F + 3.
     pub largest_error: f64,
-    /// Largest resident memory, in bytes, of the processes that measured the yield forces: for native this
-    /// one. `None` where the system does not tell.
+    /// Largest resident memory, in bytes, of the processes that measured the yield forces (for native: this process).
+    /// `None` where the system does not report it.
     pub peak_bytes: Option<u64>,
 }
 
 impl Default for StackBench {
-    /// Everyone who is installed; a few minutes.
+    /// All installed targets: a few minutes.
     fn default() -> Self {
         let installed = Self::installed().into_iter();
         Self {
@@ -79,23 +78,23 @@ impl Default for StackBench {
 }
 
 impl StackBench {
-    /// Those of native, LIGGGHTS, YADE on its box, and LAMMPS that are installed.
+    /// The codes that are installed, of each the first variant.
     pub fn installed() -> Vec<Code> {
-        let codes = [Code::Native, Code::Liggghts, Code::Yade, Code::Lammps];
-        let installed = codes.into_iter().filter(|name| name.find().is_some());
+        let codes = Code::all().into_iter();
+        let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
         installed.collect()
     }
 
-    /// Measures on one core, in directories of their own in that of `context`.
+    /// Measures on one core, each call in a directory of its own in that of `context`.
     ///
     /// # Errors
-    /// If an code is missing, a run fails, or there is no place for its files.
+    /// If a code is missing, a run fails, or its files cannot be written.
     pub fn measure(&self, context: &RunContext) -> Result<Vec<StackCost>, BenchError> {
         let targets = self.targets.iter().map(|&who| InstalledTarget::find(who));
         let targets: Vec<InstalledTarget> = targets.collect::<Result<_, _>>()?;
         let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
         for target in &targets {
-            // The first start reads a program from disk.
+            // The first start reads the program from disk.
             let short = timed_cases(target.code.name(), 1, self.steps, 1);
             target.time(&short, context)?;
         }
@@ -116,7 +115,7 @@ impl StackBench {
     ) -> Result<(), BenchError> {
         let code = target.code.name();
         let count = match code {
-            Code::Native => self.native_cases,
+            Code::NATIVE => self.native_cases,
             _ => 1,
         };
         let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, self.steps, part));
@@ -149,12 +148,12 @@ impl StackBench {
     }
 }
 
-/// The stack of the case at `index`: all have frictions of their own.
+/// The stack of the case at `index`, each with its own friction.
 fn stack(index: usize) -> Stack {
     Stack::paper(FRICTION + FRICTION_STEP * index as f64, STIFFNESS)
 }
 
-/// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, with hardly a row.
+/// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, and few rows.
 pub(super) fn timed_cases(code: Code, count: usize, steps: u64, part: u64) -> Vec<Case> {
     let case = |index| Case {
         stack: stack(index),
@@ -198,7 +197,7 @@ impl StackCost {
         }
     }
 
-    /// Enters the steps and seconds of a short and a long run.
+    /// Adds the steps and seconds of a short and a long run.
     fn add_steps(&mut self, [(few, short), (many, long)]: [(u64, f64); 2]) {
         self.steps = many - few;
         let seconds_per_step = (long - short) / self.steps as f64;
@@ -207,7 +206,7 @@ impl StackCost {
         self.start_up_seconds.push(start_up.max(0.0));
     }
 
-    /// Enters the runs of all `plans` together.
+    /// Adds the runs of all `plans` together.
     fn add_yield_forces(&mut self, plans: &[Measurement], timed: TimedRuns) {
         let seconds = timed.duration.as_secs_f64() / plans.len() as f64;
         self.seconds_per_yield_force.push(seconds);
@@ -253,7 +252,8 @@ mod tests {
 
     #[test]
     fn short_and_long_runs_are_valid_and_differ_in_their_steps_alone() {
-        let [short, long] = [1, LENGTHS].map(|part| timed_cases(Code::Yade, 2, 8000, part));
+        let [short, long] =
+            [1, LENGTHS].map(|part| timed_cases(Code::named("yade").unwrap(), 2, 8000, part));
         for (short, long) in short.iter().zip(&long) {
             assert_eq!([short.validate(), long.validate()], [Ok(()), Ok(())]);
             assert_eq!(long.total_steps() - short.total_steps(), 7000);

@@ -1,6 +1,6 @@
-//! What is told of repeated measurements.
+//! Median and minimum of repeated measurements.
 
-/// The value in the middle, or the mean of the two there; not a number if there is none.
+/// The middle value, or the mean of the two in the middle; NaN without values.
 pub fn median(values: &[f64]) -> f64 {
     let mut values = values.to_vec();
     values.sort_by(f64::total_cmp);
@@ -11,7 +11,7 @@ pub fn median(values: &[f64]) -> f64 {
     0.5 * (values[(count - 1) / 2] + values[count / 2])
 }
 
-/// The smallest value, which a busy machine disturbs least; not a number if there is none.
+/// The smallest value, which other load on the machine disturbs least; NaN without values.
 pub fn fastest(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NAN, f64::min)
 }

@@ -1,4 +1,4 @@
-//! Who is timed, and how.
+//! The codes that are timed, and the timing of runs.
 
 use super::memory::{Processes, with_peak};
 use crate::code::Run;
@@ -8,30 +8,30 @@ use crate::model::{Case, ContactConvention};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Who is timed: an external code, or native in one of its two ways.
+/// A code that is timed: external, or native in one of its two modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BenchTarget {
     /// Native, a run at a time.
     NativeScalar,
-    /// Native, a run in each lane of the machine's vectors; what all are compared with.
+    /// Native, a run in each lane of the machine's vectors; the reference for the others.
     NativeLanes,
     /// An external code, all runs in one process where it can.
     External(Code),
 }
 
-/// Why nothing was measured.
+/// Why a measurement failed.
 #[derive(Debug, Error)]
 pub enum BenchError {
-    /// An code is not installed.
+    /// A code is not installed.
     #[error("{code} is not installed; to install it: {}", code.installation_hint())]
     Missing {
-        /// Which one.
+        /// The code.
         code: Code,
     },
     /// A run failed.
     #[error(transparent)]
     Failed(#[from] Box<Failure>),
-    /// There is no place for the files of the runs.
+    /// The files of the runs could not be written.
     #[error(transparent)]
     Files(#[from] FileError),
 }
@@ -40,7 +40,7 @@ impl BenchTarget {
     /// The targets of `code`.
     pub fn of(code: Code) -> Vec<Self> {
         match code {
-            Code::Native => vec![Self::NativeScalar, Self::NativeLanes],
+            Code::NATIVE => vec![Self::NativeScalar, Self::NativeLanes],
             external => vec![Self::External(external)],
         }
     }
@@ -54,10 +54,10 @@ impl BenchTarget {
         }
     }
 
-    /// Whose runs they are.
+    /// The code behind it.
     pub fn code(self) -> Code {
         match self {
-            Self::NativeScalar | Self::NativeLanes => Code::Native,
+            Self::NativeScalar | Self::NativeLanes => Code::NATIVE,
             Self::External(code) => code,
         }
     }
@@ -72,7 +72,7 @@ pub(super) struct InstalledTarget {
 /// Runs that were timed together.
 pub(super) struct TimedRuns {
     pub(super) duration: Duration,
-    /// Largest resident memory of the processes that made them, in bytes, where the system tells.
+    /// Largest resident memory of the processes that made them, in bytes, where the system reports it.
     pub(super) peak_bytes: Option<u64>,
     /// In the order of the cases.
     pub(super) runs: Vec<Run>,
@@ -134,10 +134,14 @@ impl InstalledTarget {
     }
 }
 
-/// What a contact is to `code`. Native takes the convention of LAMMPS, so that the two compute the same thing.
+/// What a contact is to `code`. Native takes the convention of the first external code with the paper's arms, so that
+/// the two compute the same thing.
 pub(super) fn convention(code: Code) -> ContactConvention {
-    match code {
-        Code::Native => Code::Lammps.convention(),
-        other => other.convention(),
+    let own = code.convention();
+    if code != Code::NATIVE {
+        return own;
     }
+    let others = Code::all().into_iter().skip(1).map(Code::convention);
+    let mut others = others.filter(|other| other.arms == own.arms);
+    others.next().unwrap_or(own)
 }

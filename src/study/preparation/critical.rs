@@ -81,7 +81,7 @@ fn first_contacts(
 /// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given
 /// push.
 fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, RunError> {
-    let native = Code::Native;
+    let native = Code::NATIVE;
     let workloads = pushed.iter().map(|(stack, push)| {
         let plan = plan_preparation(native, native, stack, Some(*push));
         Workload {

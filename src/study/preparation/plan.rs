@@ -84,7 +84,7 @@ mod tests {
         for stiffness in [1e2, 1e4] {
             for push in [None, Some(0.0), Some(5.0 / stiffness)] {
                 let stack = Stack::paper(0.3, stiffness);
-                let yade = Code::Yade;
+                let yade = Code::named("yade").unwrap();
                 let plan = plan_preparation(yade, yade, &stack, push);
                 assert_eq!(plan.cases().len(), SHORT_RAMP_RUN + 1);
                 for case in plan.cases() {
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn without_a_push_it_is_the_plan_of_the_crosscheck() {
         let stack = Stack::paper(0.3, 1e2);
-        let native = Code::Native;
+        let native = Code::NATIVE;
         let own = plan_preparation(native, native, &stack, None);
         assert_eq!(own.measurement, plan(native, &stack, native.convention()));
     }

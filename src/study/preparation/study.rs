@@ -84,7 +84,7 @@ impl PreparationStudy {
 
     /// The row of the native twin of `row`.
     pub fn twin_of(&self, row: &PreparationRow) -> Option<&PreparationRow> {
-        let mut twins = self.rows_of(Code::Native, row.convention_of);
+        let mut twins = self.rows_of(Code::NATIVE, row.convention_of);
         twins.find(|twin| twin.push == row.push)
     }
 
@@ -92,7 +92,7 @@ impl PreparationStudy {
     /// F + 3.
     pub fn shift(&self, push: f64) -> Option<f64> {
         let force = |push: f64| {
-            let mut rows = self.rows_of(Code::Native, Code::Native);
+            let mut rows = self.rows_of(Code::NATIVE, Code::NATIVE);
             rows.find(|row| row.push == Some(push))?.yield_force
         };
         let unpushed = force(0.0)?;
@@ -155,7 +155,7 @@ pub fn study_preparation(
     codes: &[Code],
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let critical = critical_pushes(campaign, stacks)?;
-    let mut names = [&[Code::Native], codes].concat();
+    let mut names = [&[Code::NATIVE], codes].concat();
     names.sort();
     names.dedup();
     let plans = stacks.iter().zip(&critical);
@@ -191,7 +191,7 @@ fn plans_of(
     let preparations = || [None].into_iter().chain(pushes.iter().copied().map(Some));
     let mut plans = Vec::new();
     for &name in codes {
-        let twin = (name != Code::Native).then_some(Code::Native);
+        let twin = (name != Code::NATIVE).then_some(Code::NATIVE);
         for code in [name].into_iter().chain(twin) {
             plans.extend(preparations().map(|push| plan_preparation(code, name, stack, push)));
         }

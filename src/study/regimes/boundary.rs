@@ -3,8 +3,8 @@
 use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
-use crate::study::Verdict;
-use crate::theory::{BoundaryPoint, Event, Outcome, Regime};
+use crate::study::{Ground, Grounds, Verdict};
+use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
 
 /// Wall speed in units of the predicted displacement. It keeps the forces at the events within 3e-5 of those of
 /// theory, and shifts the boundaries by far less than [`super::THREE_DIGITS`].
@@ -20,7 +20,7 @@ pub struct Side {
     /// The stack.
     pub stack: Stack,
     /// What theory predicts.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// The regime in the DEM; `None` if no event came, or the run was given up.
     pub observed: Option<Regime>,
     /// Force of the wall at the last event in the DEM, in m g.
@@ -41,22 +41,18 @@ pub struct Confirmation {
 impl Confirmation {
     /// The worse of the two sides. A boundary with the same regime on both sides is none.
     pub fn verdict(&self) -> Verdict {
-        let verdicts = self.sides.map(|side| side.verdict);
         let [below, above] = self.point.sides.map(|outcome| outcome.regime());
-        if below == above || verdicts.contains(&Verdict::Differs) {
-            Verdict::Differs
-        } else if verdicts == [Verdict::Agrees; 2] {
-            Verdict::Agrees
-        } else {
-            Verdict::Inconclusive
-        }
+        let mut grounds = Grounds::new();
+        grounds.hold(below != above, "both sides have the same regime");
+        let sides = self.sides.iter().map(|side| side.verdict);
+        sides.fold(grounds.verdict(), Verdict::max)
     }
 }
 
 /// The run of one neighbour of a boundary point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SidePlan {
-    claimed: Outcome,
+    claimed: LoadingOutcome,
     pub(super) run: EventRun,
 }
 
@@ -71,7 +67,7 @@ impl SidePlan {
         ]
     }
 
-    fn new(stack: Stack, claimed: Outcome) -> Self {
+    fn new(stack: Stack, claimed: LoadingOutcome) -> Self {
         let run = EventRun {
             stack,
             loading: loading(&stack, &claimed.last, SPEED, FURTHER),
@@ -98,18 +94,21 @@ impl SidePlan {
     /// contradiction counts if the slower run shows it again; if it shows anything else, even what was claimed,
     /// nothing is decided.
     pub(super) fn evaluate(&self, first: &Observation, repeat: Option<&Observation>) -> Side {
-        let verdict = match repeat {
-            None if first.complete => Verdict::Agrees,
-            Some(second) if shows_again(first, second) => Verdict::Differs,
-            _ => Verdict::Inconclusive,
-        };
+        let mut grounds = Grounds::new();
+        match repeat {
+            None if first.complete => grounds.hold(true, ""),
+            Some(second) if shows_again(first, second) => {
+                grounds.hold(false, "a slower run shows the contradiction again");
+            }
+            _ => grounds.add(Ground::Undecidable("the runs do not decide".to_owned())),
+        }
         let last = repeat.unwrap_or(first);
         Side {
             stack: self.run.stack,
             claimed: self.claimed,
             observed: regime(last),
             observed_force: last.force,
-            verdict,
+            verdict: grounds.verdict(),
         }
     }
 }

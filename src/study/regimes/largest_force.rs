@@ -4,11 +4,10 @@ use super::loading::loading;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
 use crate::series::{Estimate, YieldEstimates};
-use crate::study::MAX_TOLERANCE;
-use crate::study::Verdict;
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
-use crate::theory::{FailureMode, Outcome};
+use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
+use crate::theory::{FailureMode, LoadingOutcome};
 
 /// Travel of the wall in units of the predicted travel to the end of the path: far enough beyond it for a force with a
 /// peak to have fallen.
@@ -26,7 +25,7 @@ pub struct Examination {
     /// The stack.
     pub stack: Stack,
     /// What theory predicts.
-    pub claimed: Outcome,
+    pub claimed: LoadingOutcome,
     /// The peak of the wall force at vanishing speed; `None` where the stack falls or the force has no peak.
     pub peak: Option<Extrapolation>,
     /// The uncertainty of the peak, in m g.
@@ -41,7 +40,7 @@ pub struct Examination {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PeakPlan {
     stack: Stack,
-    claimed: Outcome,
+    claimed: LoadingOutcome,
     /// In the order that [`extrapolate`] expects.
     pub(super) runs: Vec<EventRun>,
 }
@@ -49,7 +48,7 @@ pub(super) struct PeakPlan {
 impl PeakPlan {
     /// The runs of `stack`; `None` if theory makes no prediction.
     pub(super) fn new(stack: &Stack) -> Option<Self> {
-        let claimed = Outcome::of(stack)?;
+        let claimed = LoadingOutcome::of(stack)?;
         let run = |loading| EventRun {
             stack: *stack,
             loading,
@@ -90,21 +89,27 @@ impl PeakPlan {
         let complete = observations.iter().all(|observation| observation.complete);
         let falls = self.claimed.failure_mode == FailureMode::Collapses;
         let as_claimed = observations.iter().all(|run| run.stands != falls);
+        let mut grounds = Grounds::new();
+        if !complete {
+            grounds.add(Ground::Undecidable("a run was given up".to_owned()));
+        }
+        grounds.hold(as_claimed, "the stack falls, or stands, against the claim");
         match (error, uncertainty, self.claimed.largest_force) {
-            _ if !complete => Verdict::Inconclusive,
-            _ if !as_claimed => Verdict::Differs,
             // Contacts that open and slide on the way make the approach to the peak irregular: the uncertainty is
             // too large to be a tolerance.
             (Some(error), Some(uncertainty), Some(force)) => {
-                Verdict::of(error, uncertainty / (force + 3.0), MAX_TOLERANCE)
+                grounds.compare(error, uncertainty / (force + 3.0), MAX_TOLERANCE, None);
             }
-            (None, None, None) => Verdict::Agrees,
-            _ => Verdict::Differs,
+            (error, uncertainty, force) => grounds.hold(
+                error.or(uncertainty).or(force).is_none(),
+                "a peak is there or absent against the claim",
+            ),
         }
+        grounds.verdict()
     }
 }
 
-fn loadings(stack: &Stack, claimed: &Outcome) -> [Loading; RUNS] {
+fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
     let end = claimed.end.unwrap_or(claimed.last);
     let at_speed = |speed: f64| loading(stack, &end, speed / SLOWER, FURTHER);
     let middle = at_speed(SPEEDS[MIDDLE_RUN]);

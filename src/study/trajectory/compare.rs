@@ -50,7 +50,7 @@ impl Study for Trajectory {
             cases: self.cases.clone(),
         };
         let twins = self.twins.iter().map(|runs| Workload {
-            code: Code::Native,
+            code: Code::NATIVE,
             cases: runs.all().copied().collect(),
         });
         std::iter::once(own).chain(twins).collect()

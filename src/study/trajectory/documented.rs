@@ -2,7 +2,7 @@
 
 use super::distance::{Branch, Quantity};
 use super::plan::Twin;
-use crate::code::Code;
+use crate::code::{Angle, Code};
 use serde::{Deserialize, Serialize};
 
 /// How a distance falls with the time step.
@@ -32,68 +32,80 @@ impl DocumentedOrder {
 }
 
 /// An order, and the difference in the algorithms that it comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Documented {
     /// The order.
     pub order: DocumentedOrder,
     /// Its reason.
-    pub reason: &'static str,
+    pub reason: String,
 }
 
-const SAME_ARITHMETIC: Documented = Documented {
-    order: DocumentedOrder::RoundOff,
-    reason: "the twin does the same sums in another order",
-};
-/// Tried out: where native too knows contacts of zero overlap, the distance to YADE is 1e-14 up to the peak, and
-/// 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component along the
-/// normal when it is turned linearly.
-const FIRST_TOUCH: Documented = Documented {
-    order: DocumentedOrder::First,
-    reason: "YADE knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its \
-             damping force for one step that the twin goes without",
-};
-const TRANSPORT: Documented = Documented {
-    order: DocumentedOrder::First,
-    reason: "the twin turns a tangential spring with its contact; the code changes its length by a term of \
-             second order in the turn, in every step",
-};
-const SUMMED_SPIN: Documented = Documented {
-    order: DocumentedOrder::Second,
-    reason: "LIGGGHTS keeps no angle of a sphere; its deck sums the spin by the trapezoidal rule",
-};
-const TURNED_DIPOLE: Documented = Documented {
-    order: DocumentedOrder::Second,
-    reason: "LAMMPS turns a dipole by the arctangent of spin times time step, not by their product",
-};
-const TWO_CAUSES: Documented = Documented {
-    order: DocumentedOrder::Irregular,
-    reason: "two causes of different order, the transport of the spring and the angle, add up or cancel",
-};
-const OPENING_CONTACTS: Documented = Documented {
-    order: DocumentedOrder::Irregular,
-    reason: "contacts open and meet again between two steps, and the step decides when: not even the twin \
-             converges regularly to itself",
-};
+impl Documented {
+    fn new(order: DocumentedOrder, reason: impl Into<String>) -> Self {
+        let reason = reason.into();
+        Self { order, reason }
+    }
+
+    fn same_arithmetic() -> Self {
+        let reason = "the twin does the same sums in another order";
+        Self::new(DocumentedOrder::RoundOff, reason)
+    }
+
+    /// Tried out with YADE: where native too knows contacts of zero overlap, the distance is 1e-14 up to the peak,
+    /// and 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component along
+    /// the normal when it is turned linearly.
+    fn first_touch(code: Code) -> Self {
+        let reason = format!(
+            "{} knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its damping \
+             force for one step that the twin goes without",
+            code.title()
+        );
+        Self::new(DocumentedOrder::First, reason)
+    }
+
+    fn transport() -> Self {
+        let reason = "the twin turns a tangential spring with its contact; the code changes its length by a term \
+                      of second order in the turn, in every step";
+        Self::new(DocumentedOrder::First, reason)
+    }
+
+    /// The difference in the angles, if there is one.
+    fn angle(code: Code) -> Option<Self> {
+        let does = match code.integration().angle {
+            Angle::Exact => return None,
+            Angle::SummedSpin => {
+                "keeps no angle of a sphere; its deck sums the spin by the trapezoidal rule"
+            }
+            Angle::Dipole => {
+                "turns a dipole by the arctangent of spin times time step, not by their product"
+            }
+        };
+        let reason = format!("{} {does}", code.title());
+        Some(Self::new(DocumentedOrder::Second, reason))
+    }
+
+    fn two_causes() -> Self {
+        let reason = "two causes of different order, the transport of the spring and the angle, add up or cancel";
+        Self::new(DocumentedOrder::Irregular, reason)
+    }
+
+    fn opening_contacts() -> Self {
+        let reason = "contacts open and meet again between two steps, and the step decides when: not even the \
+                      twin converges regularly to itself";
+        Self::new(DocumentedOrder::Irregular, reason)
+    }
+}
 
 /// The documented order of the distance in `quantity` on `branch` between `code` and its `twin`.
 pub fn documented(code: Code, twin: Twin, quantity: Quantity, branch: Branch) -> Documented {
-    use Code::{Lammps, Liggghts, Native, Yade, YadeFacet, YadeWall};
-    let angle = match code {
-        Liggghts => Some(SUMMED_SPIN),
-        Lammps => Some(TURNED_DIPOLE),
-        Native | Yade | YadeFacet | YadeWall => None,
-    };
-    let same_steps = twin == Twin::Full && matches!(code, Native | Liggghts | Lammps);
-    match (quantity, angle) {
-        (Quantity::Theta2, Some(angle)) if same_steps => angle,
-        _ if same_steps => SAME_ARITHMETIC,
-        _ if branch == Branch::Fall => OPENING_CONTACTS,
-        (Quantity::Theta2, Some(_)) => TWO_CAUSES,
-        _ if matches!(code, Yade | YadeFacet | YadeWall)
-            && (twin == Twin::Full || branch == Branch::Compression) =>
-        {
-            FIRST_TOUCH
-        }
-        _ => TRANSPORT,
+    let angle = Documented::angle(code).filter(|_| quantity == Quantity::Theta2);
+    let touches = code.integration().touches_at_zero_overlap;
+    let full = twin == Twin::Full;
+    match angle {
+        angle if full && !touches => angle.unwrap_or_else(Documented::same_arithmetic),
+        _ if branch == Branch::Fall => Documented::opening_contacts(),
+        Some(_) => Documented::two_causes(),
+        None if touches && (full || branch == Branch::Compression) => Documented::first_touch(code),
+        None => Documented::transport(),
     }
 }

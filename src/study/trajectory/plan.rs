@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn every_planned_case_is_valid_and_has_rows_at_the_same_times() {
-        for code in Code::ALL {
+        for code in Code::all() {
             let plan = planned(code);
             let all = plan.twins.iter().flat_map(TwinRuns::all);
             for case in plan.cases.iter().chain(all) {
@@ -179,19 +179,22 @@ mod tests {
 
     #[test]
     fn a_code_that_turns_its_springs_has_one_twin() {
-        assert_eq!(planned(Code::Native).twins.len(), 1);
-        let twins = planned(Code::Liggghts).twins;
+        assert_eq!(planned(Code::NATIVE).twins.len(), 1);
+        let twins = planned(Code::named("liggghts").unwrap()).twins;
         assert_eq!(
             [twins[0].twin, twins[1].twin],
             [Twin::Full, Twin::RotatedSpring]
         );
-        assert_eq!(twins[0].cases, planned(Code::Liggghts).cases);
+        assert_eq!(
+            twins[0].cases,
+            planned(Code::named("liggghts").unwrap()).cases
+        );
     }
 
     #[test]
     fn nothing_is_planned_where_nothing_yields() {
         let plan = plan_trajectory(
-            Code::Native,
+            Code::NATIVE,
             &Stack::paper(0.05, 100.0),
             ContactConvention::PAPER,
         );

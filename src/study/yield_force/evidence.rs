@@ -23,7 +23,7 @@ impl Evidence {
     pub fn of(judgement: &Judgement) -> Self {
         match (judgement.source, judgement.code) {
             (Source::Recorded, _) => Self::RecordedRun,
-            (Source::Live, Code::Native) => Self::ClosedForm,
+            (Source::Live, Code::NATIVE) => Self::ClosedForm,
             (Source::Live, _) => Self::IndependentCode,
         }
     }

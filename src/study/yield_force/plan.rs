@@ -320,7 +320,11 @@ mod tests {
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
         for stack in crate::study::yield_force::Profile::Quick.stacks() {
-            let measurement = plan(Code::Yade, &stack, Code::Yade.convention());
+            let measurement = plan(
+                Code::named("yade").unwrap(),
+                &stack,
+                Code::named("yade").unwrap().convention(),
+            );
             assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
             for case in &measurement.cases {
                 case.validate().unwrap();
@@ -333,7 +337,7 @@ mod tests {
     #[test]
     fn each_further_run_differs_from_the_middle_one_in_one_thing() {
         let stack = Stack::paper(0.3, 1e3);
-        let cases = plan(Code::Native, &stack, ContactConvention::PAPER).cases;
+        let cases = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases;
         let middle = cases[MIDDLE_RUN];
         let mut coarse = cases[COARSE_TIME_STEP_RUN];
         assert_eq!(coarse.protocol.time_step, 2.0 * TIME_STEP);
@@ -349,7 +353,7 @@ mod tests {
     #[test]
     fn walls_of_the_figure_are_gentle_as_they_are() {
         let profile = crate::study::yield_force::Profile::Standard;
-        for plan in profile.measurements(&Code::ALL) {
+        for plan in profile.measurements(&Code::all()) {
             let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
             let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
             let expected = SPEEDS.map(|speed| rounded(speed * scale));
@@ -365,7 +369,7 @@ mod tests {
                 stiffness_ratio: 1.2,
                 ..Stack::paper(0.35, stiffness)
             };
-            plan(Code::Native, &stack, ContactConvention::PAPER)
+            plan(Code::NATIVE, &stack, ContactConvention::PAPER)
         };
         let [slowed, rough] = [1e5, 1e6].map(planned);
         assert!(slowed.is_gentle && !rough.is_gentle);
@@ -384,7 +388,7 @@ mod tests {
     #[test]
     fn shortcuts_save_most_of_the_steps_and_two_runs_go_without_them() {
         let stack = Stack::paper(0.3, 1e2);
-        let measurement = plan(Code::Native, &stack, ContactConvention::PAPER);
+        let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
         let shortened = measurement.clone().shortened();
         for (position, plain) in PLAIN_RUNS.into_iter().zip(&measurement.cases) {
             assert_eq!(shortened.cases[position], *plain);
@@ -397,16 +401,20 @@ mod tests {
             });
             assert!(short < 0.5 * plain, "{short} {plain}");
         }
-        let literal = plan_literal(Code::Native, &stack, ContactConvention::PAPER);
+        let literal = plan_literal(Code::NATIVE, &stack, ContactConvention::PAPER);
         assert_eq!(literal.clone().shortened(), literal);
-        let yade = plan(Code::Yade, &stack, Code::Yade.convention());
+        let yade = plan(
+            Code::named("yade").unwrap(),
+            &stack,
+            Code::named("yade").unwrap().convention(),
+        );
         assert_eq!(yade.clone().shortened(), yade);
     }
 
     #[test]
     fn nothing_is_planned_where_nothing_yields() {
         let measurement = plan(
-            Code::Native,
+            Code::NATIVE,
             &Stack::paper(0.05, 1e2),
             ContactConvention::PAPER,
         );

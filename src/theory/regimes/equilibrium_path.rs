@@ -3,7 +3,7 @@
 use super::super::events::{Event, Path, PathPoint, locate};
 use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
-use super::outcome::{CriticalState, LoadingPhase};
+use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{Arms, Stack};
 
 /// The path of equilibria, with c > 0 where the bottom cylinders touch. Floor friction and cylinder

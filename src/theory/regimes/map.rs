@@ -2,7 +2,7 @@
 
 use super::super::root::bracketed_root;
 use super::release::released_wall_tangent;
-use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Outcome};
+use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, LoadingOutcome};
 use crate::model::Stack;
 use serde::Serialize;
 
@@ -270,13 +270,13 @@ pub struct BoundaryPoint {
     /// Relative distance of the neighbours.
     pub distance: f64,
     /// What becomes of the neighbour below and of the one above.
-    pub sides: [Outcome; 2],
+    pub sides: [LoadingOutcome; 2],
 }
 
 impl BoundaryPoint {
     /// `stack` as a point on a boundary. `None` if a neighbour has no outcome.
     fn new(map: Axis, stack: Stack, across: Across, distance: f64) -> Option<Self> {
-        let side = |factor: f64| Outcome::of(&across.scale(&stack, factor));
+        let side = |factor: f64| LoadingOutcome::of(&across.scale(&stack, factor));
         Some(Self {
             map,
             sides: [side(1.0 - distance)?, side(1.0 + distance)?],

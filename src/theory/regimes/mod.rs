@@ -61,15 +61,17 @@
 //! and b/a = T, never less than μ_c, with c = 0.
 
 mod boundary;
+mod critical_state;
 mod equilibrium_path;
 mod map;
 mod outcome;
 mod release;
 
 pub use boundary::Boundary;
+pub use critical_state::{CriticalState, LoadingPhase};
 pub use equilibrium_path::EquilibriumPath;
 pub use map::{Across, Axis, BoundaryPoint, Line, RegimeMap};
-pub use outcome::{CriticalState, FailureMode, LoadingPhase, Outcome, Regime};
+pub use outcome::{FailureMode, LoadingOutcome, Regime};
 pub use release::released_frictions;
 
 /// κ_c, below which contact 2–3 closes at once, Eq. (R5).

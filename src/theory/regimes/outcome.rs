@@ -1,50 +1,12 @@
 //! What becomes of one stack: the first event, what it does, and the force that the stack carries.
 
 use super::super::events::Event;
+use super::critical_state::{CriticalState, LoadingPhase};
 use super::equilibrium_path::EquilibriumPath;
 use super::release::Release;
 use crate::model::Stack;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::fmt;
-
-/// When something happens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LoadingPhase {
-    /// While gravity grows, before there is a wall.
-    OwnWeight,
-    /// Under the wall.
-    Wall,
-}
-
-impl fmt::Display for LoadingPhase {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::OwnWeight => "own weight",
-            Self::Wall => "wall",
-        })
-    }
-}
-
-/// An event on the path, and the state in which it happens.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CriticalState {
-    /// What happens.
-    pub event: Event,
-    /// When.
-    pub stage: LoadingPhase,
-    /// F = f/(m g); 0 under own weight.
-    pub force: f64,
-    /// T = tan(ψ/2).
-    #[serde(rename = "T")]
-    pub tangent: f64,
-    /// z, overlap of the floor contacts, in r.
-    pub floor_overlap: f64,
-    /// c, force between the bottom cylinders, in k_n r.
-    pub bottom_force: f64,
-    /// How far the top wall has moved, in r.
-    pub wall_travel: f64,
-}
 
 /// What the first event does to the stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -112,7 +74,7 @@ impl fmt::Display for Regime {
 
 /// What becomes of a stack on its way up in load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Outcome {
+pub struct LoadingOutcome {
     /// The first event.
     pub first: CriticalState,
     /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
@@ -126,15 +88,15 @@ pub struct Outcome {
     pub largest_force: Option<f64>,
 }
 
-impl Outcome {
+impl LoadingOutcome {
     /// What becomes of `stack`, with torque arms 0. `None` if its path of equilibria ends before any event.
     ///
     /// ```
     /// use tristack::model::Stack;
-    /// use tristack::theory::{FailureMode, Event, Outcome};
+    /// use tristack::theory::{FailureMode, Event, LoadingOutcome};
     ///
     /// let slippery = Stack { cylinder_friction: 0.4, ..Stack::paper(0.5, 1e2) };
-    /// let outcome = Outcome::of(&slippery).unwrap();
+    /// let outcome = LoadingOutcome::of(&slippery).unwrap();
     /// assert_eq!(outcome.first.event, Event::CylinderSlip);
     /// assert_eq!(outcome.failure_mode, FailureMode::Saturates);
     /// assert!((outcome.first.tangent - 0.4).abs() < 1e-12);

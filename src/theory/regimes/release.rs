@@ -2,7 +2,7 @@
 
 use super::super::events::Event;
 use super::super::root::bracketed_root;
-use super::outcome::{CriticalState, LoadingPhase};
+use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// T − μ_c where the centre of cylinder 1 has sunk to the level of the other two, T = 1.

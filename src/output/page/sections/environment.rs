@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, PageTable, Section};
 use super::Origin;
-use crate::code::Code;
+use crate::code::{Code, TaskKind};
 use crate::code::{Identity, Provenance};
 use crate::model::sha256_hex;
 use crate::output::DataTable;
@@ -148,16 +148,16 @@ pub(crate) fn decks() -> DataTable<'static> {
     )
     .code(|code| *code)
     .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
-        code.static_deck_hash()
+        code.files_hash(TaskKind::Stack)
     })
     .shown("SHA-256 of the deck of a stack")
-    .cell(|code| short(&code.static_deck_hash()))
+    .cell(|code| short(&code.files_hash(TaskKind::Stack)))
     .text(
         "probe_hash",
         "SHA-256 of the deck of the micro-tests",
-        |code| code.static_probe_hash(),
+        |code| code.files_hash(TaskKind::Motion),
     )
     .shown("of the micro-tests")
-    .cell(|code| short(&code.static_probe_hash()))
-    .rows(Code::ALL)
+    .cell(|code| short(&code.files_hash(TaskKind::Motion)))
+    .rows(Code::all())
 }

@@ -84,7 +84,7 @@ fn of_codes(reproduction: &Reproduction) -> String {
 fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     let of = |mu: f64| {
         let mut all = reproduction.exponents.iter();
-        all.find(|exponent| exponent.code == Code::Native && exponent.mu == mu)
+        all.find(|exponent| exponent.code == Code::NATIVE && exponent.mu == mu)
     };
     let (at, above) = (of(CRITICAL_FRICTION)?, of(0.3)?);
     let agreeing = reproduction.exponents.iter();
@@ -103,7 +103,7 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
 fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let mut points = reproduction.convergence.wall_speeds.iter();
     let paper = points.find(|point| {
-        point.code == Code::Native
+        point.code == Code::NATIVE
             && point.wall_speed == crate::study::yield_force::PAPER_WALL_SPEED
     })?;
     Some(format!(
@@ -178,7 +178,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         |(_, theory)| theory.quasistatic.yield_force,
     )
     .shown_as("exact limit", seven_digits);
-    for code in Code::ALL {
+    for code in Code::all() {
         columns = columns
             .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
                 let mut rows = judgements.iter();

@@ -27,7 +27,7 @@ pub struct Agreement {
 impl Agreement {
     /// One for every code with rows among `judgements`.
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
-        let codes = Code::ALL.into_iter();
+        let codes = Code::all().into_iter();
         let all = codes.map(|code| {
             let rows = judgements.iter();
             let rows: Vec<_> = rows.filter(|row| row.code == code).collect();

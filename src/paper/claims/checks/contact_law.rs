@@ -4,7 +4,7 @@ use super::Check;
 use crate::model::Stack;
 use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, worst};
 use crate::paper::claims::printed::{PaperTheory, Sliding};
-use crate::theory::{LoadingPhase, Outcome};
+use crate::theory::{LoadingOutcome, LoadingPhase};
 use nalgebra::Vector2;
 
 pub const CHECKS: &[Check] = &[
@@ -195,7 +195,7 @@ fn cap_between_cylinders(paper: &PaperTheory) -> Finding {
                 cylinder_friction: paper.friction_between_cylinders(mu),
                 ..Stack::paper(mu, 1e3)
             };
-            let outcome = Outcome::of(&stack);
+            let outcome = LoadingOutcome::of(&stack);
             outcome.is_none_or(|outcome| outcome.first.stage == LoadingPhase::OwnWeight)
         })
         .collect();

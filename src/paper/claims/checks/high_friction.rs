@@ -5,7 +5,7 @@ use crate::model::{Arms, Stack};
 use crate::paper::claims::finding::{Finding, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::theory::{
-    Boundary, EquilibriumPath, Event, Outcome, bracketed_root, elastic_root, followed_limit,
+    Boundary, EquilibriumPath, Event, LoadingOutcome, bracketed_root, elastic_root, followed_limit,
 };
 
 pub const CHECKS: &[Check] = &[
@@ -67,7 +67,9 @@ fn non_destructive(paper: &PaperTheory) -> Finding {
     let mut ends = Vec::new();
     for mu in [0.8, 0.9] {
         for stiffness in [1e2, 1e3, 1e4] {
-            ends.push(Outcome::of(&stack(paper, mu, stiffness)).map(|outcome| outcome.first.event));
+            ends.push(
+                LoadingOutcome::of(&stack(paper, mu, stiffness)).map(|outcome| outcome.first.event),
+            );
         }
     }
     let wall = ends
@@ -141,7 +143,7 @@ fn cylinder_friction(paper: &PaperTheory) -> Finding {
     for stiffness in [paper.lowest_stiffness, 1e3, paper.highest_stiffness] {
         for step in 0..=10 {
             let base = stack(paper, 0.1 + 0.04 * f64::from(step), stiffness);
-            let Some(outcome) = Outcome::of(&base) else {
+            let Some(outcome) = LoadingOutcome::of(&base) else {
                 continue;
             };
             slips += usize::from(outcome.first.event == Event::CylinderSlip);

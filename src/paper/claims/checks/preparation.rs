@@ -17,7 +17,7 @@ const MISSING: &str = "there is no native study of the preparation in this repro
 
 /// Native rows under the paper's convention, by increasing push.
 fn pushed(study: &PreparationStudy) -> Vec<&PreparationRow> {
-    let rows = study.rows_of(Code::Native, Code::Native);
+    let rows = study.rows_of(Code::NATIVE, Code::NATIVE);
     let mut pushed: Vec<_> = rows.filter(|row| row.push.is_some()).collect();
     pushed.sort_by(|left, right| {
         left.push

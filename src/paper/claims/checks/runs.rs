@@ -66,7 +66,7 @@ fn peak_is_quasistatic(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, 
 fn native(points: &[ConvergencePoint]) -> Vec<&ConvergencePoint> {
     points
         .iter()
-        .filter(|point| point.code == Code::Native)
+        .filter(|point| point.code == Code::NATIVE)
         .collect()
 }
 
@@ -154,7 +154,7 @@ fn leapfrog(paper: &PaperTheory) -> Finding {
 /// Rows of the native DEM that have a force.
 fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
     let rows = judgements.iter();
-    let native = rows.filter(|row| row.code == Code::Native);
+    let native = rows.filter(|row| row.code == Code::NATIVE);
     native
         .filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)))
         .collect()
@@ -221,7 +221,7 @@ fn scale(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     for exponent in runs
         .exponents
         .iter()
-        .filter(|exponent| exponent.code == Code::Native)
+        .filter(|exponent| exponent.code == Code::NATIVE)
     {
         let printed = match exponent.mu.total_cmp(&CRITICAL_FRICTION) {
             std::cmp::Ordering::Less => 0.0,

@@ -1,8 +1,73 @@
-//! Tasks that a code carries out in one call, and the receiver of their outcomes.
+//! An installed code, and how runs are asked of it.
 
-use super::{Failure, Finished, InstalledCode, Run, RunContext};
+use super::failure::Failure;
+use super::process::Interrupt;
+use super::provenance::{Identity, Run};
+use super::registry::Code;
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{Motion, PyramidRun};
+use std::path::Path;
+use std::time::Duration;
+
+/// Progress callback: index of the case, steps done.
+pub type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
+
+/// Where and how runs are made.
+#[derive(Clone, Copy)]
+pub struct RunContext<'a> {
+    /// Directory in which every case gets a run directory of its own.
+    pub directory: &'a Path,
+    /// Directory that keeps runs which are under way, if they are to be taken up after an interruption.
+    pub checkpoints: Option<&'a Path>,
+    /// Longest time without a finished case; the code's own estimate if absent.
+    pub time_limit: Option<Duration>,
+    /// Set when the user wants to stop.
+    pub interrupt: &'a Interrupt,
+    /// Called now and then while long runs go on.
+    pub advanced: Advanced<'a>,
+}
+
+impl<'a> RunContext<'a> {
+    /// Runs in `directory` until they end or the user wants to stop; nothing is kept or reported.
+    pub fn new(directory: &'a Path, interrupt: &'a Interrupt) -> Self {
+        Self {
+            directory,
+            checkpoints: None,
+            time_limit: None,
+            interrupt,
+            advanced: &|_, _| (),
+        }
+    }
+}
+
+/// How a code is fastest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Batching {
+    /// With a call for each case.
+    OneCallACase,
+    /// With as few calls as there are cores for it, because starting takes longer than running.
+    FewCalls,
+    /// With a call on each core, because cases in one call share every instruction.
+    OneCallACore,
+}
+
+/// Receives results, each with its index, as soon as they are there.
+pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
+
+/// A code that carries out tasks here.
+pub trait InstalledCode: Send + Sync {
+    /// Its name.
+    fn name(&self) -> Code;
+
+    /// What decides its numbers.
+    fn identity(&self) -> &Identity;
+
+    /// How many cases one call should have.
+    fn batching(&self) -> Batching;
+
+    /// Carries out `tasks`, and hands each outcome to their receiver.
+    fn carry_out(&self, tasks: Tasks, context: &RunContext);
+}
 
 /// Tasks of one kind. Each outcome goes to the receiver, with the index of its task, as soon as it is there.
 pub enum Tasks<'a, 'f> {

@@ -1,4 +1,4 @@
-//! What a deck has to be told, under the same names in every code.
+//! The parameters of tasks, under the same names for every code.
 
 use crate::model::{
     Case, ContactConvention, ContactTest, InitialMotion, InvalidValue, PreparationSteps, Pyramid,
@@ -6,7 +6,7 @@ use crate::model::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What every deck is told of its contacts. Stiffness and damping are those of the contact itself; units
+/// Parameters of the contacts. Stiffness and damping are those of the contact itself; units
 /// r = m = k_n = 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct ContactParameters {

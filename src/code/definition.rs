@@ -1,0 +1,303 @@
+//! A code as its folder describes it: the manifest `code.toml` with its defaults and variants, and the files of its
+//! tasks.
+
+use super::format::ResultFormat;
+use super::manifest::{Definition, RefusedValues, ResultFile, TaskKind};
+use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
+use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
+use thiserror::Error;
+use toml::{Table, Value};
+
+const MANIFEST: &str = "code.toml";
+const SCHEMA: i64 = 1;
+/// Placeholders that every command knows.
+const DECK: &str = "{deck}";
+const DIRECTORIES: &str = "{directories}";
+/// Some twenty times the slowest start and step of a stack that were ever seen.
+pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
+const LONGEST_STEP: Duration = Duration::from_micros(100);
+const SAFETY: f64 = 20.0;
+
+/// A folder that describes no code.
+#[derive(Debug, Clone, Error)]
+#[error("{}: {message}", shown(path))]
+pub struct ManifestError {
+    path: PathBuf,
+    message: String,
+}
+
+impl ManifestError {
+    pub(super) fn new(folder: &Path, message: String) -> Self {
+        let path = folder.join(MANIFEST);
+        Self { path, message }
+    }
+}
+
+impl TaskKind {
+    /// The task that compresses a stack after `preparation`.
+    pub(super) fn of(preparation: &Preparation) -> Self {
+        match preparation {
+            Preparation::GravityRamp { .. } => Self::Stack,
+            Preparation::SideWalls(_) => Self::SideWalls,
+        }
+    }
+}
+
+/// The content of a file of the folder.
+type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
+
+impl Definition {
+    /// The codes that `folder` describes, one a variant, in the order of their names.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the manifest or its files.
+    pub fn read(folder: &Path) -> Result<Vec<Self>, ManifestError> {
+        Self::read_with(folder, &|name| {
+            std::fs::read(folder.join(name)).map_err(|error| error.to_string())
+        })
+    }
+
+    /// The same for a folder whose files are part of this program.
+    pub(super) fn embedded(
+        folder: &str,
+        files: &[(&str, &'static str)],
+    ) -> Result<Vec<Self>, ManifestError> {
+        Self::read_with(Path::new(folder), &|name| {
+            let found = files.iter().find(|(file, _)| *file == name);
+            let found = found.ok_or("it is not part of this program")?;
+            Ok(found.1.as_bytes().to_vec())
+        })
+    }
+
+    fn read_with(folder: &Path, read: ReadFile) -> Result<Vec<Self>, ManifestError> {
+        let failed = |message: String| ManifestError::new(folder, message);
+        let content = read(MANIFEST).map_err(|error| failed(format!("cannot read it: {error}")))?;
+        let text = String::from_utf8(content).map_err(|error| failed(error.to_string()))?;
+        // The whole manifest first: its errors have a line.
+        let manifest: Self = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
+        let table: Table = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
+        let codes = manifest.expand(table).map_err(failed)?;
+        let finished = codes.into_iter().map(|code| code.finish(read));
+        finished.collect::<Result<_, _>>().map_err(failed)
+    }
+
+    /// Itself, or one code for each of its variants, whose keys take the place of its own.
+    fn expand(self, mut table: Table) -> Result<Vec<Self>, String> {
+        let family = self.name.clone();
+        if self.variants.is_empty() {
+            return Ok(vec![Self { family, ..self }]);
+        }
+        table.remove("variants");
+        let variants = self.variants.into_iter().map(|(name, overrides)| {
+            let mut table = table.clone();
+            table.insert("name".to_owned(), Value::String(name.clone()));
+            merge(&mut table, overrides);
+            let code: Self = table
+                .try_into()
+                .map_err(|error| format!("variants.{name}: {error}"))?;
+            Ok(Self {
+                family: family.clone(),
+                ..code
+            })
+        });
+        variants.collect()
+    }
+
+    /// Checks what the types do not, and takes in the files of the tasks.
+    fn finish(mut self, read: ReadFile) -> Result<Self, String> {
+        self.check().map_err(|invalid| invalid.to_string())?;
+        if self.title.is_empty() {
+            self.title.clone_from(&self.family);
+        }
+        for task in self.tasks.values_mut() {
+            let contents = task.files.iter().map(|name| {
+                read(name).map_err(|error| format!("tasks: cannot read `{name}`: {error}"))
+            });
+            task.contents = contents.collect::<Result<_, _>>()?;
+        }
+        Ok(self)
+    }
+
+    fn check(&mut self) -> Result<(), InvalidValue> {
+        if self.schema != SCHEMA {
+            return Err(refused("schema", self.schema, SCHEMA.to_string()));
+        }
+        let plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'-';
+        if self.name.is_empty() || !self.name.bytes().all(plain) {
+            let accepted = "lower-case letters, digits and hyphens";
+            return Err(refused("name", &self.name, accepted));
+        }
+        self.convention.validate()?;
+        self.check_files()?;
+        self.check_command()
+    }
+
+    /// Every file stays inside the folder and the run directory, and none passes for a result.
+    fn check_files(&mut self) -> Result<(), InvalidValue> {
+        let logs = self.program.iter().flat_map(|program| &program.logs);
+        let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
+        written.extend(logs.cloned());
+        let results = self
+            .tasks
+            .values_mut()
+            .filter_map(|task| task.result.clone());
+        written.extend(results);
+        if let Some(name) = written.iter().find(|name| !stays_inside(name)) {
+            return Err(refused("file", name, "a path inside the run directory"));
+        }
+        for task in self.tasks.values_mut() {
+            if task.files.is_empty() {
+                return Err(refused("files", "[]", "the deck and what it needs"));
+            }
+            if let Some(name) = task.files.iter().find(|name| !stays_inside(name)) {
+                return Err(refused("files", name, "a path inside the folder"));
+            }
+            if let Some(name) = task.files.iter().find(|name| written.contains(name)) {
+                let accepted = "no file of parameters, results or logs";
+                return Err(refused("files", name, accepted));
+            }
+        }
+        if self.tasks.contains_key(&TaskKind::Pyramid)
+            && self.result.format != ResultFormat::LammpsThermo
+        {
+            let accepted = "lammps-thermo where there is a task `pyramid`";
+            return Err(refused("result.format", "csv", accepted));
+        }
+        Ok(())
+    }
+
+    /// Every placeholder has a value.
+    fn check_command(&self) -> Result<(), InvalidValue> {
+        let Some(program) = &self.program else {
+            return Ok(());
+        };
+        if !self.tasks.contains_key(&TaskKind::Stack) {
+            return Err(refused("tasks.stack", "absent", "a table with `files`"));
+        }
+        if program.command.is_empty() {
+            return Err(refused("program.command", "[]", "a program and arguments"));
+        }
+        let known = || self.set.keys().map(|name| format!("{{{name}}}"));
+        for word in &program.command {
+            let filled = self.fill(word, "");
+            if word != DIRECTORIES && filled.contains(['{', '}']) {
+                let names: Vec<String> = known().collect();
+                let own = names.iter().map(String::as_str);
+                let names: Vec<&str> = [DECK, DIRECTORIES].into_iter().chain(own).collect();
+                let accepted = format!("words with the placeholders {}", names.join(", "));
+                return Err(refused("program.command", word, accepted));
+            }
+        }
+        Ok(())
+    }
+
+    fn fill(&self, word: &str, deck: &str) -> String {
+        let own = self.set.iter();
+        let filled = word.replace(DECK, deck);
+        own.fold(filled, |word, (name, value)| {
+            word.replace(&format!("{{{name}}}"), value)
+        })
+    }
+
+    /// Whether it runs a task of this kind.
+    pub(super) fn runs(&self, kind: TaskKind) -> bool {
+        self.program.is_none() || self.tasks.get(&kind).is_some()
+    }
+
+    /// Whether one process carries out many tasks.
+    pub(super) fn runs_many(&self) -> bool {
+        let command = self.program.iter().flat_map(|program| &program.command);
+        command.into_iter().any(|word| word == DIRECTORIES)
+    }
+
+    /// Program and arguments that carry out the tasks in `directories`.
+    pub(super) fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
+        let task = self.tasks.get(&kind);
+        let deck = task.and_then(|task| task.files.first());
+        let deck = deck.map_or("", String::as_str);
+        let words = self.program.iter().flat_map(|program| &program.command);
+        words
+            .flat_map(|word| match word.as_str() {
+                DIRECTORIES => directories.to_vec(),
+                word => vec![self.fill(word, deck)],
+            })
+            .collect()
+    }
+
+    /// Files of a task, by name and content.
+    pub(super) fn files(&self, kind: TaskKind) -> impl Iterator<Item = (&str, &[u8])> {
+        let task = self.tasks.get(&kind).into_iter();
+        task.flat_map(|task| {
+            let names = task.files.iter().map(String::as_str);
+            names.zip(task.contents.iter().map(Vec::as_slice))
+        })
+    }
+
+    /// Hash of the files of a task.
+    pub(super) fn files_hash(&self, kind: TaskKind) -> String {
+        let mut bytes = Vec::new();
+        for (name, content) in self.files(kind) {
+            for part in [name.as_bytes(), b"\n", content, b"\n"] {
+                bytes.extend_from_slice(part);
+            }
+        }
+        sha256_hex(&bytes)
+    }
+
+    /// Where the result of a task is found.
+    pub(super) fn result(&self, kind: TaskKind) -> ResultFile {
+        let own = self.tasks.get(&kind).and_then(|task| task.result.clone());
+        ResultFile {
+            file: own.unwrap_or_else(|| self.result.file.clone()),
+            format: self.result.format,
+        }
+    }
+
+    /// Time after which a task of so many steps counts as hanging.
+    pub(super) fn time_limit(&self, steps: u64) -> Duration {
+        let at_least = |seconds: f64, least: Duration| (SAFETY * seconds).max(least.as_secs_f64());
+        let start = at_least(self.seconds.start, LONGEST_START);
+        let step = at_least(self.seconds.step, LONGEST_STEP);
+        let limit = Duration::try_from_secs_f64(start + step * steps as f64);
+        limit.unwrap_or(Duration::MAX)
+    }
+
+    /// Refuses a restitution that the manifest refuses.
+    pub(super) fn check_restitution(&self, asked: f64) -> Result<(), InvalidValue> {
+        let Some(RefusedValues { values, because }) = &self.refused.restitution else {
+            return Ok(());
+        };
+        if !values.contains(&asked) {
+            return Ok(());
+        }
+        let accepted = format!("any other number for {}: {because}", self.name);
+        Err(refused("convention.restitution", asked, accepted))
+    }
+}
+
+fn refused(key: &str, value: impl ToString, accepted: impl Into<String>) -> InvalidValue {
+    InvalidValue {
+        key: key.to_owned(),
+        value: value.to_string(),
+        accepted: accepted.into(),
+    }
+}
+
+/// Whether a path names something below the directory it starts from.
+fn stays_inside(path: &str) -> bool {
+    let mut parts = Path::new(path).components().peekable();
+    parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+}
+
+/// Puts the values of `overrides` in place of those of `table`, key by key.
+fn merge(table: &mut Table, overrides: Table) {
+    for (key, value) in overrides {
+        match (table.get_mut(&key), value) {
+            (Some(Value::Table(own)), Value::Table(value)) => merge(own, value),
+            (_, value) => {
+                table.insert(key, value);
+            }
+        }
+    }
+}

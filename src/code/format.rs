@@ -1,0 +1,248 @@
+//! The named formats of parameter files and results.
+
+use crate::model::{Case, ContactTest, Pyramid};
+use crate::series::{Motion, PyramidRun, Series, SeriesError};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+/// LIGGGHTS cuts the words of a header to so many characters.
+const CUT: usize = 8;
+
+/// How the parameters of a task are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ParameterFormat {
+    /// A JSON object, numbers in their shortest exact form.
+    Json,
+    /// The same as TOML.
+    Toml,
+    /// Variables of LAMMPS and LIGGGHTS; of string style, because it alone passes every digit.
+    LammpsVariables,
+}
+
+impl ParameterFormat {
+    /// The content of the file for `parameters`, an object of numbers.
+    pub fn content(self, parameters: &serde_json::Value) -> String {
+        let lines = |line: &dyn Fn(&str, &serde_json::Value) -> String| {
+            let entries = parameters.as_object().into_iter().flatten();
+            entries.map(|(name, number)| line(name, number)).collect()
+        };
+        match self {
+            Self::Json => format!("{parameters:#}\n"),
+            Self::Toml => lines(&|name, number| format!("{name} = {number}\n")),
+            Self::LammpsVariables => {
+                lines(&|name, number| format!("variable {name} string {number}\n"))
+            }
+        }
+    }
+}
+
+/// How a code writes its results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ResultFormat {
+    /// Comma-separated columns under their names.
+    Csv,
+    /// The last table in the log of LAMMPS or LIGGGHTS with the columns in their order. The header names them in
+    /// full or by their first 8 characters, with or without `v_`.
+    LammpsThermo,
+}
+
+impl ResultFormat {
+    /// The series of `case` in a result file.
+    ///
+    /// # Errors
+    /// If it is not there, or is not the series of the case.
+    pub fn series(self, content: &[u8], case: &Case) -> Result<Series, SeriesError> {
+        let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
+        match self {
+            Self::Csv => Series::read(content, &schedule, time_step),
+            Self::LammpsThermo => {
+                let samples = last_table(content, &Series::COLUMNS)?;
+                Series::new(samples, &schedule, time_step)
+            }
+        }
+    }
+
+    /// The motion of a micro-test in a result file.
+    ///
+    /// # Errors
+    /// If it is not there, or is not the motion of the micro-test.
+    pub fn motion(self, content: &[u8], test: &ContactTest) -> Result<Motion, SeriesError> {
+        match self {
+            Self::Csv => Motion::read(content, test.steps),
+            Self::LammpsThermo => Motion::new(last_table(content, &Motion::COLUMNS)?, test.steps),
+        }
+    }
+}
+
+/// The rows between the header and `Loop time`.
+fn last_table<Row: DeserializeOwned>(
+    log: &[u8],
+    columns: &[&str],
+) -> Result<Vec<Row>, SeriesError> {
+    let log = String::from_utf8_lossy(log);
+    let lines: Vec<&str> = log.lines().collect();
+    let start = lines
+        .iter()
+        .rposition(|line| is_header(line, columns))
+        .ok_or_else(|| SeriesError::Absent {
+            message: format!(
+                "the log has no table with the columns {}",
+                columns.join(" ")
+            ),
+        })?;
+    lines[start + 1..]
+        .iter()
+        .take_while(|line| !line.starts_with("Loop time"))
+        .enumerate()
+        .map(|(index, line)| parse_row(index + 1, line))
+        .collect()
+}
+
+fn is_header(line: &str, columns: &[&str]) -> bool {
+    let words = line.split_whitespace();
+    let words: Vec<&str> = words
+        .map(|word| word.strip_prefix("v_").unwrap_or(word))
+        .collect();
+    let names = |(word, column): (&&str, &&str)| word == column || Some(*word) == column.get(..CUT);
+    words.len() == columns.len() && words.iter().zip(columns).all(names)
+}
+
+fn parse_row<Row: DeserializeOwned>(row: usize, line: &str) -> Result<Row, SeriesError> {
+    let fields: csv::StringRecord = line.split_whitespace().collect();
+    fields
+        .deserialize(None)
+        .map_err(|error| SeriesError::Garbled {
+            row,
+            message: format!("{error} in `{line}`"),
+        })
+}
+
+/// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
+///
+/// # Errors
+/// If the log has no loop time, or the dump does not hold the cylinders of the pyramid.
+pub fn pyramid_in_log(
+    log: &[u8],
+    dump: &[u8],
+    pyramid: &Pyramid,
+) -> Result<PyramidRun, SeriesError> {
+    let seconds = last_loop_time(&String::from_utf8_lossy(log))?;
+    let centres = centres(&String::from_utf8_lossy(dump))?;
+    PyramidRun::new(centres, seconds, pyramid.cylinder_count())
+}
+
+/// Seconds in `Loop time of 0.4218 on 1 procs for 2000 steps with 990 atoms`.
+fn last_loop_time(log: &str) -> Result<f64, SeriesError> {
+    let mut times = log
+        .lines()
+        .filter_map(|line| line.strip_prefix("Loop time of "));
+    times
+        .next_back()
+        .and_then(|rest| rest.split_whitespace().next()?.parse().ok())
+        .ok_or_else(|| SeriesError::Absent {
+            message: "the log has no loop time".to_owned(),
+        })
+}
+
+/// The rows `id x y`, in the order of the ids 1, 2, ….
+fn centres(dump: &str) -> Result<Vec<[f64; 2]>, SeriesError> {
+    let mut rows = dump
+        .lines()
+        .skip_while(|line| !line.starts_with("ITEM: ATOMS"));
+    rows.next();
+    let row = |(row, line): (usize, &str)| {
+        let mut fields = line.split_whitespace();
+        let id = fields.next().and_then(|id| id.parse().ok());
+        let mut coordinate = || fields.next()?.parse().ok();
+        match (coordinate(), coordinate()) {
+            (Some(x), Some(y)) if id == Some(row) => Ok([x, y]),
+            _ => Err(SeriesError::Garbled {
+                row,
+                message: format!("`{line}` in the dump of the centres is not `{row} x y`"),
+            }),
+        }
+    };
+    (1..).zip(rows).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::Sample;
+
+    const ROW: &str = "0 0 1.5e-3 0 2.7 0 1 0.9 0 -1 0.9 0 0.1 -0.02 0.1 0.02";
+
+    fn table(log: &str) -> Result<Vec<Sample>, SeriesError> {
+        last_table(log.as_bytes(), &Series::COLUMNS)
+    }
+
+    fn header() -> String {
+        Series::COLUMNS.join(" ")
+    }
+
+    #[test]
+    fn the_last_table_is_read_however_its_columns_are_named() {
+        let cut = header().replace("wall_force", "wall_for");
+        let prefixed = format!("v_{}", Series::COLUMNS.join(" v_"));
+        for header in [header(), cut, prefixed] {
+            let log =
+                format!("Step KinEng\n 1 2\nLoop time of 1\n {header}\n {ROW}\nLoop time of 2\n");
+            let samples = table(&log).unwrap();
+            assert_eq!(samples.len(), 1);
+            assert_eq!(samples[0].wall_force, 1.5e-3);
+            assert_eq!(samples[0].floor_t3, 0.02);
+        }
+    }
+
+    #[test]
+    fn columns_in_another_order_are_no_table() {
+        let swapped = header().replace("x1 y1", "y1 x1");
+        let refusal = table(&format!("{swapped}\n{ROW}\n")).unwrap_err();
+        assert!(
+            refusal.to_string().contains("columns step time wall_force"),
+            "{refusal}"
+        );
+        assert!(table("ERROR: Invalid model").is_err());
+    }
+
+    #[test]
+    fn a_row_that_is_cut_off_is_refused_with_its_number() {
+        let error = table(&format!("{}\n{ROW}\n20 2 0.1 0", header())).unwrap_err();
+        assert!(error.to_string().starts_with("row 2: "), "{error}");
+    }
+
+    #[test]
+    fn every_format_of_parameters_holds_every_number() {
+        let parameters = serde_json::json!({ "gravity": 1e-300, "steps": 3, "time_step": 0.1 });
+        let toml = ParameterFormat::Toml.content(&parameters);
+        let read: toml::Table = toml.parse().unwrap();
+        assert_eq!(read["gravity"].as_float(), Some(1e-300));
+        assert_eq!(read["steps"].as_integer(), Some(3));
+        let json = ParameterFormat::Json.content(&parameters);
+        assert_eq!(
+            serde_json::from_str::<serde_json::Value>(&json).unwrap(),
+            parameters
+        );
+        let variables = ParameterFormat::LammpsVariables.content(&parameters);
+        assert!(variables.ends_with("variable steps string 3\nvariable time_step string 0.1\n"));
+    }
+
+    #[test]
+    fn the_last_loop_time_counts() {
+        let log = "Loop time of 3 on 1 procs\nLoop time of 0.25 on 1 procs for 10 steps\n";
+        assert_eq!(last_loop_time(log).unwrap(), 0.25);
+        assert!(last_loop_time("ERROR: Lost atoms").is_err());
+    }
+
+    #[test]
+    fn centres_are_read_in_order_and_nothing_else_is() {
+        let dump = "ITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id x y \n1 -1 0.5 \n2 1 0.5 \n";
+        assert_eq!(centres(dump).unwrap(), [[-1.0, 0.5], [1.0, 0.5]]);
+        for garbled in ["2 -1 0.5", "1 -1", "1 a b"] {
+            let error = centres(&format!("ITEM: ATOMS id x y\n{garbled}")).unwrap_err();
+            assert!(error.to_string().starts_with("row 1: "), "{error}");
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! The keys of a manifest.
+
+use super::format::{ParameterFormat, ResultFormat};
+use super::process::Environment;
+use crate::model::ContactConvention;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Table;
+
+/// One code, as the manifest describes it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    pub(super) schema: i64,
+    pub(super) name: String,
+    /// Name in prose and figures; the variants of a folder share it.
+    #[serde(default)]
+    pub(super) title: String,
+    /// What tells the variant from others in figures.
+    pub(super) label: Option<String>,
+    /// How to install the program.
+    #[serde(default)]
+    pub(super) install: String,
+    pub(super) mark: Option<Mark>,
+    #[serde(default)]
+    pub(super) seconds: Seconds,
+    /// Absent for the native code alone.
+    pub(super) program: Option<Program>,
+    #[serde(default)]
+    pub(super) parameters: ParameterFile,
+    #[serde(default)]
+    pub(super) result: ResultFile,
+    #[serde(default)]
+    pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
+    #[serde(default)]
+    pub(super) convention: ContactConvention,
+    #[serde(default)]
+    pub(super) integration: Integration,
+    #[serde(default)]
+    pub(super) refused: Refused,
+    /// Placeholders of the command.
+    #[serde(default)]
+    pub(super) set: BTreeMap<String, String>,
+    #[serde(default)]
+    pub(super) variants: BTreeMap<String, Table>,
+    /// Name in the manifest, which variants share.
+    #[serde(skip)]
+    pub(super) family: String,
+}
+
+/// What a code can be asked to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TaskKind {
+    /// Compress a stack after a gravity ramp.
+    Stack,
+    /// Compress a stack that was prepared between side walls.
+    SideWalls,
+    /// Move two cylinders for a few steps.
+    Motion,
+    /// Carry a pyramid.
+    Pyramid,
+}
+
+/// Mark of a code in figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mark {
+    /// Its shape.
+    pub shape: Shape,
+    /// Its colour.
+    pub colour: Colour,
+}
+
+/// Outlines, so that marks at the same place do not hide each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum Shape {
+    Dot,
+    Circle,
+    Square,
+    Diamond,
+    Cross,
+    Plus,
+}
+
+/// Colours that the colour-blind tell apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum Colour {
+    Ink,
+    Blue,
+    Vermilion,
+    Purple,
+    Orange,
+    Green,
+}
+
+/// Durations for forecasts; a multiple is the time limit.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct Seconds {
+    pub(super) start: f64,
+    pub(super) step: f64,
+}
+
+impl Default for Seconds {
+    fn default() -> Self {
+        Self {
+            start: 1.0,
+            step: 5e-6,
+        }
+    }
+}
+
+/// How a code is started.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Program {
+    /// Words with placeholders, never a line for a shell.
+    pub(super) command: Vec<String>,
+    /// A build of the program that computes with more digits.
+    pub(super) higher_precision: Option<String>,
+    #[serde(default)]
+    pub(super) version: VersionQuestion,
+    #[serde(default)]
+    pub(super) environment: Environment,
+    /// Files in the working directory that say why a run failed.
+    #[serde(default)]
+    pub(super) logs: Vec<String>,
+}
+
+/// How a program says its version.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct VersionQuestion {
+    /// Whether the version of its package, which is quicker to know, is as good.
+    pub(super) package: bool,
+    /// Arguments that make it print the version; it is not asked if there are none.
+    pub(super) arguments: Vec<String>,
+    /// Text before the version in the first line it prints.
+    pub(super) before: String,
+}
+
+/// The file that holds the parameters of a task.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ParameterFile {
+    pub(super) file: String,
+    pub(super) format: ParameterFormat,
+}
+
+impl Default for ParameterFile {
+    fn default() -> Self {
+        Self {
+            file: "task.json".to_owned(),
+            format: ParameterFormat::Json,
+        }
+    }
+}
+
+/// The file that holds the result of a task.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ResultFile {
+    pub(super) file: String,
+    pub(super) format: ResultFormat,
+}
+
+impl Default for ResultFile {
+    fn default() -> Self {
+        Self {
+            file: "result.csv".to_owned(),
+            format: ResultFormat::Csv,
+        }
+    }
+}
+
+/// The files of a task.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TaskFiles {
+    /// The first one is the deck.
+    pub(super) files: Vec<String>,
+    /// Where the result is, if not where that of other tasks is.
+    pub(super) result: Option<String>,
+    #[serde(skip)]
+    pub(super) contents: Vec<Vec<u8>>,
+}
+
+/// How a code steps through time, as far as it can be seen beside a native twin.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Integration {
+    /// Steps by which reported velocities lag behind reported positions.
+    pub velocity_lag: f64,
+    /// Where its angles come from.
+    pub angle: Angle,
+    /// Whether two surfaces that just touch are a contact.
+    pub touches_at_zero_overlap: bool,
+}
+
+impl Default for Integration {
+    fn default() -> Self {
+        Self {
+            velocity_lag: 0.5,
+            angle: Angle::Exact,
+            touches_at_zero_overlap: false,
+        }
+    }
+}
+
+/// Where the angles of a code come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Angle {
+    /// The integrator turns the body by spin × time step.
+    Exact,
+    /// The deck sums the spin by the trapezoidal rule.
+    SummedSpin,
+    /// The integrator turns a dipole by arctan(spin × time step).
+    Dipole,
+}
+
+/// Values of parameters that the code cannot take.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Refused {
+    pub(super) restitution: Option<RefusedValues>,
+}
+
+/// The values, and the reason.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RefusedValues {
+    pub(super) values: Vec<f64>,
+    pub(super) because: String,
+}

@@ -1,0 +1,329 @@
+//! The codes: those whose folders are part of this program, and those whose folders were given by path.
+
+use super::definition::ManifestError;
+use super::manifest::{Definition, Integration, Mark, TaskKind};
+use crate::model::{ContactConvention, InvalidValue, Preparation};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+
+/// The files of a folder, named from the top of the project.
+macro_rules! folder {
+    ($folder:literal, $($file:literal)+) => {
+        ($folder, &[$(($file, include_str!(concat!("../../", $folder, "/", $file)))),+])
+    };
+}
+
+/// The only place that names the built-in folders. Their order is that of tables and figures.
+static BUILT_IN: [(&str, &[(&str, &str)]); 4] = [
+    folder!("src/code/native", "code.toml"),
+    folder!("liggghts_inputs", "code.toml" "stack.in" "side_walls.in" "probe.in" "pyramid.in" "contacts.in"
+        "top_wall.in" "wall.stl" "side_wall.stl"),
+    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "cases.py"),
+    folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
+];
+
+#[derive(Default)]
+struct Registry {
+    definitions: Vec<&'static Definition>,
+    /// Folders that have been read, each with its codes.
+    folders: BTreeMap<PathBuf, Vec<Code>>,
+}
+
+static REGISTRY: LazyLock<Mutex<Registry>> = LazyLock::new(|| {
+    let folders = BUILT_IN.iter();
+    let definitions = folders.flat_map(|(folder, files)| {
+        Definition::embedded(folder, files).expect("a folder of this program is in order")
+    });
+    Mutex::new(Registry {
+        definitions: definitions.map(leaked).collect(),
+        folders: BTreeMap::new(),
+    })
+});
+
+fn registry() -> MutexGuard<'static, Registry> {
+    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What a folder says stays the same until the program ends.
+fn leaked(definition: Definition) -> &'static Definition {
+    Box::leak(Box::new(definition))
+}
+
+/// A code. Codes are ordered as in tables and figures.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Code(usize);
+
+/// What the folder of a code declares, and the probe measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Declaration {
+    /// What a contact is.
+    pub convention: ContactConvention,
+    /// Steps by which reported velocities lag behind reported positions.
+    pub velocity_lag: f64,
+}
+
+impl Code {
+    /// The DEM of this program.
+    pub const NATIVE: Self = Self(0);
+
+    /// Every code: the built-in ones, and those of the folders that were given.
+    pub fn all() -> Vec<Self> {
+        (0..registry().definitions.len()).map(Self).collect()
+    }
+
+    /// The code of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().into_iter().find(|code| code.as_str() == name)
+    }
+
+    /// The code in `folder` that has the `name`; without a name the only one, or the one that is named like the
+    /// manifest. A folder is read once.
+    ///
+    /// # Errors
+    /// If the folder describes no such code, or a code whose name is taken.
+    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+        let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        let mut registry = registry();
+        if !registry.folders.contains_key(&place) {
+            let read = Definition::read(folder)?;
+            let own = registry.add(folder, read)?;
+            registry.folders.insert(place.clone(), own);
+        }
+        let codes = &registry.folders[&place];
+        let definition = |code: &Code| registry.definitions[code.0];
+        let wanted = |code: &&Code| match name {
+            Some(name) => definition(code).name == name,
+            None => codes.len() == 1 || definition(code).name == definition(code).family,
+        };
+        codes.iter().find(wanted).copied().ok_or_else(|| {
+            let names = codes.iter().map(|code| definition(code).name.as_str());
+            let names: Vec<&str> = names.collect();
+            let asked = name.unwrap_or("no name");
+            let message = format!("{asked} is given; accepted is one of {}", names.join(", "));
+            ManifestError::new(folder, message)
+        })
+    }
+
+    pub(super) fn definition(self) -> &'static Definition {
+        registry().definitions[self.0]
+    }
+
+    /// The name on the command line and in tables.
+    pub fn as_str(self) -> &'static str {
+        &self.definition().name
+    }
+
+    /// The name in prose, which the variants of a folder share.
+    pub fn title(self) -> &'static str {
+        &self.definition().title
+    }
+
+    /// The name in figures.
+    pub fn label(self) -> String {
+        let Definition { title, label, .. } = self.definition();
+        match label {
+            Some(label) => format!("{title}, {label}"),
+            None => title.clone(),
+        }
+    }
+
+    /// The mark in figures, if the manifest chooses one.
+    pub fn mark(self) -> Option<Mark> {
+        self.definition().mark
+    }
+
+    /// The variants of the folder that come before this one.
+    fn earlier_variants(self) -> impl Iterator<Item = Self> {
+        let family = &self.definition().family;
+        let earlier = (0..self.0).map(Self);
+        earlier.filter(move |code| code.definition().family == *family)
+    }
+
+    /// Whether it is the first variant of its folder, which stands for the others where one is enough.
+    pub fn is_first_variant(self) -> bool {
+        self.earlier_variants().next().is_none()
+    }
+
+    /// Whether an earlier variant of its folder has the same contacts.
+    pub fn repeats_another(self) -> bool {
+        self.earlier_variants()
+            .any(|code| code.convention() == self.convention())
+    }
+
+    /// What a contact is to this code, unless a case may choose (native).
+    pub fn convention(self) -> ContactConvention {
+        self.definition().convention
+    }
+
+    /// How it steps through time.
+    pub fn integration(self) -> Integration {
+        self.definition().integration
+    }
+
+    /// What its manifest declares.
+    pub fn declaration(self) -> Declaration {
+        Declaration {
+            convention: self.convention(),
+            velocity_lag: self.integration().velocity_lag,
+        }
+    }
+
+    /// Whether the convention is part of the case rather than of the code.
+    pub fn accepts_any_convention(self) -> bool {
+        self == Self::NATIVE
+    }
+
+    /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the code can do.
+    pub fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+        if self.accepts_any_convention() {
+            return Ok(());
+        }
+        self.definition().check_restitution(asked.restitution)?;
+        let own = ContactConvention {
+            restitution: asked.restitution,
+            ..self.convention()
+        };
+        asked.difference(&own).map_or(Ok(()), |(key, value, own)| {
+            Err(InvalidValue {
+                key: format!("convention.{key}"),
+                value,
+                accepted: format!("{own} for {self}"),
+            })
+        })
+    }
+
+    /// Refuses a preparation for which the code has no deck.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the code can do.
+    pub fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
+        self.check_task(TaskKind::of(asked))
+    }
+
+    /// Whether it has a deck for pyramids.
+    pub fn builds_pyramids(self) -> bool {
+        self.definition().runs(TaskKind::Pyramid)
+    }
+
+    /// Refuses a kind of task for which the code has no deck.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the code, or which code, can.
+    pub fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
+        if self.definition().runs(kind) {
+            return Ok(());
+        }
+        if kind == TaskKind::SideWalls {
+            return Err(InvalidValue {
+                key: "protocol.preparation.kind".to_owned(),
+                value: "side-walls".to_owned(),
+                accepted: format!("gravity-ramp for {self}"),
+            });
+        }
+        let able = Self::all().into_iter();
+        let able = able.filter(|code| code.definition().runs(kind));
+        let able: Vec<&str> = able.map(Self::as_str).collect();
+        let task = match kind {
+            TaskKind::Pyramid => "a pyramid",
+            _ => "a micro-test",
+        };
+        Err(InvalidValue {
+            key: "code".to_owned(),
+            value: self.as_str().to_owned(),
+            accepted: format!("one of {} for {task}", able.join(", ")),
+        })
+    }
+
+    /// Whether it can make a run shorter.
+    pub fn takes_shortcuts(self) -> bool {
+        self == Self::NATIVE
+    }
+
+    /// Refuses shortcuts, if they are `asked` for, where the code knows none.
+    ///
+    /// # Errors
+    /// It names the key, the value and what the code can do.
+    pub fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
+        if !asked || self.takes_shortcuts() {
+            return Ok(());
+        }
+        Err(InvalidValue {
+            key: "protocol.shortcuts".to_owned(),
+            value: "given".to_owned(),
+            accepted: format!("none for {self}; native takes them"),
+        })
+    }
+
+    /// Hash of the files for a task of this kind, or of the sources of the native code.
+    pub fn files_hash(self, kind: TaskKind) -> String {
+        match self {
+            Self::NATIVE => crate::dem::SOURCE_DIGEST.clone(),
+            _ => self.definition().files_hash(kind),
+        }
+    }
+
+    /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
+    pub fn seconds_per_step(self) -> f64 {
+        self.definition().seconds.step
+    }
+
+    /// How to install it.
+    pub fn installation_hint(self) -> &'static str {
+        &self.definition().install
+    }
+}
+
+impl Registry {
+    /// Adds the codes of `folder`, whose names must be new.
+    fn add(&mut self, folder: &Path, read: Vec<Definition>) -> Result<Vec<Code>, ManifestError> {
+        let mut taken = self.definitions.iter();
+        if let Some(other) = taken.find(|own| read.iter().any(|new| new.name == own.name)) {
+            let message = format!("name is {}; accepted is a name that is free", other.name);
+            return Err(ManifestError::new(folder, message));
+        }
+        if let Some(new) = read.iter().find(|new| new.program.is_none()) {
+            let message = format!(
+                "{} has no [program]; accepted is one with a command",
+                new.name
+            );
+            return Err(ManifestError::new(folder, message));
+        }
+        let first = self.definitions.len();
+        self.definitions.extend(read.into_iter().map(leaked));
+        Ok((first..self.definitions.len()).map(Code).collect())
+    }
+}
+
+impl std::fmt::Display for Code {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+impl std::fmt::Debug for Code {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+impl Serialize for Code {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
+
+impl<'de> Deserialize<'de> for Code {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::named(&name).ok_or_else(|| {
+            let names: Vec<&str> = Self::all().into_iter().map(Self::as_str).collect();
+            let accepted = names.join(", ");
+            serde::de::Error::custom(format!("`{name}` is no code; accepted are {accepted}"))
+        })
+    }
+}

@@ -1,0 +1,195 @@
+//! A drawing as a PDF page of its size, with a font of its own, so that every machine writes the same bytes.
+
+use super::font::{Fonts, OBJECTS, compressed};
+use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
+use super::{Anchor, Drawing, Element, Paint, Place, Setting, Stroke, TINT, Text};
+use crate::output::figures::style::INK;
+use pdf_writer::writers::ExtGraphicsState;
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
+
+/// Points in a pixel: an SVG has 96 pixels to the inch, a PDF 72 points.
+const POINTS: f32 = 0.75;
+/// Distance of the control points of a quarter of a circle from its ends, in radii.
+const QUARTER: f64 = 0.552_284_75;
+const CATALOGUE: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const CONTENT: Ref = Ref::new(4);
+const FIRST_FONT: i32 = 5;
+/// The state in which what is filled is a tint.
+const TINTED: Name = Name(b"Tinted");
+
+impl Drawing {
+    /// The drawing as a PDF: the same bytes for the same drawing on every machine.
+    pub fn pdf(&self) -> Vec<u8> {
+        let (width, height) = (self.width as f32 * POINTS, self.height as f32 * POINTS);
+        let mut page = Page {
+            content: Content::new(),
+            fonts: Fonts::new(),
+        };
+        page.content
+            .transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
+        for element in &self.elements {
+            page.element(element);
+        }
+        page.finish(Rect::new(0.0, 0.0, width, height))
+    }
+}
+
+struct Page {
+    content: Content,
+    fonts: Fonts,
+}
+
+impl Page {
+    fn element(&mut self, element: &Element) {
+        match element {
+            Element::Path(points, closed, paint) => {
+                self.paint(*paint, |content| trace(content, points, *closed));
+            }
+            Element::Circle(centre, radius, paint) => {
+                self.paint(*paint, |content| trace_circle(content, *centre, *radius));
+            }
+            Element::Text(text) => self.text(text),
+        }
+    }
+
+    fn paint(&mut self, paint: Paint, trace: impl Fn(&mut Content)) {
+        let content = &mut self.content;
+        content.save_state();
+        if let Some((colour, opacity)) = paint.fill() {
+            if opacity < 1.0 {
+                content.set_parameters(TINTED);
+            }
+            let [red, green, blue] = parts(colour);
+            content.set_fill_rgb(red, green, blue);
+            trace(content);
+            content.fill_nonzero();
+        }
+        if let Some(stroke) = paint.stroke() {
+            set_stroke(content, stroke);
+            trace(content);
+            content.stroke();
+        }
+        content.restore_state();
+    }
+
+    fn text(&mut self, text: &Text) {
+        let mut width = 0.0;
+        let mut words = Vec::new();
+        for (style, part) in spans(&text.words) {
+            let (scale, drop) = match style {
+                Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
+                Style::Plain | Style::Italic => (1.0, 0.0),
+            };
+            let font = Fonts::index(style, text.setting == Setting::Bold);
+            let (glyphs, part_width) = self.fonts.get(font).encode(part);
+            width += scale * text.size * part_width;
+            words.push((font, scale * text.size, drop, glyphs));
+        }
+        let content = &mut self.content;
+        let [red, green, blue] = parts(INK);
+        content.begin_text().set_fill_rgb(red, green, blue);
+        content.set_text_matrix(matrix(text, width));
+        for (font, size, drop, glyphs) in words {
+            content
+                .set_font(Name(font_name(font).as_bytes()), size as f32)
+                .set_rise(-drop as f32)
+                .show(Str(&glyphs));
+        }
+        content.end_text();
+    }
+
+    fn finish(self, size: Rect) -> Vec<u8> {
+        let fonts: Vec<_> = self
+            .fonts
+            .used()
+            .zip((FIRST_FONT..).step_by(OBJECTS))
+            .collect();
+        let mut pdf = Pdf::new();
+        pdf.catalog(CATALOGUE).pages(PAGES);
+        pdf.pages(PAGES).kids([PAGE]).count(1);
+        let mut page = pdf.page(PAGE);
+        page.media_box(size).parent(PAGES).contents(CONTENT);
+        let mut resources = page.resources();
+        let mut names = resources.fonts();
+        for ((index, _), place) in &fonts {
+            names.pair(Name(font_name(*index).as_bytes()), Ref::new(*place));
+        }
+        names.finish();
+        let mut states = resources.ext_g_states();
+        let mut tinted = states.insert(TINTED).start::<ExtGraphicsState>();
+        tinted.non_stroking_alpha(TINT as f32);
+        tinted.finish();
+        states.finish();
+        resources.finish();
+        page.finish();
+        let content = compressed(&self.content.finish());
+        pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
+        for ((_, font), place) in fonts {
+            font.write(&mut pdf, place);
+        }
+        pdf.finish()
+    }
+}
+
+/// Where a text of some width begins, and its directions along and up, in pixels to the right and down.
+fn matrix(text: &Text, width: f64) -> [f32; 6] {
+    let before = match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    };
+    let [x, y] = text.place;
+    match text.setting {
+        Setting::Upwards => [0.0, -1.0, -1.0, 0.0, x as f32, (y + before) as f32],
+        Setting::Normal | Setting::Bold => [1.0, 0.0, 0.0, -1.0, (x - before) as f32, y as f32],
+    }
+}
+
+fn trace(content: &mut Content, points: &[Place], closed: bool) {
+    for (index, &[x, y]) in points.iter().enumerate() {
+        let (x, y) = (x as f32, y as f32);
+        if index == 0 {
+            content.move_to(x, y);
+        } else {
+            content.line_to(x, y);
+        }
+    }
+    if closed {
+        content.close_path();
+    }
+}
+
+/// A circle of four Bézier curves, at most 3e-4 of its radius off.
+fn trace_circle(content: &mut Content, [x, y]: Place, radius: f64) {
+    let at = |right: f64, down: f64| ((x + radius * right) as f32, (y + radius * down) as f32);
+    let (from_x, from_y) = at(1.0, 0.0);
+    content.move_to(from_x, from_y);
+    for (right, down) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
+        let (x1, y1) = at(right - QUARTER * down, down + QUARTER * right);
+        let (x2, y2) = at(QUARTER * right - down, QUARTER * down + right);
+        let (x3, y3) = at(-down, right);
+        content.cubic_to(x1, y1, x2, y2, x3, y3);
+    }
+    content.close_path();
+}
+
+fn set_stroke(content: &mut Content, stroke: Stroke) {
+    let [red, green, blue] = parts(stroke.colour);
+    let dashes = stroke.dashes.iter().map(|&length| length as f32);
+    content
+        .set_stroke_rgb(red, green, blue)
+        .set_line_width(stroke.width as f32)
+        .set_dash_pattern(dashes, 0.0);
+}
+
+/// Red, green and blue of `#rrggbb` as parts of one.
+fn parts(colour: &str) -> [f32; 3] {
+    let part = |at: usize| u8::from_str_radix(colour.get(at..at + 2).unwrap_or("00"), 16);
+    [1, 3, 5].map(|at| f32::from(part(at).unwrap_or(0)) / 255.0)
+}
+
+fn font_name(index: usize) -> String {
+    format!("F{index}")
+}

@@ -1,0 +1,53 @@
+//! The probe of a code: two rounds of micro-tests, and the properties that follow from them.
+
+use super::clock::Clock;
+use super::contact_frame::contact_rows;
+use super::experiments::{self, ContactKind};
+use super::finding::Property;
+use super::plan::{Laws, Plan, TestedMotion};
+use crate::code::Declaration;
+use crate::model::ContactTest;
+use crate::series::Motion;
+
+const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
+
+/// Measures every property that `declared` names. `run` carries out micro-tests; it is called twice, because the speed
+/// at which a contact reaches the slip threshold has to be measured first.
+///
+/// # Errors
+/// Those of `run`.
+pub fn probe<E>(
+    declared: &Declaration,
+    mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
+) -> Result<Vec<Property>, E> {
+    let convention = &declared.convention;
+    let plans = CONTACT_KINDS.map(|kind| Plan::new(kind, convention));
+    let turning = experiments::turning(convention);
+    let mut tests: Vec<ContactTest> = plans.iter().flat_map(Plan::tests).copied().collect();
+    tests.push(turning);
+    let motions = run(&tests)?;
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
+    let clock = Clock::read(&outcomes);
+    let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
+        contact_rows(ContactKind::Pair, test, motion, &clock)
+    });
+    let mut unread = outcomes.as_slice();
+    let laws = plans.map(|plan| {
+        let (own, others) = unread.split_at(plan.tests().len());
+        unread = others;
+        plan.read(own, &turning, &clock)
+    });
+
+    let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
+    let tests = near_slip.concat();
+    let motions = run(&tests)?;
+    let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
+    let mut unread = outcomes.as_slice();
+    let mut properties = clock.properties(declared);
+    for (laws, tests) in laws.iter().zip(&near_slip) {
+        let (own, others) = unread.split_at(tests.len());
+        unread = others;
+        properties.extend(laws.properties(own, &clock));
+    }
+    Ok(properties)
+}

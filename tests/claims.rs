@@ -3,7 +3,6 @@
 use insta::assert_snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::path::Path;
 use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt};
 use tristack::model::{CRITICAL_FRICTION, Case, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
@@ -228,7 +227,7 @@ fn native_reproduction() -> Reproduction {
     let interrupt = Interrupt::new();
     let settings = Settings {
         store: Store::open(scratch.path()).expect("a store"),
-        recorded: Recorded::new(Path::new("reference")),
+        recorded: Recorded::embedded(),
         fresh: false,
         threads: 2,
         time_limit: None,

@@ -2,9 +2,14 @@
 
 mod common;
 
-use common::{Bench, assert_only, copy_run, json_rows, standard_error, standard_output};
+use common::{
+    Bench, OWN_PROGRAM, assert_only, json_rows, save_recording, standard_error,
+    standard_output,
+};
 use insta::assert_snapshot;
 use std::fs;
+use std::process::Command;
+use tristack::code::Code;
 
 #[test]
 fn every_row_agrees_and_says_where_it_comes_from() {
@@ -36,6 +41,93 @@ fn every_row_agrees_and_says_where_it_comes_from() {
         message.contains("108 of 108 rows agree; 90 rows are recorded, not live"),
         "{message}"
     );
+}
+
+/// A program that was copied to an empty machine has its recorded runs with it.
+#[test]
+fn away_from_the_checkout_the_rows_are_the_same() {
+    let bench = Bench::without_codes();
+    let home = bench.path("home");
+    fs::create_dir(&home).expect("a directory");
+    fs::copy(OWN_PROGRAM, home.join("tristack")).expect("a copy");
+    for line in [
+        "crosscheck --format csv",
+        "trajectories --format csv",
+        "probe --format csv",
+    ] {
+        let away = Command::new(home.join("tristack"))
+            .args(line.split(' '))
+            .env_clear()
+            .env("PATH", "")
+            .env("HOME", &home)
+            .current_dir(&home)
+            .output()
+            .expect("it runs");
+        let message = String::from_utf8_lossy(&away.stderr);
+        assert_eq!(away.status.code(), Some(0), "{line}: {message}");
+        let own = standard_output(&mut bench.tristack(line));
+        assert!(
+            own.contains(",recorded,") || line.starts_with("probe"),
+            "{own}"
+        );
+        assert_eq!(String::from_utf8_lossy(&away.stdout), own, "{line}");
+    }
+}
+
+#[test]
+fn rows_that_are_missing_are_not_called_recorded() {
+    let bench = Bench::without_codes();
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
+    let mut command = bench.tristack("crosscheck");
+    command.env("TRISTACK_REFERENCE", bench.path("reference"));
+    let message = standard_error(&mut command);
+    let expected = [
+        "36 of 108 rows agree, 72 missing; 18 rows are recorded, not live",
+        "yade is not installed: recorded runs stand in for it",
+        "lammps is not installed: no recorded run stands in for it",
+        "lammps is not installed, and there is no recorded run of this case in ",
+    ];
+    for part in expected {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+}
+
+#[test]
+fn a_damaged_recording_is_refused_with_its_file() {
+    let bench = Bench::without_codes();
+    let reference = bench.path("reference");
+    save_recording(
+        &reference,
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
+    let damage = |name: &str| {
+        let path = reference.join(name);
+        let mut content = fs::read(&path).expect("a file");
+        let middle = content.len() / 2;
+        content[middle] ^= 1;
+        fs::write(&path, content).expect("damage");
+    };
+    damage("yade.csv");
+    damage("yade.tar.gz");
+    let (message, verdicts) = yade_notes_and_verdicts(&bench);
+    assert_eq!(verdicts, vec!["missing"; 18], "{message}");
+    let table = format!(
+        "{}: line 1 is `# sha256",
+        reference.join("yade.csv").display()
+    );
+    let archive = format!("cannot read {}", reference.join("yade.tar.gz").display());
+    assert!(message.contains(&table), "{message}");
+    let probe = bench
+        .tristack("probe")
+        .env("TRISTACK_REFERENCE", &reference)
+        .output();
+    let message = String::from_utf8_lossy(&probe.expect("it runs").stderr).into_owned();
+    assert!(message.contains(&archive), "{message}");
 }
 
 #[test]
@@ -105,10 +197,15 @@ fn the_number_of_workers_does_not_change_a_digit() {
 #[test]
 fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     let bench = Bench::without_codes();
-    let reference = bench.path("reference/yade");
-    copy_recordings("yade", &reference, |provenance| {
-        provenance.replace("\"deck_hash\": \"", "\"deck_hash\": \"0")
-    });
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            for run in &mut recording.runs {
+                run.summary.provenance.deck_hash.insert(0, '0');
+            }
+        },
+    );
     let mut command = bench.tristack("crosscheck --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
@@ -134,17 +231,6 @@ fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     assert_eq!(verdicts("native", "agrees"), 18);
 }
 
-fn copy_recordings(code: &str, target: &std::path::Path, change: impl Fn(&str) -> String) {
-    let source = format!("{}/reference/{code}", env!("CARGO_MANIFEST_DIR"));
-    for entry in fs::read_dir(source).expect("recorded runs").flatten() {
-        let copy = target.join(entry.file_name());
-        copy_run(&entry.path(), &copy, |file, text| match file {
-            "provenance.json" => change(&text),
-            _ => text,
-        });
-    }
-}
-
 fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
     let mut command = bench.tristack("crosscheck --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
@@ -163,13 +249,15 @@ fn yade_notes_and_verdicts(bench: &Bench) -> (String, Vec<String>) {
 #[test]
 fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
     let bench = Bench::without_codes();
-    copy_recordings("yade", &bench.path("reference/yade"), |provenance| {
-        provenance.replace("\"version\": \"20", "\"version\": \"21")
-    });
-    let probes = bench.path("reference/probes");
-    fs::create_dir_all(&probes).expect("a directory");
-    let recorded = format!("{}/reference/probes", env!("CARGO_MANIFEST_DIR"));
-    fs::copy(format!("{recorded}/yade.json"), probes.join("yade.json")).expect("a copy");
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            for run in &mut recording.runs {
+                run.summary.provenance.identity.version += "1";
+            }
+        },
+    );
     let (message, verdicts) = yade_notes_and_verdicts(&bench);
     assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
     assert!(
@@ -181,15 +269,14 @@ fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
 #[test]
 fn the_recorded_probe_of_another_code_does_not_stand_in() {
     let bench = Bench::without_codes();
-    copy_recordings("yade", &bench.path("reference/yade"), str::to_owned);
-    let probes = bench.path("reference/probes");
-    fs::create_dir_all(&probes).expect("a directory");
-    let recorded = format!("{}/reference/probes", env!("CARGO_MANIFEST_DIR"));
-    fs::copy(
-        format!("{recorded}/yade-facet.json"),
-        probes.join("yade.json"),
-    )
-    .expect("a copy");
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |recording| {
+            recording.probe =
+                common::recording(Code::named("yade-facet").expect("it is built in")).probe;
+        },
+    );
     let (message, verdicts) = yade_notes_and_verdicts(&bench);
     assert_eq!(verdicts, vec!["inconclusive"; 18], "{message}");
     assert!(

@@ -3,14 +3,13 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json, json_rows, standard_error, standard_output};
+use common::{Bench, json, json_rows, recording, save_recording, standard_error, standard_output};
 use insta::assert_snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tristack::code::Code;
 use tristack::files::{seal, unseal};
 use tristack::model::ContactTest;
-use tristack::runs::ProbeRecord;
 use tristack::series::MotionRow;
 
 const PROPERTIES_OF_ONE_ENGINE: usize = 41;
@@ -175,11 +174,14 @@ fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
 #[test]
 fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
     let bench = Bench::without_codes();
-    let probes = bench.path("reference/probes");
-    fs::create_dir_all(&probes).expect("a directory");
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
-    let recorded = fs::read_to_string(recorded).expect("a probe");
-    fs::write(probes.join("lammps.json"), told_otherwise(recorded)).expect("a copy");
+    save_recording(
+        &bench.path("reference"),
+        Code::named("lammps").expect("it is built in"),
+        |recording| {
+            let probe = recording.probe.as_mut().expect("it is there");
+            probe.answers[0].input_hash.insert(0, '0');
+        },
+    );
     let mut command = bench.tristack("probe");
     let output = command
         .env("TRISTACK_REFERENCE", bench.path("reference"))
@@ -188,7 +190,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{message}");
     assert!(
-        message.contains("lammps.json was made with another deck"),
+        message.contains("lammps.tar.gz/probe.json was made with another deck"),
         "{message}"
     );
     assert!(
@@ -200,8 +202,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
 /// The three floors of YADE share their deck: nothing but an argument is between them.
 #[test]
 fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
-    let record = ProbeRecord::load(&recorded).expect("a record");
+    let record = recording(Code::named("yade").expect("it is built in")).probe;
     let test = record.expect("it is there").answers[0].test;
     let floors = [
         Code::named("yade").expect("it is built in"),
@@ -217,11 +218,10 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
     }
 }
 
-/// On another machine the spin to the brink of sliding may be another one in its last digit.
+/// On another machine the spin to the slip threshold may be another one in its last digit.
 #[test]
 fn a_record_from_another_machine_stays_valid() {
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/lammps.json");
-    let record = ProbeRecord::load(&recorded).expect("a record");
+    let record = recording(Code::named("lammps").expect("it is built in")).probe;
     let record = record.expect("it is there");
     let todays = |test: &ContactTest| {
         Code::named("lammps")

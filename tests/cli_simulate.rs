@@ -91,8 +91,7 @@ fn native_yields_at_the_exact_limit_where_torque_and_kinematic_arms_differ() {
     let bench = Bench::without_codes();
     let line = "sweep --code native --mu 0.2:0.3:0.1 --stiffness 1e2 --pair-arm -0.5 --pair-kinematic-arm 0";
     let judged = standard_output(&mut bench.tristack(&format!("{line} --format json")));
-    let rows = json(&judged);
-    let rows = rows.as_array().expect("a list of rows");
+    let rows = json_rows(&judged);
     assert_eq!(rows.len(), 2);
     for row in rows {
         assert_eq!(row["verdict"], "agrees", "{row}");

@@ -2,10 +2,13 @@
 
 mod common;
 
-use common::{Bench, assert_only, copy_run, json_rows, standard_output};
+use common::{Bench, assert_only, json_rows, save_recording, standard_output};
 use insta::assert_snapshot;
 use std::fs;
-use std::path::Path;
+use tristack::code::Code;
+use tristack::model::Case;
+use tristack::runs::Recording;
+use tristack::series::Series;
 
 const COMPARISONS: usize = 110;
 const TIME_STEPS: usize = 3;
@@ -111,21 +114,23 @@ fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
     }
 }
 
-/// The recorded answers to micro-tests, as they are.
-fn copy_probes(target: &Path) {
-    fs::create_dir_all(target).expect("a directory");
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes");
-    for entry in fs::read_dir(recorded).expect("recorded probes").flatten() {
-        fs::copy(entry.path(), target.join(entry.file_name())).expect("a copy");
+/// Saves the recorded runs of all codes on `bench`, each as `change` makes it.
+fn save_recordings(bench: &Bench, change: impl Fn(Code, &mut Recording)) {
+    for code in Code::all().into_iter().filter(|&code| code != Code::NATIVE) {
+        save_recording(&bench.path("reference"), code, |recording| {
+            change(code, recording);
+        });
     }
 }
 
 #[test]
 fn a_code_whose_convention_is_not_known_is_not_judged() {
     let bench = Bench::without_codes();
-    copy_recordings(&bench.path("reference/trajectories"), |_, series| series);
-    copy_probes(&bench.path("reference/probes"));
-    fs::remove_file(bench.path("reference/probes/lammps.json")).expect("it was there");
+    save_recordings(&bench, |code, recording| {
+        recording
+            .probe
+            .take_if(|_| code == Code::named("lammps").expect("it is built in"));
+    });
     let mut command = bench.tristack("trajectories --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
@@ -142,14 +147,18 @@ fn a_code_whose_convention_is_not_known_is_not_judged() {
 #[test]
 fn a_code_whose_force_is_slightly_off_differs() {
     let bench = Bench::without_codes();
-    copy_recordings(&bench.path("reference/trajectories"), |code, series| {
-        if code == "lammps" {
-            with_wall_force_times(1.0 + 2e-6, &series)
-        } else {
-            series
+    save_recordings(&bench, |code, recording| {
+        let runs = recording
+            .runs
+            .iter_mut()
+            .filter(|_| code == Code::named("lammps").expect("it is built in"));
+        for run in runs {
+            if let Some(series) = &run.series {
+                let force = with_wall_force_times(1.0 + 2e-6, series, &run.summary.case);
+                run.series = Some(force);
+            }
         }
     });
-    copy_probes(&bench.path("reference/probes"));
     let mut command = bench.tristack("trajectories --format json");
     command.env("TRISTACK_REFERENCE", bench.path("reference"));
     let output = command.output().expect("it runs");
@@ -172,29 +181,12 @@ fn a_code_whose_force_is_slightly_off_differs() {
     }
 }
 
-fn with_wall_force_times(factor: f64, series: &str) -> String {
-    let mut lines = series.lines();
-    let header = lines.next().expect("a header");
-    let rows = lines.map(|line| {
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-        let force: f64 = cells[2].parse().expect("a force");
-        cells[2] = (force * factor).to_string();
-        cells.join(",")
-    });
-    let rows: Vec<String> = rows.collect();
-    format!("{header}\n{}\n", rows.join("\n"))
-}
-
-fn copy_recordings(target: &Path, change: impl Fn(&str, String) -> String) {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/trajectories");
-    for code in fs::read_dir(source).expect("recorded codes").flatten() {
-        let name = code.file_name().to_string_lossy().into_owned();
-        for run in fs::read_dir(code.path()).expect("recorded runs").flatten() {
-            let copy = target.join(&name).join(run.file_name());
-            copy_run(&run.path(), &copy, |file, text| match file {
-                "series.csv" => change(&name, text),
-                _ => text,
-            });
-        }
+fn with_wall_force_times(factor: f64, series: &Series, case: &Case) -> Series {
+    let mut samples = series.samples().to_vec();
+    for sample in &mut samples {
+        sample.wall_force *= factor;
     }
+    let protocol = &case.protocol;
+    let changed = Series::new(samples, &protocol.schedule(), protocol.time_step);
+    changed.expect("the same rows")
 }

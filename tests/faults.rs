@@ -4,13 +4,14 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, json_rows, standard_error, wait_for};
+use common::{Bench, json_rows, save_recording, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
 use tristack::code::{Code, ParameterFormat, Task};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, Stack, sha256_hex};
+use tristack::runs::Recorded;
 use tristack::study::yield_force::{MIDDLE_RUN, SHORT_RAMP_RUN, plan};
 
 const CROSSCHECK: &str = "crosscheck --codes yade --format json";
@@ -401,18 +402,22 @@ fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
 fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let entry = fs::read_dir(format!("{}/reference/yade", env!("CARGO_MANIFEST_DIR")));
-    let entry = entry.expect("recorded runs").flatten().next();
-    let case = entry.expect("a run").path().join("case.json");
-    let line = format!("simulate --code yade --out run --case {}", case.display());
-    bench.tristack(&line).assert().code(0);
+    let case = plan(
+        Code::named("yade").expect("it is built in"),
+        &Stack::paper(0.3, 100.0),
+        Code::named("yade").expect("it is built in").convention(),
+    )
+    .cases[0];
+    fs::write(bench.path("case.json"), case.to_json()).expect("a case");
+    let line = "simulate --code yade --out run --case case.json";
+    bench.tristack(line).assert().code(0);
     let decks = ["run/stack.py", "run/contacts.py", "run/parameters.json"];
     let read = || decks.map(|deck| fs::read(bench.path(deck)).expect("a deck"));
     let right = read();
     for deck in decks {
         fs::write(bench.path(deck), "friction = 0").expect("it can be written");
     }
-    bench.tristack(&line).assert().code(0);
+    bench.tristack(line).assert().code(0);
     assert!(read() == right);
 }
 
@@ -434,6 +439,8 @@ fn record_keeps_every_run_for_machines_without_the_code() {
     let bench = Bench::with_system_programs();
     let recorded = replay::install(&bench, |_| Disturbance::None);
     let reference = bench.path("reference");
+    fs::create_dir(&reference).expect("a directory");
+    fs::write(reference.join("notes.txt"), "mine").expect("a file of somebody else");
     for set in ["probe", "crosscheck", "trajectories"] {
         let mut record = bench.tristack(&format!("record --codes yade --only {set}"));
         record
@@ -441,8 +448,11 @@ fn record_keeps_every_run_for_machines_without_the_code() {
             .assert()
             .code(0);
     }
-    let entries = fs::read_dir(reference.join("yade")).expect("recordings");
-    assert_eq!(entries.count(), recorded);
+    common::assert_only(&reference, &["notes.txt", "yade.csv", "yade.tar.gz"]);
+    let runs = Recorded::new(&reference).recording(Code::named("yade").expect("it is built in"));
+    let runs = runs.expect("it is not damaged").runs;
+    let with_series = runs.iter().filter(|run| run.series.is_some()).count();
+    assert_eq!((runs.len(), with_series), (recorded + 3, 3));
 
     let machine = Bench::without_codes();
     let mut crosscheck = machine.tristack("crosscheck --format json");
@@ -466,13 +476,20 @@ fn record_keeps_the_old_recordings_if_a_run_fails() {
         }
     });
     let reference = bench.path("reference");
-    fs::create_dir_all(reference.join("yade/old")).expect("an old recording");
+    save_recording(
+        &reference,
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
+    let files = || ["yade.csv", "yade.tar.gz"].map(|name| fs::read(reference.join(name)).ok());
+    let old = files();
     let mut record = bench.tristack("record --codes yade");
     record
         .env("TRISTACK_REFERENCE", &reference)
         .assert()
         .code(3);
-    common::assert_only(&reference.join("yade"), &["old"]);
+    assert!(files() == old);
+    common::assert_only(&reference, &["yade.csv", "yade.tar.gz"]);
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn a_folder_with_a_name_that_is_taken_is_refused() {
     let refusal = |code: &str| {
         let line = format!("sweep --code {code} --mu 0.3 --stiffness 100");
         let message = standard_error(&mut bench.tristack(&line));
-        bench.tristack(&line).assert().code(2);
+        bench.tristack(&line).assert().code(1);
         message
     };
     let folder = folder.display();
@@ -163,7 +163,7 @@ const WRONG: [(&str, &str, &[&str]); 12] = [
     (
         "stack = {",
         "stak = {",
-        &["unknown field `stak`", "`side-walls`"],
+        &["unknown variant `stak`", "`side-walls`"],
     ),
     (
         "motion = { files = [\"probe.in\"",

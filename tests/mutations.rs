@@ -105,7 +105,7 @@ impl LaneWise<f64> for Memory {
 impl ContactModel<f64> for Twin {
     type Memory = Memory;
 
-    fn forgotten(&self, _: f64) -> Memory {
+    fn initial(&self, _: f64) -> Memory {
         Memory::default()
     }
 

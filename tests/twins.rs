@@ -1,4 +1,5 @@
-//! A native twin with one part of its convention wrong differs from the code; from recorded runs.
+//! A native twin with one part of its convention wrong differs from the code; from recorded runs. And what these
+//! runs hold.
 
 use std::path::Path;
 use tristack::code::Run;
@@ -7,7 +8,7 @@ use tristack::model::{
     Case, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
 };
 use tristack::runs::Store;
-use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
+use tristack::runs::{Progress, Recorded, Recording, RunSummary, SelectedCode, Settings};
 use tristack::study::trajectory::{
     Branch, TIME_STEPS, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
 };
@@ -27,10 +28,9 @@ impl Progress for Silence {
 /// The recorded runs of `code` beside twins with the convention `declared`.
 fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
-    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
     let settings = Settings {
         store: Store::open(store.path()).expect("a store"),
-        recorded: Recorded::new(&reference),
+        recorded: Recorded::embedded(),
         fresh: false,
         threads: 2,
         time_limit: None,
@@ -128,5 +128,32 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
                 "{what}: {comparison:?}"
             );
         }
+    }
+}
+
+#[test]
+fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
+    let external = Code::all().into_iter().filter(|&code| code != Code::NATIVE);
+    for code in external {
+        let recorded = Recorded::embedded().recording(code);
+        let recorded = recorded.expect("it is not damaged");
+        let with_series = recorded.runs.iter().filter_map(|run| {
+            let (summary, series) = (&run.summary, run.series.clone()?);
+            let run = Run {
+                case: summary.case,
+                provenance: summary.provenance.clone(),
+                series,
+            };
+            Some((RunSummary::new(run), summary))
+        });
+        let mut count = 0;
+        for (read, summary) in with_series {
+            assert_eq!(read, *summary);
+            count += 1;
+        }
+        assert_eq!(count, TIME_STEPS.len(), "{code}");
+        let (table, archive) = recorded.to_files(code);
+        let again = Recording::from_files(&table, &archive, Path::new("again"), code);
+        assert!(again.expect("its own files") == recorded, "{code}");
     }
 }

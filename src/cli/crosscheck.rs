@@ -1,7 +1,9 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
+use super::options::{
+    CodeParser, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -10,7 +12,7 @@ use crate::files::FileError;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement, Profile};
-use crate::study::{Campaign, Source, Verdict};
+use crate::study::{Campaign, Verdict};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -109,13 +111,10 @@ pub(super) fn conclude(
             );
         }
     }
-    for selected in codes.iter().filter(|who| who.code.is_none()) {
-        tell!(
-            "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            selected.name,
-            selected.name.installation_hint()
-        );
-    }
+    tell_stand_ins(codes, |code| {
+        let mut own = judgements.iter().filter(|one| one.code == code);
+        own.any(Judgement::is_recorded)
+    });
     tell!("{}", summary(judgements));
     if INTERRUPT.requested() {
         tell!(
@@ -150,7 +149,7 @@ fn summary(judgements: &[Judgement]) -> String {
     }
     let recorded = judgements
         .iter()
-        .filter(|judgement| judgement.source == Source::Recorded);
+        .filter(|judgement| judgement.is_recorded());
     match recorded.count() {
         0 => text,
         count => format!("{text}; {count} rows are recorded, not live"),

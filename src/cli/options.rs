@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, ManifestError};
 use crate::files::{FileError, write_atomically};
@@ -20,6 +21,9 @@ use std::time::Duration;
 
 /// Stacks that one command takes. Lists of frictions and stiffnesses of a thousand values each still go.
 const MOST_STACKS: usize = 1_000_000;
+
+/// The environment variable with the directory of recorded runs.
+const REFERENCE: &str = "TRISTACK_REFERENCE";
 
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -164,7 +168,7 @@ impl RunOptions {
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         Ok(Settings {
             store: Store::open(&self.store_directory()?)?,
-            recorded: Recorded::new(&reference_directory()),
+            recorded: recorded(),
             fresh: self.fresh,
             threads: self
                 .jobs
@@ -204,11 +208,25 @@ pub fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue
         .ok_or_else(|| InvalidValue::new("--time-limit", seconds, "a number of seconds above 0"))
 }
 
-/// The recorded runs of the checkout that this program was built from, or those of
-/// `TRISTACK_REFERENCE`.
-pub fn reference_directory() -> PathBuf {
-    directory_from("TRISTACK_REFERENCE")
-        .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference"))
+/// The recorded runs in the directory that `TRISTACK_REFERENCE` names, or else those inside the program.
+fn recorded() -> Recorded {
+    let directory = directory_from(REFERENCE);
+    directory.map_or_else(Recorded::embedded, |directory| Recorded::new(&directory))
+}
+
+/// Where `record` writes: the directory that `TRISTACK_REFERENCE` names, or else that of the checkout the
+/// program was built from.
+pub fn recording_directory() -> Result<PathBuf, InvalidValue> {
+    let of_checkout = || {
+        let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
+        reference.is_dir().then(|| reference.join("recorded"))
+    };
+    let directory = directory_from(REFERENCE).or_else(of_checkout);
+    directory.ok_or_else(|| InvalidValue {
+        key: REFERENCE.to_owned(),
+        value: "absent".to_owned(),
+        accepted: "a directory: the checkout that tristack was built from is not here".to_owned(),
+    })
 }
 
 /// The directory that an environment variable names; an empty one names none.
@@ -278,6 +296,21 @@ pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
 /// The codes named, as they are installed here. All programs are asked for their versions at the same time.
 fn find_all(names: &[Code]) -> Vec<SelectedCode> {
     in_parallel(names, names.len(), |name| SelectedCode::find(*name))
+}
+
+/// Says on standard error which codes are not installed, and whether recorded runs stand in for them.
+pub fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool) {
+    for selected in codes.iter().filter(|selected| selected.code.is_none()) {
+        let instead = match is_recorded(selected.name) {
+            true => "recorded runs stand in for it",
+            false => "no recorded run stands in for it",
+        };
+        tell!(
+            "{} is not installed: {instead} (to run it live: {})",
+            selected.name,
+            selected.name.installation_hint()
+        );
+    }
 }
 
 /// Creates `directory` and makes sure that files can be written there.

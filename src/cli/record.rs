@@ -1,20 +1,23 @@
 //! `tristack record`.
 
-use super::options::{CodeParser, RunOptions, reference_directory, selected_codes};
+use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
 use super::progress::Reporter;
 use super::tell;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::Code;
-use crate::code::Run;
+use crate::code::{Code, Run};
 use crate::model::shown;
 use crate::paper::reproduction::summaries_to_record;
-use crate::runs::{Recorded, RunError, SelectedCode, Settings, Workload, run_all};
+use crate::runs::{
+    Progress, Recorded, RecordedRun, Recording, RunError, RunSummary, SelectedCode, Settings,
+    Workload, read_all, run_all,
+};
 use crate::study::Study;
-use crate::study::convention::record_probe;
+use crate::study::convention::{ProbeError, record_probe};
 use crate::study::yield_force::Profile;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::Path;
+use thiserror::Error;
 
 /// A part of what is recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -29,24 +32,38 @@ enum Set {
     Report,
 }
 
-/// Refresh the recorded runs under reference/
+/// Refresh the recorded runs that stand in for codes that are not installed
 ///
-/// Runs the quick profile, the trajectories and the report with the external codes and keeps every run, or
-/// what is read off it, with its provenance, so that it can stand in where an code is not installed.
+/// Runs crosscheck, trajectories, probe and report with the external codes. Writes, for each, CODE.csv with
+/// what was read off every run and its provenance, and CODE.tar.gz with the series of the trajectories and the
+/// answers to the probe, into the directory that TRISTACK_REFERENCE names, or into reference/recorded of the
+/// checkout; what stands there is in the program once it has been built again.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub struct Arguments {
     /// Which codes, separated by commas; each must be installed [default: all external ones]
     #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
-    /// Only what one command needs [default: all]
+    /// Only what one command needs, leaving the other recordings as they are [default: all, in place of
+    /// everything recorded before]
     #[arg(long, value_enum, value_name = "COMMAND")]
     only: Option<Set>,
     #[command(flatten)]
     run: RunOptions,
 }
 
-/// Runs and records, code by code; an code with a failed run keeps its old recordings.
+/// Why a code is not recorded.
+#[derive(Debug, Error)]
+enum RecordingError {
+    /// A run failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The probe failed.
+    #[error(transparent)]
+    Probe(#[from] ProbeError),
+}
+
+/// Runs and records, code by code; a code with a failed run keeps its old recordings.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let external: Vec<Code> = match arguments.codes.as_slice() {
         [] => Code::all()
@@ -56,125 +73,99 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         named => named.to_vec(),
     };
     let codes = selected_codes(&external)?;
+    let directory = recording_directory()?;
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
     for selected in codes {
-        worst = worst.max(record(selected, arguments.only, &settings)?);
-    }
-    Ok(if INTERRUPT.requested() {
-        ExitStatus::Interrupted
-    } else {
-        worst
-    })
-}
-
-/// Records one code, set by set.
-fn record(
-    selected: SelectedCode,
-    only: Option<Set>,
-    settings: &Settings,
-) -> Result<ExitStatus, CliError> {
-    let name = selected.name;
-    let selected = [selected];
-    let wanted = |set: Set| only.is_none_or(|only| only == set);
-    let mut worst = ExitStatus::Success;
-    if wanted(Set::Probe) {
-        worst = worst.max(record_probe_of(&selected[0], settings)?);
-    }
-    if wanted(Set::Crosscheck) {
-        let plans = Profile::Quick.measurements(&[name]);
-        let plans: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
-        let place = (&settings.recorded, reference_directory());
-        worst = worst.max(record_runs(&plans, &selected, settings, place)?);
-    }
-    if wanted(Set::Trajectories) {
-        let planned = plans(std::iter::once(name));
-        let plans: Vec<Workload> = planned
-            .iter()
-            .filter_map(|plan| plan.workloads().into_iter().next())
-            .collect();
-        let place = (
-            &Recorded::new(&reference_directory().join("trajectories")),
-            reference_directory().join("trajectories"),
-        );
-        worst = worst.max(record_runs(&plans, &selected, settings, place)?);
-    }
-    if wanted(Set::Report) {
-        worst = worst.max(record_summaries(&selected[0], settings)?);
+        worst = worst.max(record(&selected, arguments.only, &settings, &directory)?);
+        if INTERRUPT.requested() {
+            return Ok(ExitStatus::Interrupted);
+        }
     }
     Ok(worst)
 }
 
-/// Records what is read off the runs of the report, in place of what is there.
-fn record_summaries(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
-    let name = selected.name;
-    let reporter = Reporter::new();
-    let summaries = summaries_to_record(selected, settings, &reporter);
-    drop(reporter);
-    match summaries {
-        Ok(summaries) => {
-            settings.recorded.replace_summaries(name, &summaries)?;
-            let (count, directory) = (summaries.len(), reference_directory());
-            let directory = directory.join("summaries");
-            tell!(
-                "{count} summaries of {name} recorded under {}",
-                shown(&directory)
-            );
-            Ok(ExitStatus::Success)
-        }
-        Err(error) => {
-            tell!("the summaries of {name} are not recorded: {error}");
-            Ok(ExitStatus::EngineFailed)
-        }
-    }
-}
-
-/// Records the runs of one code, in place of those that are there.
-fn record_runs(
-    workloads: &[Workload],
-    selected: &[SelectedCode; 1],
+/// Records one code.
+fn record(
+    selected: &SelectedCode,
+    only: Option<Set>,
     settings: &Settings,
-    (recorded, directory): (&Recorded, PathBuf),
+    directory: &Path,
 ) -> Result<ExitStatus, CliError> {
-    let name = selected[0].name;
+    let name = selected.name;
+    let mut recording = match only {
+        Some(_) => Recorded::new(directory).recording(name)?,
+        None => Recording::default(),
+    };
     let reporter = Reporter::new();
-    let results = run_all(workloads, selected, settings, &reporter, |run| run);
+    let made = make(&mut recording, selected, only, settings, &reporter);
     drop(reporter);
-    let runs: Result<Vec<Run>, RunError> = results.into_iter().flatten().collect();
-    match runs {
-        Ok(runs) => {
-            recorded.replace(name, &runs)?;
-            let directory = directory.join(name.as_str());
-            let count = runs.len();
-            tell!(
-                "{count} runs of {name} recorded under {}",
-                shown(&directory)
-            );
-            Ok(ExitStatus::Success)
-        }
-        Err(error) => {
-            tell!("the runs of {name} are not recorded: {error}");
-            Ok(ExitStatus::EngineFailed)
-        }
+    if let Err(error) = made {
+        tell!("{name} is not recorded: {error}");
+        return Ok(ExitStatus::EngineFailed);
     }
+    recording.save(directory, name)?;
+    let (count, directory) = (recording.runs.len(), shown(directory));
+    tell!(
+        "{count} runs of {name} are recorded in {directory}; a program built from it carries them"
+    );
+    Ok(ExitStatus::Success)
 }
 
-/// Records the probe of one code, in place of the one that is there.
-fn record_probe_of(selected: &SelectedCode, settings: &Settings) -> Result<ExitStatus, CliError> {
-    let name = selected.name;
-    let reporter = Reporter::new();
-    let probe = record_probe(selected, settings, &reporter);
-    drop(reporter);
-    match probe {
-        Ok(probe) => {
-            settings.recorded.replace_probe(name, &probe)?;
-            let directory = reference_directory();
-            tell!("probe of {name} recorded under {}", shown(&directory));
-            Ok(ExitStatus::Success)
-        }
-        Err(error) => {
-            tell!("the probe of {name} is not recorded: {error}");
-            Ok(ExitStatus::EngineFailed)
+/// Makes what is wanted of one code, and puts it into `recording`.
+fn make(
+    recording: &mut Recording,
+    selected: &SelectedCode,
+    only: Option<Set>,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<(), RecordingError> {
+    let wanted = |set: Set| only.is_none_or(|only| only == set);
+    if wanted(Set::Probe) {
+        recording.probe = Some(record_probe(selected, settings, progress)?);
+    }
+    if wanted(Set::Crosscheck) {
+        for summary in quick_profile(selected, settings, progress)? {
+            recording.put(RecordedRun::without_series(summary));
         }
     }
+    if wanted(Set::Report) {
+        for summary in summaries_to_record(selected, settings, progress)? {
+            recording.put(RecordedRun::without_series(summary));
+        }
+    }
+    if wanted(Set::Trajectories) {
+        for run in trajectory_runs(selected, settings, progress)? {
+            recording.put(RecordedRun::with_series(run));
+        }
+    }
+    Ok(())
+}
+
+fn quick_profile(
+    selected: &SelectedCode,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<RunSummary>, RunError> {
+    let plans = Profile::Quick.measurements(&[selected.name]);
+    let workloads: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
+    let codes = std::slice::from_ref(selected);
+    let results = read_all(&workloads, codes, settings, progress);
+    results.into_iter().flatten().collect()
+}
+
+fn trajectory_runs(
+    selected: &SelectedCode,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Vec<Run>, RunError> {
+    let plans = plans(std::iter::once(selected.name));
+    // The code's own runs; native ones are never recorded.
+    let own = plans
+        .iter()
+        .filter_map(|plan| plan.workloads().into_iter().next());
+    let workloads: Vec<Workload> = own.collect();
+    let codes = std::slice::from_ref(selected);
+    let results = run_all(&workloads, codes, settings, progress, |run| run);
+    results.into_iter().flatten().collect()
 }

@@ -1,6 +1,8 @@
 //! `tristack trajectories`.
 
-use super::options::{CodeParser, Format, RunOptions, selected_codes, writable, write_all};
+use super::options::{
+    CodeParser, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
 use super::progress::Reporter;
 use super::tell;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -119,13 +121,10 @@ fn conclude(
             }
         }
     }
-    for selected in codes.iter().filter(|who| who.code.is_none()) {
-        tell!(
-            "{} is not installed: recorded runs stand in for it (to run it live: {})",
-            selected.name,
-            selected.name.installation_hint()
-        );
-    }
+    tell_stand_ins(codes, |code| {
+        let mut own = judgements.iter().filter(|one| one.code == code);
+        own.any(|one| one.is_recorded())
+    });
     let verdicts: Vec<Verdict> = judgements
         .iter()
         .flat_map(TrajectoryJudgement::verdicts)

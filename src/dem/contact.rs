@@ -26,7 +26,7 @@ pub struct Contact<R> {
     pub time_step: R,
 }
 
-/// What a contact exerts on its first body.
+/// Force of a contact on its first body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForce<R> {
     /// Normal force, positive in compression.
@@ -73,11 +73,11 @@ impl<R: Real> ContactForce<R> {
 
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real>: Copy {
-    /// What a contact remembers from one step to the next.
+    /// State of a contact that lasts from one step to the next.
     type Memory: Copy + LaneWise<R>;
 
-    /// The memory of a contact without a past, in numbers like `number`.
-    fn forgotten(&self, number: R) -> Self::Memory;
+    /// Memory of an undeformed contact, in numbers like `number`.
+    fn initial(&self, number: R) -> Self::Memory;
 
     /// The force of `contact`, whose memory is advanced to the present.
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
@@ -92,7 +92,7 @@ pub struct SpringDashpot<R> {
     pub normal_damping: R,
     /// η_t.
     pub tangential_damping: R,
-    /// What Coulomb's limit is compared with.
+    /// The force that Coulomb's limit is compared with.
     pub coulomb_operand: CoulombOperand,
     /// The spring of a sliding contact.
     pub sliding_spring: SlidingSpring,
@@ -108,7 +108,7 @@ composite!(SpringDashpot {
     tangential_damping
 });
 
-/// What a [`SpringDashpot`] contact remembers.
+/// Memory of a [`SpringDashpot`] contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring<R> {
     /// u, tangential displacement accumulated while the contact sticks.
@@ -206,7 +206,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     type Memory = Spring<R>;
 
     #[inline(always)]
-    fn forgotten(&self, number: R) -> Spring<R> {
+    fn initial(&self, number: R) -> Spring<R> {
         let zero = number.like(0.0);
         Spring {
             length: zero,
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn sticking_contact_stores_the_displacement() {
-        let mut memory = paper().forgotten(0.0);
+        let mut memory = paper().initial(0.0);
         let force = paper().evaluate(&CONTACT, &mut memory);
         assert_eq!(memory.length, 0.05);
         assert!((force.tangential + 0.4 * 0.05 + 0.1 * 0.5).abs() < 1e-17);
@@ -386,7 +386,7 @@ mod tests {
             friction: 10.0,
             ..CONTACT
         };
-        let mut memory = paper().forgotten(0.0);
+        let mut memory = paper().initial(0.0);
         let force = paper().evaluate(&contact, &mut memory);
         assert_eq!(force.arm, 0.5);
         // v_t = 0.5 - 0.75 * 0.25 for a time of 0.1.

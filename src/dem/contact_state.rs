@@ -3,23 +3,23 @@
 use super::contact::{Contact, ContactForce, ContactModel};
 use super::real::{Composite, LaneWise, Real};
 
-/// What a contact remembers and exerts.
+/// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactState<R, Memory> {
     memory: Memory,
     pub(super) force: ContactForce<R>,
-    /// Whether any lane has touched since it was last forgotten.
+    /// Whether any lane has touched since the last reset.
     loaded: bool,
 }
 
 impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
     #[inline(always)]
-    pub(super) fn forgotten<Model: ContactModel<R, Memory = Memory>>(
+    pub(super) fn initial<Model: ContactModel<R, Memory = Memory>>(
         model: &Model,
         number: R,
     ) -> Self {
         Self {
-            memory: model.forgotten(number),
+            memory: model.initial(number),
             force: ContactForce::none(number),
             loaded: false,
         }
@@ -35,7 +35,7 @@ impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
     ) -> ContactForce<R> {
         let mut memory = self.memory;
         let force = model.evaluate(contact, &mut memory);
-        let nothing = Self::forgotten(model, contact.overlap);
+        let nothing = Self::initial(model, contact.overlap);
         self.memory = touches.choose(memory, nothing.memory);
         if KEEP {
             self.force = touches.choose(force, nothing.force);
@@ -45,13 +45,13 @@ impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
     }
 
     #[inline(always)]
-    pub(super) fn part<const KEEP: bool, Model: ContactModel<R, Memory = Memory>>(
+    pub(super) fn separate<const KEEP: bool, Model: ContactModel<R, Memory = Memory>>(
         &mut self,
         model: &Model,
         number: R,
     ) {
         if KEEP || self.loaded {
-            *self = Self::forgotten(model, number);
+            *self = Self::initial(model, number);
         }
     }
 }
@@ -77,7 +77,7 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.memory.visit(&other.memory, visit);
         self.force.visit(&other.force, visit);
-        // Perhaps; what does not touch is forgotten in the next step.
+        // Perhaps; what does not touch is reset in the next step.
         self.loaded = true;
     }
 }
@@ -106,7 +106,7 @@ mod tests {
     }
 
     fn after_one_step(touches: Touch<f64>) -> State {
-        let mut state = State::forgotten(&law(), 0.0);
+        let mut state = State::initial(&law(), 0.0);
         let force = state.evaluate::<true, _>(&law(), &CONTACT, touches);
         assert_eq!(force.normal, 0.5);
         state
@@ -123,27 +123,27 @@ mod tests {
     }
 
     #[test]
-    fn what_parts_is_forgotten_whether_its_force_is_kept_or_not() {
+    fn a_contact_that_separates_is_reset_whether_its_force_is_kept_or_not() {
         let mut state = after_one_step(Touch::Everywhere);
-        state.part::<false, _>(&law(), 0.0);
+        state.separate::<false, _>(&law(), 0.0);
         assert_eq!((state.memory.length, state.loaded), (0.0, false));
         let mut state = after_one_step(Touch::Everywhere);
-        state.part::<true, _>(&law(), 0.0);
+        state.separate::<true, _>(&law(), 0.0);
         assert_eq!((state.memory.length, state.force.normal), (0.0, 0.0));
         // A force that is kept is that of this step, even where nothing was remembered.
         let mut state = after_one_step(Touch::Everywhere);
         state.loaded = false;
-        state.part::<true, _>(&law(), 0.0);
+        state.separate::<true, _>(&law(), 0.0);
         assert_eq!(state.force.normal, 0.0);
     }
 
     #[test]
     fn a_state_is_taken_over_with_memory_and_force() {
         let other = after_one_step(Touch::Everywhere);
-        let mut state = State::forgotten(&law(), 0.0);
+        let mut state = State::initial(&law(), 0.0);
         state.visit(&other, &mut |own, other| *own = *other);
         assert_eq!((state.memory.length, state.force.normal), (0.05, 0.5));
-        state.part::<false, _>(&law(), 0.0);
+        state.separate::<false, _>(&law(), 0.0);
         assert_eq!(state.memory.length, 0.0);
     }
 }

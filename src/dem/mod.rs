@@ -30,5 +30,6 @@ pub use packing::{Material, PYRAMID_FLOOR, Packing, run_pyramid};
 pub use real::{Composite, LaneWise, Real, Work};
 pub use scene::{Cylinder, Load, Scene};
 pub(crate) use source_digest::SOURCE_DIGEST;
-pub use stack_run::{compress_stack, compress_stack_precisely, compress_stack_with};
+pub(crate) use stack_run::compress_stack_precisely;
+pub use stack_run::{compress_stack, compress_stack_with};
 pub use wall::{Facing, PlaneWall};

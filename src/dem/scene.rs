@@ -115,7 +115,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         time_step: R,
     ) -> Self {
         let zero = time_step.like(0.0);
-        let contact = ContactState::forgotten(&model, zero);
+        let contact = ContactState::initial(&model, zero);
         Self {
             pair_contacts: [[contact; CYLINDERS]; CYLINDERS],
             wall_contacts: [[contact; CYLINDERS]; WALLS],
@@ -216,7 +216,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         let square = apart[0] * apart[0] + apart[1] * apart[1];
         let touches = square.less(square.like(4.0));
         if !square.any(touches) {
-            self.pair_contacts[first][second].part::<KEEP, _>(&self.model, square);
+            self.pair_contacts[first][second].separate::<KEEP, _>(&self.model, square);
         } else if square.all(touches) {
             self.press_pair::<KEEP>(first, second, (apart, square), Touch::Everywhere, loads);
         } else {
@@ -268,7 +268,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         let overlap = distance.like(1.0) - distance;
         let touches = overlap.like(0.0).less(overlap);
         if !overlap.any(touches) {
-            self.wall_contacts[wall][cylinder].part::<KEEP, _>(&self.model, overlap);
+            self.wall_contacts[wall][cylinder].separate::<KEEP, _>(&self.model, overlap);
         } else if overlap.all(touches) {
             self.press_on_wall::<KEEP>(wall, cylinder, overlap, Touch::Everywhere, loads);
         } else {

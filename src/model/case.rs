@@ -1,4 +1,4 @@
-//! A case: everything that a code has to be told to produce one time series.
+//! A case: every input of one time series.
 
 use super::{ContactConvention, InvalidValue, Preparation, Protocol, Stack, sha256_hex, shown};
 use serde::{Deserialize, Serialize};
@@ -9,11 +9,11 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What is compressed.
+    /// The stack.
     pub stack: Stack,
-    /// What a contact is.
+    /// Its contact law.
     pub convention: ContactConvention,
-    /// How it is compressed.
+    /// Preparation, compression and sampling.
     pub protocol: Protocol,
 }
 
@@ -25,7 +25,7 @@ pub enum CaseError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// The file is neither named `.toml` nor `.json`.

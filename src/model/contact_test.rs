@@ -24,7 +24,7 @@ pub struct InitialMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactTest {
-    /// What a contact is.
+    /// Contact law.
     pub convention: ContactConvention,
     /// Stiffness ratio κ = k_n/k_t.
     pub stiffness_ratio: f64,

@@ -1,4 +1,4 @@
-//! What a code means by "contact": where the torque acts, what friction limits, and what dissipates.
+//! Contact convention of a code: arms, Coulomb limit, damping, and the treatment of the tangential spring.
 
 use super::Arms;
 use super::validity::{InvalidValue, within};
@@ -10,7 +10,7 @@ pub const PAPER_RESTITUTION: f64 = 0.7;
 /// Moment of inertia of a solid cylinder, m r²/2.
 pub const CYLINDER_INERTIA: f64 = 0.5;
 
-/// What Coulomb's limit μ |f_n| is compared with.
+/// The force that Coulomb's limit μ |f_n| is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CoulombOperand {
@@ -21,7 +21,7 @@ pub enum CoulombOperand {
     Spring,
 }
 
-/// What becomes of the tangential spring while the contact slides.
+/// Length of the tangential spring while the contact slides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlidingSpring {
@@ -31,7 +31,7 @@ pub enum SlidingSpring {
     FollowsLimit,
 }
 
-/// What becomes of the tangential spring when the contact turns by dψ in a step.
+/// Change of the tangential spring when the contact turns by dψ in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HistoryUpdate {
@@ -44,7 +44,7 @@ pub enum HistoryUpdate {
     Linearised,
 }
 
-/// What the normal damping may do while two surfaces separate fast.
+/// Normal force while two surfaces separate so fast that damping exceeds the spring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TensileForce {
@@ -56,10 +56,9 @@ pub enum TensileForce {
 
 /// Contact convention of a code.
 ///
-/// The torque arm of a contact is R = r + r₁ δ with the overlap δ; the same arm enters the torque and
-/// the surface velocity. The paper sets r₁ = 0; other codes do not, and above μ_c that alone moves the
-/// yield force by up to 20 %. Nothing else in a convention moves its quasi-static limit, but it moves
-/// trajectories. What a case file leaves out is the paper's.
+/// Only the arms move the quasi-static limit of the yield force, above μ_c by 20 % and more between existing
+/// codes; the rest of a convention shows in trajectories. A key that a case file leaves out has the paper's
+/// value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactConvention {
@@ -68,13 +67,13 @@ pub struct ContactConvention {
     pub arms: Arms,
     /// Restitution coefficient e_r, in (0, 1], of normal and tangential damping.
     pub restitution: f64,
-    /// What Coulomb's limit is compared with.
+    /// The force that Coulomb's limit is compared with.
     pub coulomb_operand: CoulombOperand,
-    /// The spring of a sliding contact.
+    /// Spring of a sliding contact.
     pub sliding_spring: SlidingSpring,
-    /// The spring of a turning contact.
+    /// Spring of a turning contact.
     pub history_update: HistoryUpdate,
-    /// The normal force of a contact that separates.
+    /// Normal force of a contact that separates.
     pub tensile_force: TensileForce,
     /// Moment of inertia of a cylinder in m r².
     pub moment_of_inertia: f64,

@@ -1,4 +1,4 @@
-//! What is studied: three cylinders, the convention of their contacts and the protocol that loads them.
+//! The problem: three cylinders, the convention of their contacts and the protocol that loads them.
 //!
 //! Units throughout: cylinder radius r = 1, cylinder mass m = 1, normal stiffness k_n = 1. Lengths are
 //! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). The yield force alone is

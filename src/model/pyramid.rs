@@ -27,7 +27,7 @@ pub struct Pyramid {
     pub spacing: f64,
     /// Friction, stiffness and stiffness ratio.
     pub groups: Stack,
-    /// What a contact is.
+    /// Contact law.
     pub convention: ContactConvention,
     /// Time step in √(m/k_n).
     pub time_step: f64,

@@ -46,7 +46,7 @@ pub struct SideWalls {
 /// The same counted in time steps, as every code runs it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideWallSteps {
-    /// What is counted.
+    /// The preparation whose steps these are.
     pub walls: SideWalls,
     /// Speed at which the walls move inwards, so that they come to A in whole steps: the withdrawal speed
     /// but for that rounding; 0 where A = 0.

@@ -10,7 +10,7 @@ pub struct InvalidValue {
     pub key: String,
     /// The value as given.
     pub value: String,
-    /// What would be accepted.
+    /// The accepted values.
     pub accepted: String,
 }
 

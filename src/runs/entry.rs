@@ -1,4 +1,4 @@
-//! RunSummary and writing of entries; every write is a rename of something complete.
+//! Reading and writing of entries; every write is a rename of something complete.
 
 use crate::code::{Provenance, Run};
 use crate::files::{

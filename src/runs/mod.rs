@@ -16,7 +16,7 @@ pub(crate) use observations::observe_all;
 pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
 pub use read_all::{Reading, read_all};
-pub use recorded::{Recorded, RecordedError};
+pub use recorded::{Recorded, RecordedError, RecordedRun, Recording};
 pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 pub use store::{LockOwner, Store, StoreError};
 pub use summary::RunSummary;

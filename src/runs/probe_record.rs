@@ -1,7 +1,7 @@
 //! Micro-tests with their outcomes, kept so that a code need not be probed twice.
 
 use crate::code::Provenance;
-use crate::files::{FileError, write_atomically};
+use crate::files::FileError;
 use crate::model::ContactTest;
 use crate::series::Motion;
 use serde::{Deserialize, Serialize};
@@ -29,8 +29,8 @@ pub struct Answer {
     pub motion: Motion,
 }
 
-/// Spins to the brink of sliding are measured, and may differ between machines in the last of their eleven
-/// digits; a tenth of the distance from the brink does not matter.
+/// Spins to the slip threshold are measured, and may differ between machines in the last of their eleven
+/// digits; a tenth of the distance from the slip threshold does not matter.
 const SAME_SPIN: f64 = 1.1e-11;
 
 /// Whether two micro-tests are the same but for the rounding of their spins.
@@ -51,18 +51,6 @@ fn is_same(left: &ContactTest, right: &ContactTest) -> bool {
 }
 
 impl ProbeRecord {
-    /// Reads the record at `path`; `None` if there is none.
-    ///
-    /// # Errors
-    /// If it is there but damaged.
-    pub fn load(path: &Path) -> Result<Option<Self>, FileError> {
-        let text = match std::fs::read(path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            read => read.map_err(FileError::reading(path))?,
-        };
-        Self::parse(&text, path).map(Some)
-    }
-
     /// Reads the record in the `text` of the file at `path`.
     ///
     /// # Errors
@@ -86,14 +74,6 @@ impl ProbeRecord {
     /// JSON on one line.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("plain data has a JSON form") + "\n"
-    }
-
-    /// Writes the record to `path`.
-    ///
-    /// # Errors
-    /// If the file system refuses; an older record is then untouched.
-    pub fn save(&self, path: &Path) -> Result<(), FileError> {
-        write_atomically(path, self.to_json().as_bytes())
     }
 
     /// The outcomes of `tests`, in their order, if every one of them is there.

@@ -2,8 +2,7 @@
 
 use super::schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 use super::summary::RunSummary;
-use crate::code::{Code, Identity, Run};
-use std::collections::HashMap;
+use crate::code::{Identity, Run};
 
 /// What is kept of a run. Whole runs are not held longer than it takes to read them, so that memory does not
 /// grow with their number.
@@ -41,42 +40,17 @@ pub fn read_all<R: Reading>(
     progress: &dyn Progress,
 ) -> Vec<Vec<Result<R, RunError>>> {
     let mut results = run_all(workloads, codes, settings, progress, R::of_run);
-    let mut recorded = HashMap::new();
     for (workload, results) in workloads.iter().zip(&mut results) {
         let code = workload.code;
         for (case, result) in workload.cases.iter().zip(results) {
             if !result.as_ref().is_err_and(RunError::is_unrecorded) {
                 continue;
             }
-            let summaries = recorded
-                .entry(code)
-                .or_insert_with(|| by_case(code, settings, progress));
-            let Some(summary) = summaries.get(&case.content_hash()) else {
-                continue;
-            };
-            let current = settings
-                .recorded
-                .unless_outdated(code, case, summary.clone());
-            if let Some(reading) = current.map(R::of_summary).transpose() {
+            let summary = settings.recorded.summary(code, case);
+            if let Some(reading) = summary.map(R::of_summary).transpose() {
                 *result = reading.map_err(RunError::from);
             }
         }
     }
     results
-}
-
-/// The recorded summaries of one code, by the hash of their cases.
-fn by_case(
-    code: Code,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> HashMap<String, RunSummary> {
-    let summaries = settings.recorded.summaries(code).unwrap_or_else(|error| {
-        progress.warn(&format!("damaged recorded summaries, not used: {error}"));
-        Vec::new()
-    });
-    let keyed = summaries
-        .into_iter()
-        .map(|summary| (summary.case.content_hash(), summary));
-    keyed.collect()
 }

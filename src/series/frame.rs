@@ -14,7 +14,7 @@ pub struct PlacedCylinder {
     pub velocity: Option<[f64; 2]>,
 }
 
-/// What presses on a cylinder.
+/// Body or wall that presses on a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Partner {
     /// The cylinder of that index.
@@ -30,7 +30,7 @@ pub enum Partner {
 pub struct ContactPoint {
     /// Index of the cylinder on which the force acts; on a partner that is a cylinder, its opposite does.
     pub cylinder: usize,
-    /// What it touches.
+    /// The body or wall that it touches.
     pub partner: Partner,
     /// Where: half-way into the overlap of two cylinders, on the surface of a wall.
     pub position: [f64; 2],
@@ -88,7 +88,7 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// What a series says: the forces of the walls, and none between the cylinders. The wall starts where it
+    /// Frames of a series: the forces of the walls, and none between the cylinders. The wall starts where it
     /// touches cylinder 1 at the first row, and moves down at `wall_speed`.
     pub fn of_trace(series: &Series, wall_speed: f64) -> Self {
         let samples = series.samples();

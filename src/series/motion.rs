@@ -1,4 +1,4 @@
-//! What a micro-test delivers: the motion of two cylinders and the forces on them, step by step.
+//! Result of a micro-test: the motion of two cylinders and the forces on them, step by step.
 
 use super::SeriesError;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What the run of a pyramid delivers.
+//! Result of running a pyramid.
 
 use super::SeriesError;
 

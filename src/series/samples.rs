@@ -159,7 +159,7 @@ pub enum SeriesError {
     /// There is no series at all.
     #[error("{message}")]
     Absent {
-        /// What was looked for, and what was found instead.
+        /// The file or table that is missing, and what was found instead.
         message: String,
     },
     /// A row cannot be read.
@@ -167,7 +167,7 @@ pub enum SeriesError {
     Garbled {
         /// Row, the first one after the header being 1.
         row: usize,
-        /// What is wrong with it.
+        /// The defect.
         message: String,
     },
     /// The columns are not the shared ones.
@@ -302,8 +302,14 @@ impl Series {
                 found: header.iter().collect::<Vec<_>>().join(","),
             });
         }
-        let rows = (1..).zip(reader.deserialize());
-        let rows = rows.map(|(index, row)| row.map_err(|error| garbled(index, error)));
+        let mut record = csv::ByteRecord::new();
+        // Fields are taken by position: the header has them in the order of `Sample`.
+        let mut row = move || match reader.read_byte_record(&mut record) {
+            Ok(true) => Some(record.deserialize(None)),
+            Ok(false) => None,
+            Err(error) => Some(Err(error)),
+        };
+        let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is refused; what comes after it need not be kept for that.
         let rows = rows.take(planned_rows(schedule).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)

@@ -58,6 +58,11 @@ impl<S, F> Judged<S, F> {
         self.grounds.verdict()
     }
 
+    /// Whether recorded runs stand behind it.
+    pub fn is_recorded(&self) -> bool {
+        self.source == Source::Recorded && self.verdict() != Verdict::Missing
+    }
+
     /// What explains it.
     pub fn notes(&self) -> Vec<&str> {
         self.grounds.notes()

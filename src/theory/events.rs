@@ -1,4 +1,4 @@
-//! What ends the path of equilibria: the four events, and which one comes first (docs/theory.md, Eq. 43).
+//! The four events that end the path of equilibria, and which one comes first (docs/theory.md, Eq. 43).
 
 use super::root::bracketed_root;
 use crate::model::{CRITICAL_FRICTION, Stack};

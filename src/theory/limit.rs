@@ -9,7 +9,7 @@ use serde::Serialize;
 pub struct Limit {
     /// F = f/(m g) at which the floor slips; absent when something else comes first.
     pub yield_force: Option<f64>,
-    /// What comes first on the path.
+    /// The first event on the path.
     pub event: Event,
     /// F at which the floor slips if the other events are ignored.
     pub floor_slip_force: Option<f64>,

@@ -25,10 +25,8 @@ pub use regimes::{
 };
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};
-pub use small_displacement::{
-    ElasticRoot, RigidYield, displacement_of_stiff_cylinders, elastic_root, naive_load,
-    perturbation_load, quintic_displacement, rigid_yield,
-};
+pub(crate) use small_displacement::{ElasticRoot, elastic_root, naive_load, perturbation_load};
+pub use small_displacement::{RigidYield, rigid_yield};
 
 use crate::model::{Arms, Stack};
 

@@ -118,7 +118,7 @@ impl Leg {
     }
 }
 
-/// What becomes of the contact between the bottom cylinders.
+/// Treatment of the contact between the bottom cylinders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BottomContact {
     /// It carries nothing, c = 0, even where the cylinders would overlap.

@@ -42,7 +42,7 @@ pub struct ElasticPrediction {
     /// Why there is no yield force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
-    /// What the number contradicts.
+    /// An assumption that the number contradicts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub caution: Option<&'static str>,
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tristack::code::Code;
-use tristack::model::sha256_hex;
+use tristack::runs::{Recorded, Recording};
 
 /// What was built for the tests.
 pub const OWN_PROGRAM: &str = env!("CARGO_BIN_EXE_tristack");
@@ -128,23 +128,23 @@ pub fn json(text: &str) -> serde_json::Value {
     serde_json::from_str(text).expect("the output is JSON")
 }
 
+/// Saves in `directory` what is recorded of `code`, as `change` makes it.
+pub fn save_recording(directory: &Path, code: Code, change: impl FnOnce(&mut Recording)) {
+    let mut recording = recording(code);
+    change(&mut recording);
+    recording.save(directory, code).expect("a copy");
+}
+
+/// What is recorded of `code` in the program.
+pub fn recording(code: Code) -> Recording {
+    let recorded = Recorded::embedded().recording(code);
+    recorded.expect("it is not damaged")
+}
+
 /// The rows of a table in JSON.
 pub fn json_rows(text: &str) -> Vec<serde_json::Value> {
     let rows = json(text)["rows"].as_array().cloned();
     rows.expect("an object with rows")
-}
-
-/// Copies the recorded run at `source` to `target`, each file as `change` makes it, with the digests that go with it.
-pub fn copy_run(source: &Path, target: &Path, change: impl Fn(&str, String) -> String) {
-    fs::create_dir_all(target).expect("a directory");
-    let mut sums = String::new();
-    for file in ["case.json", "series.csv", "provenance.json"] {
-        let text = fs::read_to_string(source.join(file)).expect("a file");
-        let text = change(file, text);
-        sums += &format!("{}  {file}\n", sha256_hex(text.as_bytes()));
-        fs::write(target.join(file), text).expect("a copy");
-    }
-    fs::write(target.join("SHA256SUMS"), sums).expect("its digests");
 }
 
 /// What `condition` gives, as soon as it gives something; `None` after a minute, which is enough on a busy machine.

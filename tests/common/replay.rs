@@ -1,17 +1,23 @@
-//! A fake YADE that replays recorded runs, so that the whole way from plan to verdict can be tested
-//! without codes, and disturbed at will.
+//! A fake YADE that delivers finished series, so that the whole way from plan to verdict can be tested without
+//! codes, and disturbed at will. Those of the quick profile are native ones, all others recorded.
 
-use super::Bench;
+use super::{Bench, recording};
 use std::fs;
 use std::path::Path;
-use tristack::code::{ParameterFormat, Task};
+use std::sync::LazyLock;
+use tristack::code::{Code, ParameterFormat, Task};
+use tristack::dem::compress_stack;
 use tristack::model::{Case, sha256_hex};
-use tristack::runs::ProbeRecord;
-use tristack::series::MotionRow;
+use tristack::series::{MotionRow, Series};
+use tristack::study::yield_force::Profile;
 
-/// What happens to the recorded series of one case.
+fn yade() -> Code {
+    Code::named("yade").expect("it is built in")
+}
+
+/// What happens to the series of one case.
 pub enum Disturbance {
-    /// It is delivered as it was recorded.
+    /// It is delivered as it is.
     None,
     /// It is delivered changed.
     Change(fn(String) -> String),
@@ -21,49 +27,63 @@ pub enum Disturbance {
     Instead(&'static str),
 }
 
-/// Installs the fake on `bench`; `disturb` decides for every recorded run of the crosscheck. Returns how many
-/// there are.
+/// Installs the fake on `bench`; `disturb` decides for every run of the quick profile. Returns how many there
+/// are.
 pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
     let replay = bench.path("replay");
     fs::create_dir_all(&replay).expect("a directory");
-    let count = install_runs(&replay, "reference/yade", disturb);
-    install_runs(&replay, "reference/trajectories/yade", |_| {
-        Disturbance::None
-    });
+    for (case, series) in quick_profile() {
+        install_run(&replay, case, series, disturb(case));
+    }
+    for (case, series) in recorded_series() {
+        install_run(&replay, &case, &series, Disturbance::None);
+    }
     install_probe(bench, |row| row);
     bench.install("yade", &script(&replay, ""));
-    count
+    quick_profile().len()
 }
 
-/// The runs recorded in one directory, as `disturb` makes them. Returns how many there are.
-fn install_runs(replay: &Path, recorded: &str, disturb: impl Fn(&Case) -> Disturbance) -> usize {
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join(recorded);
-    let mut count = 0;
-    for entry in fs::read_dir(recorded).expect("recorded runs").flatten() {
-        let case = Case::read(&entry.path().join("case.json")).expect("a case");
-        let series = fs::read_to_string(entry.path().join("series.csv")).expect("a series");
-        let address = sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes());
-        let write = |extension: &str, text: &str| {
-            fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
-        };
-        match disturb(&case) {
-            Disturbance::None => write("csv", &series),
-            Disturbance::Change(change) => write("csv", &change(series)),
-            Disturbance::Series(other) => write("csv", &other),
-            Disturbance::Instead(command) => write("sh", command),
-        }
-        count += 1;
+/// Cases and series of the quick profile, by the native DEM with the contact convention of YADE.
+fn quick_profile() -> &'static [(Case, String)] {
+    static RUNS: LazyLock<Vec<(Case, String)>> = LazyLock::new(|| {
+        let plans = Profile::Quick.measurements(&[yade()]);
+        let cases = plans.into_iter().flat_map(|plan| plan.cases);
+        let runs = cases.map(|case| {
+            let series = compress_stack(&case, || true).expect("a finite series");
+            (case, text(&series))
+        });
+        runs.collect()
+    });
+    &RUNS
+}
+
+fn recorded_series() -> impl Iterator<Item = (Case, String)> {
+    let runs = recording(yade()).runs.into_iter();
+    runs.filter_map(|run| Some((run.summary.case, text(&run.series?))))
+}
+
+fn text(series: &Series) -> String {
+    String::from_utf8(series.to_csv()).expect("text")
+}
+
+/// Puts the run of `case` where the fake finds it.
+fn install_run(replay: &Path, case: &Case, series: &str, disturbance: Disturbance) {
+    let address = sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes());
+    let write = |extension: &str, text: &str| {
+        fs::write(replay.join(format!("{address}.{extension}")), text).expect("a file");
+    };
+    match disturbance {
+        Disturbance::None => write("csv", series),
+        Disturbance::Change(change) => write("csv", &change(series.to_owned())),
+        Disturbance::Series(other) => write("csv", &other),
+        Disturbance::Instead(command) => write("sh", command),
     }
-    count
 }
 
 /// The recorded answers to micro-tests, row by row as `change` makes them.
 pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let replay = bench.path("replay");
-    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/probes/yade.json");
-    let record = ProbeRecord::load(&recorded)
-        .expect("a record")
-        .expect("it is there");
+    let record = recording(yade()).probe.expect("it is there");
     for answer in record.answers {
         let parameters = ParameterFormat::Json.content(&answer.test.parameters());
         let address = sha256_hex(parameters.as_bytes());

@@ -1,7 +1,7 @@
 //! What was wrong in the handling of input and has been mended, one test a finding
 //! (reference/reliability/fuzz.json tells which).
 
-use super::common::{Bench, installed, standard_error};
+use super::common::{Bench, installed, recording, standard_error};
 use super::soundness::scenes::{short_case, short_test};
 use super::soundness::{check_within, options};
 use std::ffi::OsString;
@@ -11,7 +11,7 @@ use tristack::dem::{Checkpoint, compress_stack, run_contact_test};
 use tristack::model::{Case, ContactConvention, ContactTest, Pyramid};
 use tristack::output::run_svg;
 use tristack::paper::claims::Register;
-use tristack::runs::{ProbeRecord, RunSummary};
+use tristack::runs::{ProbeRecord, Recording};
 use tristack::series::{Frames, Motion, Series, SeriesError};
 
 /// It overflowed: a panic, or a record without rows that passed for one of 2⁶⁴ − 1 steps.
@@ -44,21 +44,22 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
 
 /// What was out of its range was taken for recorded.
 #[test]
-fn a_reading_of_an_impossible_case_is_refused_with_its_line() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/summaries/liggghts.jsonl");
-    let text = std::fs::read_to_string(&path).expect("summaries");
-    let line = text.lines().next().expect("a summary");
-    assert_eq!(
-        RunSummary::parse_all(line, &path).expect("a summary").len(),
-        1
-    );
-    let time_step = line.find("\"time_step\":").expect("a time step") + "\"time_step\":".len();
-    let impossible = format!("{line}\n{}9{}", &line[..time_step], &line[time_step..]);
-    let message = RunSummary::parse_all(&impossible, &path)
-        .unwrap_err()
-        .to_string();
+fn a_summary_of_an_impossible_case_is_refused_with_its_table() {
+    let mut recording = recording(Code::named("liggghts").expect("it is built in"));
+    let case = &mut recording.runs[1].summary.case;
+    case.protocol.time_step = 9.0;
+    let (table, archive) = recording.to_files(Code::named("liggghts").expect("it is built in"));
+    let directory = Path::new("mine");
+    let refused = Recording::from_files(
+        &table,
+        &archive,
+        directory,
+        Code::named("liggghts").expect("it is built in"),
+    )
+    .unwrap_err();
+    let message = refused.to_string();
     assert!(
-        message.contains("line 2") && message.contains("protocol.time_step"),
+        message.contains("mine/liggghts.csv") && message.contains("protocol.time_step"),
         "{message}"
     );
 }

@@ -1,9 +1,10 @@
 //! Case files, JSON and TOML, and everything that is made of a case before it is run.
 
-use super::{Seed, marked, reference, scenes};
+use super::{Seed, marked, scenes};
 use std::path::Path;
-use tristack::code::Task;
-use tristack::model::{Case, SideWalls};
+use tristack::code::{Code, Task};
+use tristack::model::{Case, SideWalls, Stack};
+use tristack::study::yield_force::plan;
 
 const FILES: [&str; 2] = ["case.json", "case.toml"];
 
@@ -46,14 +47,17 @@ pub fn seeds() -> Vec<Seed> {
         coulomb_operand = \"spring\"\n[protocol]\ntime_step = 0.1\nwall_speed = 1e-3\nwall_travel = 0.8\n\
         preparation = { kind = \"gravity-ramp\", ramp_time = 100.0, rest_time = 100.0 }\n\
         sampling = { coarse_interval = 10.0, fine_from_travel = 0.6, fine_interval = 2.0 }\n";
-    let recorded = reference().join("yade");
-    let entries = std::fs::read_dir(recorded)
-        .expect("recorded runs")
-        .flatten();
-    let recorded = entries.take(5).enumerate().map(|(index, entry)| {
-        let text = std::fs::read(entry.path().join("case.json")).expect("a case");
-        (format!("recorded-{index}"), marked(0, text))
-    });
+    let stack = Stack::paper(0.3, 1e3);
+    let planned = plan(
+        Code::named("yade").expect("it is built in"),
+        &stack,
+        Code::named("yade").expect("it is built in").convention(),
+    )
+    .cases;
+    let planned = planned
+        .into_iter()
+        .enumerate()
+        .map(|(index, case)| (format!("planned-{index}"), marked(0, case.to_json())));
     let own = [
         ("short", marked(0, scenes::short_case().to_json())),
         (
@@ -65,6 +69,6 @@ pub fn seeds() -> Vec<Seed> {
     ];
     own.map(|(name, input)| (name.to_owned(), input))
         .into_iter()
-        .chain(recorded)
+        .chain(planned)
         .collect()
 }

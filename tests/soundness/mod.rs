@@ -71,13 +71,13 @@ pub fn write_seeds(target: &str) {
     }
 }
 
-/// The recorded runs of the project.
+/// The reference data of the project.
 fn reference() -> PathBuf {
     let own = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     [own.join("reference"), own.join("../../reference")]
         .into_iter()
         .find(|directory| directory.is_dir())
-        .expect("the recorded runs are there")
+        .expect("the reference data are there")
 }
 
 /// `text` behind the byte that says what it is.

@@ -1,13 +1,14 @@
-//! What is kept of runs: provenance, answers to micro-tests, summaries.
+//! What is kept of runs: provenance, answers to micro-tests, tables of recorded runs.
 
 use super::scenes::short_test;
-use super::{Seed, marked, reference};
+use super::{Seed, marked};
 use serde_json::json;
 use std::path::Path;
 use tristack::code::Code;
 use tristack::code::Provenance;
 use tristack::dem::run_contact_test;
-use tristack::runs::{ProbeRecord, RunSummary};
+use tristack::model::sha256_hex;
+use tristack::runs::{ProbeRecord, Recorded, Recording};
 
 pub fn check(data: &[u8]) {
     let Some((&kind, text)) = data.split_first() else {
@@ -16,7 +17,7 @@ pub fn check(data: &[u8]) {
     match kind % 3 {
         0 => check_provenance(text),
         1 => check_probe(text),
-        _ => check_readings(text),
+        _ => check_table(text),
     }
 }
 
@@ -38,36 +39,46 @@ fn check_probe(text: &[u8]) {
     let _ = record.outdated(|test| Code::NATIVE.deck_hash(test));
 }
 
-fn check_readings(text: &[u8]) {
-    let Ok(text) = std::str::from_utf8(text) else {
+fn check_table(text: &[u8]) {
+    let text = String::from_utf8_lossy(text);
+    let digest = sha256_hex(text.as_bytes());
+    let table = format!("# sha256 of all below: {digest}\n{text}");
+    let (code, directory) = (
+        Code::named("liggghts").expect("it is built in"),
+        Path::new("mine"),
+    );
+    let (_, empty) = Recording::default().to_files(code);
+    let Ok(recording) = Recording::from_files(&table, &empty, directory, code) else {
         return;
     };
-    let path = Path::new("yade.jsonl");
-    for summary in RunSummary::parse_all(text, path).unwrap_or_default() {
-        summary.case.validate().expect("what is accepted is valid");
-        assert_eq!(summary.case.content_hash().len(), 64);
-        let line = serde_json::to_string(&summary).expect("plain data");
-        assert_eq!(
-            RunSummary::parse_all(&line, path).expect("its own JSON"),
-            [summary]
-        );
+    for run in &recording.runs {
+        run.summary
+            .case
+            .validate()
+            .expect("what is accepted is valid");
+        assert!(run.series.is_none(), "the archive is empty");
     }
+    let (table, _) = recording.to_files(code);
+    let again = Recording::from_files(&table, &empty, directory, code).expect("its own table");
+    assert_eq!(again.to_files(code).0, table);
+    assert_eq!(again.runs.len(), recording.runs.len());
+}
+
+/// The recorded runs of a code without their series, some of them.
+fn few_runs() -> Recording {
+    let recorded = Recorded::embedded().recording(Code::named("liggghts").expect("it is built in"));
+    let mut runs = recorded.expect("it is not damaged").runs;
+    runs.truncate(2);
+    runs.iter_mut().for_each(|run| run.series = None);
+    let probe = None;
+    Recording { runs, probe }
 }
 
 pub fn seeds() -> Vec<Seed> {
-    let mut entries = std::fs::read_dir(reference().join("lammps"))
-        .expect("recorded runs")
-        .flatten();
-    let recorded = entries.next().expect("a recorded run").path();
-    let provenance =
-        std::fs::read_to_string(recorded.join("provenance.json")).expect("a provenance");
-    let summaries =
-        std::fs::read_to_string(reference().join("summaries/liggghts.jsonl")).expect("summaries");
-    let first: String = summaries
-        .lines()
-        .take(2)
-        .map(|line| line.to_owned() + "\n")
-        .collect();
+    let runs = few_runs();
+    let provenance = runs.runs[0].summary.provenance.to_json();
+    let (table, _) = runs.to_files(Code::named("liggghts").expect("it is built in"));
+    let (_, table) = table.split_once('\n').expect("a digest");
     let probe = json!({
         "provenance": serde_json::from_str::<serde_json::Value>(&provenance).expect("JSON"),
         "answers": [{
@@ -79,6 +90,6 @@ pub fn seeds() -> Vec<Seed> {
     vec![
         ("provenance".to_owned(), marked(0, provenance)),
         ("probe".to_owned(), marked(1, probe.to_string())),
-        ("summaries".to_owned(), marked(2, first)),
+        ("table".to_owned(), marked(2, table)),
     ]
 }

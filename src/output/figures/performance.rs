@@ -56,6 +56,7 @@ fn speedups(rows: &[ScalingRow]) -> Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::code::Code;
     use crate::study::cost::BenchTarget;
 
     #[test]
@@ -82,7 +83,7 @@ mod tests {
         };
         let costs = [
             cost(BenchTarget::NativeLanes, 10.0),
-            cost(BenchTarget::External(Code::Yade), 5e3),
+            cost(BenchTarget::External(Code::named("yade").unwrap()), 5e3),
         ];
         let svg = performance_svg(&costs, &scaling);
         assert!(svg.contains("yade: 5000 ns, 500 times native-lanes"));

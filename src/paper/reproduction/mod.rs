@@ -217,8 +217,7 @@ fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     found.cloned().collect()
 }
 
-/// Every run of an external code that the report needs and whose series is too large to keep: the summaries
-/// that `tristack record` takes.
+/// What is read off every run of an external code that the report needs, for `tristack record`.
 ///
 /// # Errors
 /// The first run that fails.

@@ -142,7 +142,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
 
     fn use_recorded(&self, code: Code, requests: &[usize]) {
         for &request in requests {
-            let run = self.settings.recorded.get(code, self.case(request));
+            let run = self.settings.recorded.run(code, self.case(request));
             self.fill(request, run.map_err(RunError::from));
         }
     }

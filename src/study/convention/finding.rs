@@ -92,7 +92,7 @@ mod tests {
     fn a_small_declared_value_has_a_tolerance_of_its_own() {
         let verdict = |measured: f64, declared: f64| {
             let property = Property::new("damping", Measured::new(measured, 0.0), declared);
-            property.judge(Code::Yade, "").verdict
+            property.judge(Code::named("yade").unwrap(), "").verdict
         };
         assert_eq!(verdict(0.067 * (1.0 + 0.9e-6), 0.067), Verdict::Agrees);
         assert_eq!(verdict(0.067 * (1.0 + 1.1e-6), 0.067), Verdict::Differs);

@@ -17,10 +17,11 @@ mod regression;
 mod sliding;
 mod tangential;
 
-pub use finding::{Finding, NATIVE_TOLERANCE, Property, TOLERANCE};
-pub use measured::{
-    Findings, ProbeError, Probed, arms_are_measured, contradictions, is_contradicted,
-    other_program, probe_all, record_probe,
+pub(crate) use finding::Finding;
+pub use finding::TOLERANCE;
+pub use measured::probe_all;
+pub(crate) use measured::{
+    ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,
+    record_probe,
 };
 pub use probe::probe;
-pub use regression::Measured;

@@ -7,7 +7,9 @@ mod stack;
 mod statistics;
 mod target;
 
-pub use pyramid::{PyramidBench, PyramidCost};
-pub use scaling::{Scaling, ScalingBench, ScalingRow};
-pub use stack::{StackBench, StackCost};
-pub use target::{BenchError, BenchTarget};
+pub use pyramid::PyramidBench;
+pub(crate) use pyramid::PyramidCost;
+pub(crate) use scaling::{Scaling, ScalingBench, ScalingRow};
+pub(crate) use stack::{StackBench, StackCost};
+pub use target::BenchError;
+pub(crate) use target::BenchTarget;

@@ -308,8 +308,8 @@ mod tests {
             ("print precision", 32.0),
             ("shortcuts", 64.0),
         ];
-        let own = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget)));
-        assert_eq!(own, parts);
+        let named = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget)));
+        assert_eq!(named, parts);
         assert_eq!(budget.total(), 127.0);
     }
 

@@ -10,7 +10,7 @@ use crate::model::Stack;
 pub struct Boundary {
     /// The floor friction μ.
     pub floor_friction: f64,
-    /// What ends the path at a little less friction …
+    /// Event that ends the path at a little less friction …
     pub below: Event,
     /// … and at a little more.
     pub above: Event,

@@ -116,7 +116,7 @@ impl EquilibriumPath {
         }
     }
 
-    /// What `event` at `parameter` amounts to.
+    /// The state at `parameter`, where `event` happens.
     pub(super) fn critical_state(&self, event: Event, parameter: f64) -> CriticalState {
         let parameter = parameter.max(self.beginning());
         let point = self.point(parameter);

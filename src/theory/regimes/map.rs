@@ -6,7 +6,7 @@ use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, LoadingOutcome};
 use crate::model::Stack;
 use serde::Serialize;
 
-/// What varies besides the floor friction.
+/// Property that varies besides the floor friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
@@ -57,7 +57,7 @@ impl Axis {
 /// A rectangle of stacks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegimeMap {
-    /// What varies besides the floor friction.
+    /// Property that varies besides the floor friction.
     pub axis: Axis,
     /// Everything that does not vary.
     pub base: Stack,
@@ -236,7 +236,7 @@ impl Line {
     }
 }
 
-/// What changes when a boundary is crossed.
+/// Property that changes when a boundary is crossed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Across {
     /// μ.
@@ -265,11 +265,11 @@ pub struct BoundaryPoint {
     pub map: Axis,
     /// The stack on the boundary.
     pub stack: Stack,
-    /// What changes across the boundary.
+    /// Property that changes across the boundary.
     pub across: Across,
     /// Relative distance of the neighbours.
     pub distance: f64,
-    /// What becomes of the neighbour below and of the one above.
+    /// Outcomes of the neighbour below and of the one above.
     pub sides: [LoadingOutcome; 2],
 }
 

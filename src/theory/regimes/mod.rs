@@ -1,15 +1,16 @@
-//! Which event comes first, what it does to the stack, and where in the space of stacks that changes.
+//! Regimes: the first event on the path, its effect on the stack, and the boundaries between stacks that differ
+//! in it.
 //!
 //! Derived in docs/theory.md, section 7, independently of the equations here: (R2) is its Eq. (44), (R3) Eq. (45),
 //! (R4) Eq. (46), (R5) Eq. (54), (R6) Eq. (55); (R1) Eqs. (13) and (48).
 //!
-//! All for torque arms 0, contact forces in k_n r and lengths in r. On the path of equilibria b = e, by the
+//! All for arms 0, contact forces in k_n r and lengths in r. On the path of equilibria b = e, by the
 //! torques on cylinder 2, and the horizontal and vertical balance give, with a contact force c ≥ 0 between
 //! the bottom cylinders and T = tan(ψ/2),
 //!
 //! b = e = a T + c/(1 + cos ψ),  L = 2 a + 2 c T,  d = L/2 + ε under the wall, 3 L/2 along the gravity ramp.  (R1)
 //!
-//! The path itself knows nothing of μ and μ_d: it is fixed by κ, and by ε where c > 0. It ends where it
+//! The path itself does not depend on μ and μ_d: it is fixed by κ, and by ε where c > 0. It ends where it
 //! needs more than friction gives. Hence every boundary in μ is a value of e/d on one path, and every
 //! boundary in μ_d a value of b/a, at the event on its other side.
 //!

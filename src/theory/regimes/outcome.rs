@@ -1,4 +1,4 @@
-//! What becomes of one stack: the first event, what it does, and the force that the stack carries.
+//! Outcome of loading one stack: the first event, its effect, and the largest force that the stack carries.
 
 use super::super::events::Event;
 use super::critical_state::{CriticalState, LoadingPhase};
@@ -8,7 +8,7 @@ use crate::model::Stack;
 use serde::Serialize;
 use std::fmt;
 
-/// What the first event does to the stack.
+/// Effect of the first event on the stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FailureMode {
@@ -72,14 +72,14 @@ impl fmt::Display for Regime {
     }
 }
 
-/// What becomes of a stack on its way up in load.
+/// Outcome of loading a stack until equilibrium ends.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LoadingOutcome {
     /// The first event.
     pub first: CriticalState,
     /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
     pub last: CriticalState,
-    /// What the first event does.
+    /// Effect of the first event.
     pub failure_mode: FailureMode,
     /// Where equilibrium ends; `None` where the stack does not stand, and where the wall comes to rest on the
     /// bottom cylinders. Later than `last` where that is a slip with c > 0.
@@ -89,7 +89,7 @@ pub struct LoadingOutcome {
 }
 
 impl LoadingOutcome {
-    /// What becomes of `stack`, with torque arms 0. `None` if its path of equilibria ends before any event.
+    /// Loads `stack` under the paper's arms. `None` if its path of equilibria ends before any event.
     ///
     /// ```
     /// use tristack::model::Stack;

@@ -6,13 +6,15 @@
 mod elastic;
 mod naive;
 mod perturbation;
+#[cfg(test)]
 mod quintic;
 mod rigid;
 
 pub use elastic::{ElasticRoot, elastic_root};
 pub use naive::naive_load;
 pub use perturbation::perturbation_load;
-pub use quintic::quintic_displacement;
+#[cfg(test)]
+use quintic::quintic_displacement;
 pub use rigid::{RigidYield, rigid_yield};
 
 use crate::model::CRITICAL_FRICTION;

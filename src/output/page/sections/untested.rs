@@ -5,7 +5,6 @@ use super::Origin;
 use crate::output::number::friction;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::Reproduction;
-use crate::study::Source;
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 
@@ -48,7 +47,7 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &
 fn recorded(judgements: &[Judgement]) -> Option<String> {
     let mut codes: Vec<&str> = judgements
         .iter()
-        .filter(|judgement| judgement.source == Source::Recorded)
+        .filter(|judgement| judgement.is_recorded())
         .map(|judgement| judgement.code.as_str())
         .collect();
     codes.sort_unstable();

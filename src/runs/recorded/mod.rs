@@ -1,0 +1,259 @@
+//! Recorded runs, which stand in for codes that are not installed.
+
+mod archive;
+mod embedded;
+mod recording;
+mod table;
+
+pub use recording::{RecordedRun, Recording};
+
+use crate::code::{Code, Provenance, Run};
+use crate::files::FileError;
+use crate::model::{Case, shown};
+use crate::runs::{ProbeRecord, RunSummary};
+use archive::{Members, unpack};
+use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_of, table_path};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use thiserror::Error;
+
+/// Where the embedded files stand in messages.
+const IN_THE_PROGRAM: &str = "tristack:recorded";
+/// Largest file of recorded runs that is read, in bytes.
+const MAX_FILE: u64 = 1 << 24;
+
+/// The recorded runs of all codes, those in the program or in a directory. The files of a code are read when
+/// something of it is asked for, and once.
+#[derive(Debug, Clone)]
+pub struct Recorded {
+    /// Where they are; in the program if absent.
+    directory: Option<PathBuf>,
+    codes: Arc<Mutex<BTreeMap<Code, Arc<Files>>>>,
+}
+
+/// What the files of one code hold, or why it is not known.
+#[derive(Debug, Default)]
+struct Files {
+    table: OnceLock<Result<Table, Arc<FileError>>>,
+    members: OnceLock<Result<Members, Arc<FileError>>>,
+}
+
+/// Rows by the content hash of their cases.
+type Table = HashMap<String, Row>;
+
+/// Why a recorded run cannot stand in.
+#[derive(Debug, Error)]
+pub enum RecordedError {
+    /// Nobody recorded it.
+    #[error("{code} is not installed, and there is no recorded {what} in {}; install it ({}), record it where it is installed (tristack record --codes {code}), or let TRISTACK_REFERENCE name the directory of recorded runs", shown(path), code.installation_hint())]
+    Absent {
+        /// The code.
+        code: Code,
+        /// What was looked for.
+        what: &'static str,
+        /// The file that lacks it.
+        path: PathBuf,
+    },
+    /// It was made with another deck than today's.
+    #[error(
+        "the recorded run in {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --codes {code}",
+        shown(path)
+    )]
+    OtherDeck {
+        /// The code.
+        code: Code,
+        /// The file with the run.
+        path: PathBuf,
+        /// Deck hash it was made with.
+        recorded: String,
+        /// Deck hash of this version of tristack.
+        current: String,
+    },
+    /// It cannot be read.
+    #[error(transparent)]
+    Damaged(#[from] Arc<FileError>),
+}
+
+impl From<FileError> for RecordedError {
+    fn from(error: FileError) -> Self {
+        Self::Damaged(Arc::new(error))
+    }
+}
+
+impl Recorded {
+    /// The recorded runs inside this program.
+    pub fn embedded() -> Self {
+        let (directory, codes) = (None, Arc::default());
+        Self { directory, codes }
+    }
+
+    /// The recorded runs in `directory`.
+    pub fn new(directory: &Path) -> Self {
+        Self {
+            directory: Some(directory.to_owned()),
+            ..Self::embedded()
+        }
+    }
+
+    /// The recorded run of `case` by `code`, if its series is kept.
+    ///
+    /// # Errors
+    /// If it is not, or is damaged, or was made with another deck.
+    pub fn run(&self, code: Code, case: &Case) -> Result<Run, RecordedError> {
+        let files = self.files(code);
+        let row = self.row(&files, code, case)?;
+        let path = archive_path(self.directory(), code);
+        let series = match row.series {
+            Some(_) => series_of(row, self.members(&files, code)?, &path)?,
+            None => None,
+        };
+        let what = "series of this case";
+        let series = series.ok_or(RecordedError::Absent { code, what, path })?;
+        let RunSummary {
+            case, provenance, ..
+        } = row.summary.clone();
+        Ok(Run {
+            case,
+            series,
+            provenance,
+        })
+    }
+
+    /// What was read off the recorded run of `case` by `code`.
+    ///
+    /// # Errors
+    /// If there is none, or the table is damaged, or the run was made with another deck.
+    pub fn summary(&self, code: Code, case: &Case) -> Result<RunSummary, RecordedError> {
+        let files = self.files(code);
+        Ok(self.row(&files, code, case)?.summary.clone())
+    }
+
+    /// The recorded probe of `code`.
+    ///
+    /// # Errors
+    /// If there is none, or it is damaged, or a micro-test was put with another deck, other parameters or
+    /// arguments.
+    pub fn probe(&self, code: Code) -> Result<ProbeRecord, RecordedError> {
+        let files = self.files(code);
+        let path = archive_path(self.directory(), code);
+        let record = probe_in(self.members(&files, code)?, &path)?;
+        let own = |record: &ProbeRecord| record.provenance.identity.code == code.as_str();
+        let Some(record) = record.filter(own) else {
+            let what = "probe";
+            return Err(RecordedError::Absent { code, what, path });
+        };
+        if let Some(answer) = record.outdated(|test| code.deck_hash(test)) {
+            return Err(RecordedError::OtherDeck {
+                code,
+                path: path.join(PROBE),
+                recorded: answer.input_hash.clone(),
+                current: code.deck_hash(&answer.test),
+            });
+        }
+        Ok(record)
+    }
+
+    /// Everything that is recorded of `code`, made with whichever deck.
+    ///
+    /// # Errors
+    /// If it is damaged.
+    pub fn recording(&self, code: Code) -> Result<Recording, FileError> {
+        let directory = self.directory();
+        let table = self.read(&table_path(directory, code))?;
+        let archive = self.read(&archive_path(directory, code))?;
+        let (Some(table), Some(archive)) = (table, archive) else {
+            return Ok(Recording::default());
+        };
+        let table = String::from_utf8_lossy(&table);
+        Recording::from_files(&table, &archive, directory, code)
+    }
+
+    fn files(&self, code: Code) -> Arc<Files> {
+        let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(codes.entry(code).or_default())
+    }
+
+    fn row<'a>(&self, files: &'a Files, code: Code, case: &Case) -> Result<&'a Row, RecordedError> {
+        let path = table_path(self.directory(), code);
+        let Some(row) = self.table(files, code)?.get(&case.content_hash()) else {
+            let what = "run of this case";
+            return Err(RecordedError::Absent { code, what, path });
+        };
+        up_to_date(code, case, path, &row.summary.provenance)?;
+        Ok(row)
+    }
+
+    fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
+        let table = files.table.get_or_init(|| {
+            let path = table_path(self.directory(), code);
+            Ok(self.read_table(&path, code)?)
+        });
+        table.as_ref().map_err(|error| Arc::clone(error).into())
+    }
+
+    fn read_table(&self, path: &Path, code: Code) -> Result<Table, FileError> {
+        let Some(content) = self.read(path)? else {
+            return Ok(Table::new());
+        };
+        let rows = parse_table(&String::from_utf8_lossy(&content), path, code)?;
+        let keyed = rows.into_iter();
+        Ok(keyed
+            .map(|row| (row.summary.case.content_hash(), row))
+            .collect())
+    }
+
+    fn members<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Members, RecordedError> {
+        let members = files.members.get_or_init(|| {
+            let path = archive_path(self.directory(), code);
+            let packed = self.read(&path)?;
+            Ok(packed.map_or(Ok(Members::new()), |packed| unpack(&packed, &path))?)
+        });
+        members.as_ref().map_err(|error| Arc::clone(error).into())
+    }
+
+    /// The content of the file at `path`, in the program or in the directory; `None` if there is none.
+    fn read(&self, path: &Path) -> Result<Option<Cow<'static, [u8]>>, FileError> {
+        if self.directory.is_none() {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            return Ok(embedded::file(&name).map(Cow::Borrowed));
+        }
+        let file = match std::fs::File::open(path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            opened => opened.map_err(FileError::reading(path))?,
+        };
+        let mut content = Vec::new();
+        let read = file.take(MAX_FILE + 1).read_to_end(&mut content);
+        if read.map_err(FileError::reading(path))? as u64 > MAX_FILE {
+            let message = format!("it has more than {MAX_FILE} bytes");
+            return Err(FileError::reading(path)(std::io::Error::other(message)));
+        }
+        Ok(Some(Cow::Owned(content)))
+    }
+
+    fn directory(&self) -> &Path {
+        let directory = self.directory.as_deref();
+        directory.unwrap_or(Path::new(IN_THE_PROGRAM))
+    }
+}
+
+/// Refuses what was made with another deck than today's.
+fn up_to_date(
+    code: Code,
+    case: &Case,
+    path: PathBuf,
+    provenance: &Provenance,
+) -> Result<(), RecordedError> {
+    let (recorded, current) = (provenance.deck_hash.clone(), code.deck_hash(case));
+    if recorded == current {
+        return Ok(());
+    }
+    Err(RecordedError::OtherDeck {
+        code,
+        path,
+        recorded,
+        current,
+    })
+}

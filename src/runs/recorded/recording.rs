@@ -1,0 +1,250 @@
+//! What is recorded of one code: a table of its runs, and an archive of the series and answers that are kept.
+
+use super::archive::{Members, pack, unpack};
+use super::table::{from_csv, to_csv};
+use crate::code::{Code, Run};
+use crate::files::{FileError, write_atomically};
+use crate::model::Case;
+use crate::runs::{ProbeRecord, RunSummary};
+use crate::series::Series;
+use serde_json::Value;
+use std::cmp::Ordering;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// The file in the archive with the answers to the micro-tests.
+pub(super) const PROBE: &str = "probe.json";
+/// The column with the name of a series in the archive.
+const SERIES: &str = "series";
+/// The columns of the table that stand first.
+const FIRST_COLUMNS: [&str; 6] = [
+    "case.stack",
+    "case.protocol",
+    "case.convention",
+    "estimates",
+    "last_force",
+    "contact_force",
+];
+
+/// A run of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    pub(super) summary: RunSummary,
+    /// Name of its series in the archive, if that is kept.
+    pub(super) series: Option<String>,
+}
+
+/// A run as it is recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedRun {
+    /// What was read off it.
+    pub summary: RunSummary,
+    /// Its series, if that is kept.
+    pub series: Option<Series>,
+}
+
+impl RecordedRun {
+    /// `run` with its series.
+    pub fn with_series(run: Run) -> Self {
+        let series = Some(run.series.clone());
+        let summary = RunSummary::new(run);
+        Self { summary, series }
+    }
+
+    /// A run of which nothing is kept but what was read off it.
+    pub fn without_series(summary: RunSummary) -> Self {
+        let series = None;
+        Self { summary, series }
+    }
+}
+
+/// All that is recorded of one code.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recording {
+    /// The runs, each case once.
+    pub runs: Vec<RecordedRun>,
+    /// The answers to `tristack probe`.
+    pub probe: Option<ProbeRecord>,
+}
+
+impl Recording {
+    /// Adds `run` in place of an older one of the same case.
+    pub fn put(&mut self, run: RecordedRun) {
+        let mut known = self.runs.iter_mut();
+        match known.find(|known| known.summary.case == run.summary.case) {
+            Some(known) => *known = run,
+            None => self.runs.push(run),
+        }
+    }
+
+    /// Writes the table and the archive of `code` in `directory`, in place of older ones.
+    ///
+    /// # Errors
+    /// If the file system refuses.
+    pub fn save(&self, directory: &Path, code: Code) -> Result<(), FileError> {
+        let (table, archive) = self.to_files(code);
+        write_atomically(&archive_path(directory, code), &archive)?;
+        write_atomically(&table_path(directory, code), table.as_bytes())
+    }
+
+    /// Table and archive.
+    pub fn to_files(&self, code: Code) -> (String, Vec<u8>) {
+        let mut runs: Vec<&RecordedRun> = self.runs.iter().collect();
+        runs.sort_by(|left, right| compare(&left.summary.case, &right.summary.case));
+        let mut members = Members::new();
+        let rows = runs.into_iter().map(|run| {
+            let series = run.series.as_ref().map(|series| {
+                let name = series_name(&run.summary.case, &members);
+                members.insert(name.clone(), series.to_csv());
+                name
+            });
+            let mut row = serde_json::to_value(&run.summary).expect("plain data has a JSON form");
+            row[SERIES] = series.into();
+            row
+        });
+        let rows: Vec<Value> = rows.collect();
+        if let Some(probe) = &self.probe {
+            members.insert(PROBE.to_owned(), probe.to_json().into_bytes());
+        }
+        let title =
+            format!("Runs of {code}, recorded by `tristack record`; see reference/README.md");
+        (to_csv(&rows, &title, &FIRST_COLUMNS), pack(&members))
+    }
+
+    /// What the table and the archive of `code`, read from `directory`, hold.
+    ///
+    /// # Errors
+    /// If one of them is damaged.
+    pub fn from_files(
+        table: &str,
+        archive: &[u8],
+        directory: &Path,
+        code: Code,
+    ) -> Result<Self, FileError> {
+        let path = archive_path(directory, code);
+        let members = unpack(archive, &path)?;
+        let rows = parse_table(table, &table_path(directory, code), code)?;
+        let runs = rows.into_iter().map(|row| {
+            let series = series_of(&row, &members, &path)?;
+            let summary = row.summary;
+            Ok(RecordedRun { summary, series })
+        });
+        Ok(Self {
+            runs: runs.collect::<Result<_, FileError>>()?,
+            probe: probe_in(&members, &path)?,
+        })
+    }
+}
+
+/// The order of the table: by stack, then by protocol.
+fn compare(left: &Case, right: &Case) -> Ordering {
+    let numbers = |case: &Case| {
+        let (stack, protocol) = (&case.stack, &case.protocol);
+        let (mu, stiffness) = (stack.floor_friction, stack.stiffness);
+        [mu, stiffness, -protocol.wall_speed, protocol.time_step]
+    };
+    let pairs = numbers(left).into_iter().zip(numbers(right));
+    let ordered = pairs.map(|(left, right)| left.total_cmp(&right));
+    let first = ordered.into_iter().find(|order| order.is_ne());
+    first.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
+}
+
+/// Name of the series of `case`, readable and not yet among `members`.
+fn series_name(case: &Case, members: &Members) -> String {
+    let (stack, protocol) = (&case.stack, &case.protocol);
+    let name = format!(
+        "mu-{}_stiffness-{}/speed-{:e}_dt-{}",
+        stack.floor_friction, stack.stiffness, protocol.wall_speed, protocol.time_step
+    );
+    let plain = format!("{name}.csv");
+    let numbered = (2..).map(|number| format!("{name}_{number}.csv"));
+    let mut names = std::iter::once(plain).chain(numbered);
+    let free = names.find(|name| !members.contains_key(name));
+    free.unwrap_or(name)
+}
+
+/// The table of `code` in `directory`.
+pub(super) fn table_path(directory: &Path, code: Code) -> PathBuf {
+    directory.join(format!("{code}.csv"))
+}
+
+/// The archive of `code` in `directory`.
+pub(super) fn archive_path(directory: &Path, code: Code) -> PathBuf {
+    directory.join(format!("{code}.tar.gz"))
+}
+
+/// The runs of `code` in the `text` of the table at `path`.
+///
+/// # Errors
+/// If it is damaged, or holds an impossible case, one twice, or a run of another code.
+pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row>, FileError> {
+    let rows = from_csv(text).and_then(|rows| {
+        let rows = rows.into_iter().map(|row| parse_row(row, code));
+        rows.collect::<Result<Vec<Row>, String>>()
+    });
+    let rows = rows.and_then(|rows| match repeated(&rows) {
+        Some(case) => Err(format!("{case} is there twice")),
+        None => Ok(rows),
+    });
+    rows.map_err(|message| FileError::Provenance {
+        path: path.to_owned(),
+        message,
+    })
+}
+
+fn repeated(rows: &[Row]) -> Option<&Case> {
+    let mut known = HashSet::new();
+    let mut cases = rows.iter().map(|row| &row.summary.case);
+    cases.find(|case| !known.insert(case.content_hash()))
+}
+
+fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
+    let series = row.as_object_mut().and_then(|row| row.remove(SERIES));
+    let series =
+        serde_json::from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
+    let summary: RunSummary = serde_json::from_value(row).map_err(|error| error.to_string())?;
+    let case = &summary.case;
+    case.validate()
+        .map_err(|invalid| format!("{case}: {invalid}"))?;
+    let own = &summary.provenance.identity.code;
+    if own != code.as_str() {
+        return Err(format!(
+            "{case}: `provenance.identity.code` is {own}, but must be {code}"
+        ));
+    }
+    Ok(Row { summary, series })
+}
+
+/// The series of `row`, if it is kept among `members` of the archive at `path`.
+///
+/// # Errors
+/// If it should be there and is not, or is not the series of the case.
+pub(super) fn series_of(
+    row: &Row,
+    members: &Members,
+    path: &Path,
+) -> Result<Option<Series>, FileError> {
+    let Some(name) = &row.series else {
+        return Ok(None);
+    };
+    let path = path.join(name);
+    let Some(content) = members.get(name) else {
+        let absent = std::io::Error::other("the table names it, but the archive lacks it");
+        return Err(FileError::reading(&path)(absent));
+    };
+    let protocol = &row.summary.case.protocol;
+    let series = Series::read(content.as_slice(), &protocol.schedule(), protocol.time_step);
+    series
+        .map(Some)
+        .map_err(|source| FileError::Series { path, source })
+}
+
+/// The answers among `members` of the archive at `path`.
+///
+/// # Errors
+/// If they are damaged.
+pub(super) fn probe_in(members: &Members, path: &Path) -> Result<Option<ProbeRecord>, FileError> {
+    let probe = members.get(PROBE);
+    let probe = probe.map(|text| ProbeRecord::parse(text, &path.join(PROBE)));
+    probe.transpose()
+}

@@ -93,7 +93,7 @@ fn native_yields_at_the_exact_limit_where_torque_and_kinematic_arms_differ() {
     let judged = standard_output(&mut bench.tristack(&format!("{line} --format json")));
     let rows = json_rows(&judged);
     assert_eq!(rows.len(), 2);
-    for row in rows {
+    for row in &rows {
         assert_eq!(row["verdict"], "agrees", "{row}");
         assert_eq!(row["pair_torque_arm"], -0.5);
         assert_eq!(row["pair_kinematic_arm"], 0.0);

@@ -9,9 +9,11 @@ pub mod cost;
 mod pipeline;
 pub mod preparation;
 pub mod regimes;
+mod tolerance;
 pub mod trajectory;
 mod verdict;
 pub mod yield_force;
 
-pub use pipeline::{Campaign, Evaluation, Judged, Study};
-pub use verdict::{Ground, Grounds, MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict, tolerance};
+pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
+pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
+pub use verdict::{Ground, Grounds, Verdict};

@@ -3,9 +3,10 @@
 use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
-use super::verdict::{Ground, Grounds, Source, Verdict};
+use super::verdict::{Ground, Grounds, Verdict};
 use crate::code::{Code, Identity};
 use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
+use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
 /// A study of one subject: the runs that it needs, and what follows from them.
@@ -31,6 +32,26 @@ pub struct Evaluation<F> {
     pub finding: F,
     /// What speaks for and against it.
     pub grounds: Grounds,
+}
+
+/// Whether the numbers of a row were computed now or read from a recorded run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Run on this machine, now or earlier (from the store).
+    Live,
+    /// Read from the recorded runs, because the code is not installed.
+    Recorded,
+}
+
+impl Source {
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Live => "live",
+            Self::Recorded => "recorded",
+        }
+    }
 }
 
 /// A study that has been carried out.

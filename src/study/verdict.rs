@@ -51,40 +51,6 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
-/// torque arms (tests/golden_theory.rs).
-pub const MIN_TOLERANCE: f64 = 1e-7;
-
-/// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
-/// An uncertainty above it decides nothing.
-pub const MAX_TOLERANCE: f64 = 1e-5;
-
-/// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
-/// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
-pub fn tolerance(uncertainty: f64) -> f64 {
-    uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
-}
-
-/// Whether the numbers of a row were computed now or read from a recorded run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Source {
-    /// Run on this machine, now or earlier (from the store).
-    Live,
-    /// Read from the recorded runs, because the code is not installed.
-    Recorded,
-}
-
-impl Source {
-    /// The word in tables.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Live => "live",
-            Self::Recorded => "recorded",
-        }
-    }
-}
-
 /// One thing that speaks for or against a row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ground {
@@ -276,13 +242,6 @@ impl Grounds {
 mod tests {
     use super::*;
 
-    /// The verdict on an error with its uncertainty, both relative to F + 3.
-    fn judge(error: f64, uncertainty: f64) -> Verdict {
-        let mut grounds = Grounds::new();
-        grounds.compare(error, uncertainty, tolerance(uncertainty), None);
-        grounds.verdict()
-    }
-
     fn grounds(grounds: &[Ground]) -> Grounds {
         Grounds(grounds.to_vec())
     }
@@ -402,35 +361,5 @@ mod tests {
             assert_eq!(verdict.to_string(), word);
             assert_eq!(serde_json::to_value(verdict).unwrap(), word);
         }
-    }
-
-    #[test]
-    fn a_small_error_agrees_and_a_large_one_differs() {
-        assert_eq!(judge(9e-8, 1e-8), Verdict::Agrees);
-        assert_eq!(judge(-1.1e-7, 1e-8), Verdict::Differs);
-    }
-
-    #[test]
-    fn tolerance_follows_the_uncertainty_between_floor_and_bar() {
-        assert_eq!(judge(4e-6, 5e-6), Verdict::Agrees);
-        assert_eq!(judge(6e-6, 5e-6), Verdict::Differs);
-    }
-
-    #[test]
-    fn an_uncertainty_above_the_bar_decides_only_against_large_errors() {
-        assert_eq!(judge(1e-7, 2e-5), Verdict::Inconclusive);
-        assert_eq!(judge(1e-3, 2e-5), Verdict::Differs);
-    }
-
-    #[test]
-    fn not_a_number_is_never_a_pass() {
-        assert_eq!(judge(f64::NAN, 1e-8), Verdict::Inconclusive);
-        assert_eq!(judge(1e-8, f64::NAN), Verdict::Inconclusive);
-    }
-
-    #[test]
-    fn a_row_says_where_it_comes_from() {
-        assert_eq!(Source::Live.as_str(), "live");
-        assert_eq!(Source::Recorded.as_str(), "recorded");
     }
 }

@@ -38,12 +38,12 @@ impl Code {
         if self == Self::NATIVE {
             return Some(Box::new(native::Native::new()));
         }
-        let word = self.definition().command(TaskKind::Stack, &[]);
-        external::ExternalCode::find(self, word.first()?)
+        let command = self.definition().command(TaskKind::Stack, &[]);
+        external::ExternalCode::find(self, command.first()?)
     }
 
-    /// The same code computing with more digits, if there is one here: native in double-double arithmetic, another
-    /// in the program that its manifest names. The difference of the two is round-off.
+    /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
+    /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
     pub fn find_precise(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
             return Some(Box::new(native::Native::precise()));

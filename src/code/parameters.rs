@@ -31,11 +31,7 @@ impl ContactParameters {
     }
 }
 
-/// Refuses parameters that are no numbers: those of a micro-test are measured, and a code that reports nonsense
-/// could have led to an infinite one.
-///
-/// # Errors
-/// It names the first such parameter.
+/// Refuses parameters that are not finite numbers: some of those of a micro-test were measured with the code.
 pub fn only_numbers(parameters: &serde_json::Value) -> Result<(), InvalidValue> {
     let mut named = parameters.as_object().into_iter().flatten();
     let other = named.find(|(_, value)| !value.is_number());

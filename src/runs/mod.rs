@@ -1,5 +1,5 @@
-//! Finished runs: their entries on disk, the store of a user, the recorded runs of the project, and the
-//! schedule that makes what is in neither.
+//! Finished runs: their entries on disk, the store of a user, the recorded runs of the project, and the schedule
+//! that carries out all other runs.
 
 mod entry;
 mod observations;

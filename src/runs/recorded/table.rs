@@ -76,7 +76,7 @@ fn body(rows: &[Row], columns: &[&str]) -> String {
 /// The objects of the table in `text`.
 ///
 /// # Errors
-/// It says what is wrong, and in which line.
+/// The first error, with its line.
 pub(super) fn from_csv(text: &str) -> Result<Vec<Value>, String> {
     let (digest, text) = text.split_once('\n').unwrap_or((text, ""));
     let (digest, found) = (digest.trim_end(), sha256_hex(text.as_bytes()));

@@ -1,4 +1,4 @@
-//! What an experiment will show, for every estimate of the contact.
+//! Forecasts of an experiment, one for every estimate of the contact.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
 use crate::model::{Arms, CRITICAL_FRICTION, InvalidValue, Stack};
@@ -13,7 +13,7 @@ const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e12);
 /// Rounds at most: the secant of Hertz's law and the overlap at yield determine each other.
 const ROUNDS: usize = 60;
 
-/// On which side of the rigid critical friction μ_c the floor is.
+/// The side of the rigid critical friction μ_c on which the floor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionRegime {
@@ -55,7 +55,7 @@ pub struct Force {
     pub newton: f64,
 }
 
-/// What one estimate of the contact leads to.
+/// The forecast by one estimate of the contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Forecasted {
     /// The estimate.
@@ -66,12 +66,12 @@ pub struct Forecasted {
     pub epsilon: f64,
     /// 1/ε.
     pub stiffness: f64,
-    /// What comes first.
+    /// The first event.
     pub event: Event,
-    /// What that means, where it is no yield.
+    /// Why that event is no yield, if it is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Overlap of the contacts between the cylinders, in r, when it comes.
+    /// Overlap of the contacts between the cylinders at that event, in r.
     pub overlap: f64,
     /// The exact quasi-static yield force; absent when something else than floor slip comes first.
     pub yield_force: Option<Force>,
@@ -93,7 +93,7 @@ pub struct ForceRange {
     pub highest: Option<f64>,
 }
 
-/// What an experiment will show.
+/// The forecast of an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Forecast {
     /// The experiment.
@@ -103,9 +103,9 @@ pub struct Forecast {
     pub mass: f64,
     /// m g in N.
     pub weight: f64,
-    /// On which side of μ_c.
+    /// The side of μ_c.
     pub regime: FrictionRegime,
-    /// The estimate of the contact that counts.
+    /// The chosen estimate of the contact.
     pub contact: ContactEstimate,
     /// Its yield force; absent when something else than floor slip comes first.
     pub yield_force: Option<Force>,
@@ -116,7 +116,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// The forecast for `experiment`, in which `contact` is the estimate that counts.
+    /// The forecast for `experiment`, in which `contact` is the chosen estimate.
     ///
     /// ```
     /// use tristack::experiment::{ContactEstimate, Cylinder, Experiment, Forecast};
@@ -130,7 +130,7 @@ impl Forecast {
     /// ```
     ///
     /// # Errors
-    /// Names the first value that is out of its range.
+    /// The first value that is out of range.
     pub fn new(experiment: &Experiment, contact: ContactEstimate) -> Result<Self, InvalidValue> {
         experiment.validate()?;
         let at = |mu: f64| -> Result<Vec<Forecasted>, InvalidValue> {

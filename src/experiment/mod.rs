@@ -1,4 +1,4 @@
-//! Cylinders that one can hold: Young's modulus and size in, ε and the yield force in newton out.
+//! Real cylinders: Young's modulus and size in, ε and the yield force in newton out.
 //!
 //! The paper's own estimates ("Concluding remarks") follow from ε = L ρ g/E, m = ρ L³ and f = m g/ε, which
 //! together are f = E L². For an elastomer (1 MPa, 1000 kg/m³, L = 1 cm) that gives m = 1 g, ε = 1e-4 and
@@ -124,12 +124,12 @@ impl Cylinder {
 /// Three equal cylinders on a floor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Experiment {
-    /// Each of them.
+    /// One of them.
     #[serde(flatten)]
     pub cylinder: Cylinder,
     /// Floor friction μ.
     pub mu: f64,
-    /// What μ is known to, as ±.
+    /// Uncertainty of μ, as ±.
     pub mu_uncertainty: f64,
     /// Cylinder friction μ_d.
     pub mu_d: f64,
@@ -160,7 +160,7 @@ impl Experiment {
         }
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Refuses values out of range.
     fn validate(&self) -> Result<(), InvalidValue> {
         self.cylinder.validate()?;
         let groups = Stack {

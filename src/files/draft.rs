@@ -59,7 +59,7 @@ fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> s
         .prefix(prefix)
         .permissions(fs::Permissions::from_mode(0o666))
         .tempfile_in(drafts)?;
-    // The lock marks the draft as in use; a draft without one may be removed too early, and is written again.
+    // The lock marks the draft as in use. Where files cannot be locked, drafts are only not cleaned up.
     let _ = draft.as_file().try_lock();
     draft.write_all(content)?;
     draft.as_file().sync_all()?;

@@ -8,13 +8,13 @@ use crate::study::Campaign;
 use crate::study::yield_force::MIDDLE_RUN;
 use serde::Serialize;
 
-/// Pushes that are looked at first, in units of ε, up to the largest of them.
+/// Spacing and end of the grid of pushes that is tried first, in units of ε.
 const GRID: f64 = 0.25;
 const LARGEST: f64 = 2.0;
 /// Halvings of the interval in which c appears; it is then 3 × 10⁻⁵ ε wide.
 const HALVINGS: usize = 13;
 
-/// Where c appears, in native runs.
+/// The push at which c appears in native runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CriticalPush {
     /// A* in r, the largest push that was found to end with c = 0; c appears within `width` above it.

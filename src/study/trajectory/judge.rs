@@ -13,19 +13,19 @@ pub const FORCE_TOLERANCE: f64 = 1e-6;
 /// tell them apart, and a half could not.
 pub const ORDER_TOLERANCE: f64 = 0.25;
 
-/// What the distances say about the order.
+/// The order seen in distances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ObservedOrder {
     /// log₂ of the ratio of two distances.
     pub order: f64,
-    /// What the next order in the time step can have done to it.
+    /// Its uncertainty from the next order in the time step.
     pub curvature: f64,
-    /// What rounding can have done to it.
+    /// Its uncertainty from rounding.
     pub noise: f64,
 }
 
 impl ObservedOrder {
-    /// What both can have done to it.
+    /// The sum of both.
     pub fn uncertainty(&self) -> f64 {
         self.curvature + self.noise
     }
@@ -65,9 +65,8 @@ pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     Some(if coarser_is_better { coarser } else { finer })
 }
 
-/// What `distances`, coarsest time step first, say for or against the order that is documented for them.
-/// `step_error` is the largest change of the twin itself when its time step is halved; it bounds what
-/// falls irregularly.
+/// The grounds that `distances`, coarsest time step first, give for or against their documented order. `step_error`,
+/// the largest change of the twin itself when its time step is halved, bounds distances that fall irregularly.
 pub fn judge_order(
     documented: DocumentedOrder,
     distances: &[Distance],
@@ -98,7 +97,7 @@ pub fn judge_order(
     grounds
 }
 
-/// Distances below this many times what rounding can do have noise above [`ORDER_TOLERANCE`] in their order.
+/// Distances below this multiple of their round-off have noise above [`ORDER_TOLERANCE`] in their order.
 const NEAR_ROUND_OFF: f64 = 2.0 / (ORDER_TOLERANCE * LN_2);
 
 fn judge_whole_order(
@@ -113,7 +112,7 @@ fn judge_whole_order(
         }
         return;
     };
-    // So close to rounding there is nothing left whose order could be seen.
+    // Distances this close to rounding show no order.
     let near = finest.largest <= NEAR_ROUND_OFF * finest.round_off;
     let error = seen.order - expected;
     if near && seen.noise > ORDER_TOLERANCE && error.abs() <= seen.uncertainty() {

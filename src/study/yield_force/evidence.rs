@@ -1,4 +1,4 @@
-//! What stands behind a row, and what it does not prove.
+//! The kind of evidence behind a row, and what it does not prove.
 
 use super::judgement::Judgement;
 use crate::code::Code;

@@ -3,8 +3,7 @@
 use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
 use crate::series::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
 
-/// What the numerical uncertainty u_num consists of, in the words of ASME V&V 20; each part an expected
-/// largest error in m g.
+/// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
     /// Distance between the extrapolations of second and first order in the wall speed.
@@ -17,14 +16,14 @@ pub struct Budget {
     pub preparation: f64,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
-    /// Rounding of positions in every step, accumulated like a random walk, as the summary of the force and
+    /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
     /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
     /// times less (tests/round_off.rs).
     pub round_off: f64,
     /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
     pub print_precision: f64,
     /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
-    /// What they cost is linear in the wall speed first of all, and goes with it.
+    /// Their error is mostly linear in the wall speed, and vanishes with it.
     pub shortcuts: f64,
 }
 
@@ -33,16 +32,16 @@ pub struct Budget {
 pub struct BudgetPart {
     /// Name of its column in files.
     pub name: &'static str,
-    /// Name for people.
+    /// Name in explanations.
     pub heading: &'static str,
-    /// How it is computed, in a line.
+    /// Its formula, in words.
     pub how: &'static str,
     /// Its value in m g.
     pub value: fn(&Budget) -> f64,
 }
 
 impl Budget {
-    /// The parts, in order. What is missing here is missing from the uncertainty.
+    /// The parts, in order; the uncertainty is their sum.
     pub const PARTS: [BudgetPart; 7] = [
         BudgetPart {
             name: "wall_speed",
@@ -88,8 +87,8 @@ impl Budget {
         },
     ];
 
-    /// The expanded uncertainty: the sum of the parts, as if they all conspired. It is never below their root
-    /// sum of squares, by which V&V 20 combines independent parts.
+    /// The expanded uncertainty: the sum of the parts, which is never below their root sum of squares, by which V&V 20
+    /// combines independent parts.
     pub fn total(&self) -> f64 {
         Self::PARTS.iter().map(|part| (part.value)(self)).sum()
     }
@@ -102,18 +101,18 @@ pub struct Extrapolation {
     pub force: f64,
     /// The same with the straight line through the two slower ones.
     pub first_order: f64,
-    /// Where its uncertainty comes from.
+    /// The parts of its uncertainty.
     pub budget: Budget,
-    /// How fast the differences between the speeds shrink.
+    /// The order at which the differences between the speeds shrink.
     pub order: ConvergenceOrder,
 }
 
-/// ConvergenceOrder of convergence in the wall speed.
+/// The order of convergence in the wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvergenceOrder {
     /// log₂ of the ratio of successive differences; absent where they are lost in noise.
     pub observed: Option<f64>,
-    /// How far the observed order may be from the expected one: what noise and curvature do to it.
+    /// Largest distance of the observed order from the expected one that noise and curvature explain.
     pub allowance: f64,
 }
 
@@ -121,7 +120,7 @@ impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
     pub const EXPECTED: f64 = 1.0;
 
-    /// From forces at three speeds, each half the one before, known up to `noise`. The term of second order
+    /// The order of forces at three speeds, each half the one before, known up to `noise`. The term of second order
     /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
     /// that moves the order by less than 0.01. Five times as much is allowed.
     fn of(forces: &[f64], noise: f64) -> Self {
@@ -141,7 +140,7 @@ impl ConvergenceOrder {
         }
     }
 
-    /// Whether the runs converge as they should, as far as can be seen.
+    /// Whether the observed order, if there is one, is the expected one.
     pub fn is_expected(&self) -> bool {
         let off = |observed: f64| (observed - Self::EXPECTED).abs();
         self.observed

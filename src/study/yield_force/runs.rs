@@ -1,4 +1,4 @@
-//! Which runs a measurement consists of, by their positions: what plan and extrapolation agree on.
+//! The runs of a measurement by their positions, which plan and extrapolation share.
 
 /// Wall speeds in units of the predicted displacement (see `speed_scale`), fastest first, each half the one before.
 pub const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];

@@ -1,4 +1,4 @@
-//! How fast the top wall may touch the stack.
+//! The largest speed at which the top wall touches the stack without making the floor slide.
 
 use crate::dem::compress_stack;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};

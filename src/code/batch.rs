@@ -19,7 +19,7 @@ const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
 
 /// Some tasks of one kind for one process.
-pub struct Batch<'a, T: Task> {
+pub(crate) struct Batch<'a, T: Task> {
     program: &'a InstalledProgram,
     definition: &'static Definition,
     result: ResultFile,
@@ -58,7 +58,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     /// Number of tasks up to the last reported one. Those beyond it were never started.
-    pub fn settled(&self) -> usize {
+    pub(crate) fn settled(&self) -> usize {
         let last = self.reported.iter().rposition(|&reported| reported);
         last.map_or(0, |index| index + 1)
     }

@@ -12,7 +12,7 @@ use crate::series::Series;
 use std::ops::Range;
 
 /// An installed external code.
-pub struct ExternalCode {
+pub(crate) struct ExternalCode {
     program: InstalledProgram,
     identity: Identity,
 }

@@ -73,7 +73,7 @@ impl Failure {
     }
 
     /// Whether the run directory holds output that helps to find the cause.
-    pub fn left_evidence(&self) -> bool {
+    pub(crate) fn left_evidence(&self) -> bool {
         self.run_directory.is_some() && !self.is_interrupted()
     }
 

@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The command of `tristack` that runs a guard.
-pub const COMMAND: &str = "guard";
+pub(crate) const COMMAND: &str = "guard";
 /// Its flag for a program without a network.
 const OFFLINE: &str = "--offline";
 const THIS_PROGRAM: &str = "/proc/self/exe";
@@ -94,7 +94,7 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
 
 /// Ends this program by the signal in `status`, or returns the exit code in it, so that the parent process sees how
 /// the external program ended.
-pub fn end_like(status: ExitStatus) -> i32 {
+pub(crate) fn end_like(status: ExitStatus) -> i32 {
     if let Some(signal) = status.signal().and_then(|it| Signal::try_from(it).ok()) {
         // The first may only remove the handler of the runtime.
         let _ = raise(signal);

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "unknown";
 
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Installation {
+pub(crate) struct Installation {
     /// The program.
     pub program: PathBuf,
     /// Its own version, or that of its package.
@@ -38,7 +38,7 @@ impl Installation {
     ///
     /// # Errors
     /// If it has been replaced.
-    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+    pub(crate) fn check_unchanged(&self) -> Result<(), FailureKind> {
         let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
         let replaced = || FailureKind::Replaced(self.program.clone());
         unchanged.then_some(()).ok_or_else(replaced)
@@ -58,7 +58,7 @@ impl Stamp {
 }
 
 /// A code whose program is installed.
-pub struct InstalledProgram {
+pub(crate) struct InstalledProgram {
     /// The code it belongs to.
     pub code: Code,
     /// First word of the command: that of the manifest, or a build in another precision.

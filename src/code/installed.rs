@@ -10,7 +10,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Progress callback: index of the case, steps done.
-pub type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
+pub(crate) type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
 
 /// Where and how runs are made.
 #[derive(Clone, Copy)]

@@ -193,7 +193,7 @@ pub(super) struct TaskFiles {
 /// Properties of a code's time integration that show in a comparison with its native twin.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Integration {
+pub(crate) struct Integration {
     /// Steps by which reported velocities lag behind reported positions.
     pub velocity_lag: f64,
     /// The origin of its angles.
@@ -215,7 +215,7 @@ impl Default for Integration {
 /// The origin of the angles of a code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Angle {
+pub(crate) enum Angle {
     /// The integrator turns the body by spin × time step.
     Exact,
     /// The deck sums the spin by the trapezoidal rule.

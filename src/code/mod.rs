@@ -22,15 +22,17 @@ mod written;
 pub use definition::ManifestError;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
-pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
+pub(crate) use guard::{COMMAND as GUARD_COMMAND, end_like};
+pub use guard::{guard, guard_foreign_programs};
 pub use installation::version_in_answer;
-pub use installed::{Advanced, Batching, Finished, InstalledCode, RunContext, Tasks};
-pub use manifest::{Angle, Colour, Definition, Integration, Mark, Shape, TaskKind};
+pub use installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+pub(crate) use manifest::Angle;
+pub use manifest::{Colour, Definition, Mark, Shape, TaskKind};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
 pub use task::Task;
-pub use written::keep_evidence;
+pub(crate) use written::keep_evidence;
 
 impl Code {
     /// The code as it is installed here; `None` if it is not.

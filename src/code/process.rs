@@ -18,9 +18,9 @@ const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 
 /// Names of the files that receive the output of a program.
-pub const STANDARD_OUTPUT: &str = "stdout.txt";
+pub(crate) const STANDARD_OUTPUT: &str = "stdout.txt";
 /// See [`STANDARD_OUTPUT`].
-pub const STANDARD_ERROR: &str = "stderr.txt";
+pub(crate) const STANDARD_ERROR: &str = "stderr.txt";
 
 /// Variables for the environment of a program.
 pub type Environment = BTreeMap<String, String>;
@@ -41,13 +41,13 @@ impl Interrupt {
     }
 
     /// Whether a stop was requested.
-    pub fn requested(&self) -> bool {
+    pub(crate) fn requested(&self) -> bool {
         self.0.load(Ordering::SeqCst)
     }
 }
 
 /// A program to run.
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// Program, and the arguments given to it as they are.
     pub command: &'a [OsString],
     /// Its working directory.
@@ -64,7 +64,7 @@ pub struct Job<'a> {
 
 /// How a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub(crate) enum Ending {
     /// By itself.
     Exited(ExitStatus),
     /// Killed after the time limit.

@@ -83,7 +83,7 @@ impl Code {
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
-    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+    pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
         let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let mut registry = registry();
         if !registry.folders.contains_key(&place) {
@@ -147,7 +147,7 @@ impl Code {
     }
 
     /// Whether an earlier variant of its folder has the same contacts.
-    pub fn repeats_another(self) -> bool {
+    pub(crate) fn repeats_another(self) -> bool {
         self.earlier_variants()
             .any(|code| code.convention() == self.convention())
     }
@@ -158,7 +158,7 @@ impl Code {
     }
 
     /// Properties of its time integration.
-    pub fn integration(self) -> Integration {
+    pub(crate) fn integration(self) -> Integration {
         self.definition().integration
     }
 
@@ -171,12 +171,12 @@ impl Code {
     }
 
     /// Whether the convention is part of the case rather than of the code.
-    pub fn accepts_any_convention(self) -> bool {
+    pub(crate) fn accepts_any_convention(self) -> bool {
         self == Self::NATIVE
     }
 
     /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
-    pub fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+    pub(crate) fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
         }
@@ -195,7 +195,7 @@ impl Code {
     }
 
     /// Refuses a preparation for which the code has no deck.
-    pub fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
+    pub(crate) fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
         self.check_task(TaskKind::of(asked))
     }
 
@@ -205,7 +205,7 @@ impl Code {
     }
 
     /// Refuses a kind of task for which the code has no deck.
-    pub fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
+    pub(crate) fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
         if self.definition().runs(kind) {
             return Ok(());
         }
@@ -231,12 +231,12 @@ impl Code {
     }
 
     /// Whether it can shorten runs.
-    pub fn takes_shortcuts(self) -> bool {
+    pub(crate) fn takes_shortcuts(self) -> bool {
         self == Self::NATIVE
     }
 
     /// Refuses shortcuts, if they are `asked` for, of a code that has none.
-    pub fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
+    pub(crate) fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
         if !asked || self.takes_shortcuts() {
             return Ok(());
         }
@@ -256,12 +256,12 @@ impl Code {
     }
 
     /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
-    pub fn seconds_per_step(self) -> f64 {
+    pub(crate) fn seconds_per_step(self) -> f64 {
         self.definition().seconds.step
     }
 
     /// How to install it.
-    pub fn installation_hint(self) -> &'static str {
+    pub(crate) fn installation_hint(self) -> &'static str {
         &self.definition().install
     }
 }

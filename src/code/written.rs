@@ -29,7 +29,7 @@ pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError>
 }
 
 /// Keeps the directory of a failed run, with the beginning of every long file.
-pub fn keep_evidence(directory: TempDir) {
+pub(crate) fn keep_evidence(directory: TempDir) {
     let mut directories = vec![directory.keep()];
     while let Some(directory) = directories.pop() {
         let entries = fs::read_dir(directory).into_iter().flatten().flatten();

@@ -40,7 +40,7 @@ impl ContactEstimate {
     }
 
     /// Its formula.
-    pub fn formula(self) -> &'static str {
+    pub(crate) fn formula(self) -> &'static str {
         match self {
             Self::PaperScaling => "epsilon = L rho g/E, L = r (k_n = pi E l)",
             Self::LineContact => "k_n = (pi/4) E* l, E* = E/(2 (1 - nu^2))",
@@ -49,7 +49,7 @@ impl ContactEstimate {
     }
 
     /// k_n in N/m at the overlap G of the contact in r.
-    pub fn normal_stiffness(self, cylinder: &Cylinder, overlap: f64) -> f64 {
+    pub(crate) fn normal_stiffness(self, cylinder: &Cylinder, overlap: f64) -> f64 {
         let effective = cylinder.effective_modulus() * cylinder.length;
         match self {
             Self::PaperScaling => PI * cylinder.youngs_modulus * cylinder.length,

@@ -20,7 +20,7 @@ use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Standard gravity in m/s².
-pub const GRAVITY: f64 = 9.806_65;
+pub(crate) const GRAVITY: f64 = 9.806_65;
 
 /// L of the paper's estimates in m.
 const PAPER_LENGTH: f64 = 0.01;
@@ -49,7 +49,7 @@ impl Cylinder {
     }
 
     /// The same cylinder with the density that gives it `mass`, in kg.
-    pub fn weighing(self, mass: f64) -> Self {
+    pub(crate) fn weighing(self, mass: f64) -> Self {
         let volume = PI * self.radius * self.radius * self.length;
         Self {
             density: mass / volume,
@@ -65,23 +65,6 @@ impl Cylinder {
     /// The paper's elastomer: 1 MPa, 1000 kg/m³, L = 1 cm, m = ρ L³ = 1 g ("Concluding remarks"). ν = 1/2.
     pub fn paper_elastomer() -> Self {
         Self::paper(1e6, 0.5, PAPER_MASS / PAPER_LENGTH.powi(3))
-    }
-
-    /// The paper's wood: m = 1 g. What the paper leaves out is filled in with E = 1 GPa, ρ = 500 kg/m³ and
-    /// ν = 0.3, all of the order of soft wood across its grain.
-    pub fn paper_wood() -> Self {
-        Self::paper(1e9, 0.3, 500.0)
-    }
-
-    /// The wooden cylinders of the paper's movies, r = 20 mm, l = 40 mm, m = 21.9 g (supplement III), with E
-    /// and ν of [`Cylinder::paper_wood`].
-    pub fn paper_movie() -> Self {
-        let cylinder = Self {
-            radius: 0.02,
-            length: 0.04,
-            ..Self::paper_wood()
-        };
-        cylinder.weighing(0.0219)
     }
 
     /// r = L, and l = L/π makes the mass ρ L³.

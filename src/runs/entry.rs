@@ -32,7 +32,7 @@ impl Archive {
     }
 
     /// The same archive with its drafts in `drafts`, a directory in the same file system.
-    pub fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
+    pub(crate) fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
         let drafts = drafts.into();
         Self { drafts, ..self }
     }
@@ -92,7 +92,7 @@ impl Archive {
     ///
     /// # Errors
     /// If the file system refuses.
-    pub fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
+    pub(crate) fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
         create_parent(target)?;
         match fs::rename(self.root.join(name), target) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),

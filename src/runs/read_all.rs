@@ -33,7 +33,7 @@ impl Reading for RunSummary {
 
 /// Carries out the cases of all workloads and reads every run. Where a code is not installed and the series of
 /// a run is not recorded, its recorded summary stands in.
-pub fn read_all<R: Reading>(
+pub(crate) fn read_all<R: Reading>(
     workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,

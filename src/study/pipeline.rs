@@ -59,7 +59,7 @@ impl<S, F> Judged<S, F> {
     }
 
     /// Whether it is based on recorded runs.
-    pub fn is_recorded(&self) -> bool {
+    pub(crate) fn is_recorded(&self) -> bool {
         self.source == Source::Recorded && self.verdict() != Verdict::Missing
     }
 
@@ -114,7 +114,7 @@ impl<'a> Campaign<'a> {
     }
 
     /// The same by value.
-    pub fn into_probes(self) -> Vec<Probed> {
+    pub(crate) fn into_probes(self) -> Vec<Probed> {
         self.probes();
         self.probes.into_inner().unwrap_or_default()
     }
@@ -125,7 +125,10 @@ impl<'a> Campaign<'a> {
     }
 
     /// The same for workloads of the native code, which need not take part in the campaign.
-    pub fn read_native<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
+    pub(crate) fn read_native<R: Reading>(
+        &self,
+        workloads: &[Workload],
+    ) -> Vec<Vec<Result<R, RunError>>> {
         let native = [SelectedCode::find(Code::NATIVE)];
         read_all(workloads, &native, self.settings, self.progress)
     }

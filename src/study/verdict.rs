@@ -57,7 +57,7 @@ pub const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
 /// An uncertainty above it decides nothing.
-pub const MAX_TOLERANCE: f64 = 1e-5;
+pub(crate) const MAX_TOLERANCE: f64 = 1e-5;
 
 /// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
 /// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
@@ -87,7 +87,7 @@ impl Source {
 
 /// A ground for or against a row.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Ground {
+pub(crate) enum Ground {
     /// A number was compared with its expected value.
     Deviation {
         /// Measured minus expected.
@@ -188,7 +188,7 @@ impl Grounds {
     }
 
     /// Adds a ground.
-    pub fn add(&mut self, ground: Ground) {
+    pub(crate) fn add(&mut self, ground: Ground) {
         self.0.push(ground);
     }
 
@@ -252,7 +252,7 @@ impl Grounds {
     }
 
     /// Whether the reference is the right one.
-    pub fn is_judged(&self) -> bool {
+    pub(crate) fn is_judged(&self) -> bool {
         let not_judged = |ground: &Ground| matches!(ground, Ground::NotJudged { .. });
         !self.0.iter().any(not_judged)
     }

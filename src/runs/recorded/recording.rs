@@ -53,7 +53,7 @@ impl RecordedRun {
     }
 
     /// A run of which only the summary is kept.
-    pub fn without_series(summary: RunSummary) -> Self {
+    pub(crate) fn without_series(summary: RunSummary) -> Self {
         let series = None;
         Self { summary, series }
     }

@@ -106,7 +106,7 @@ pub struct Workload {
 
 /// Carries out `workloads` and returns, case by case, the result of `keep` for each run. The runs themselves are
 /// dropped at once, so that memory does not grow with their number.
-pub fn run_all<T: Clone + Send>(
+pub(crate) fn run_all<T: Clone + Send>(
     workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,

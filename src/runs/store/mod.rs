@@ -136,7 +136,7 @@ impl Store {
     ///
     /// # Errors
     /// If it cannot be moved.
-    pub fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+    pub(crate) fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         let aside = self.aside(address);
         self.archive.move_away(&name(address), &aside)?;
         Ok(aside)
@@ -157,7 +157,7 @@ impl Store {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
+    pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
         self.put_sealed(&self.path(PROBES, address), &record.to_json())
     }
 
@@ -165,7 +165,7 @@ impl Store {
     ///
     /// # Errors
     /// If it cannot be moved.
-    pub fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+    pub(crate) fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         self.put_file_aside(PROBES, address)
     }
 
@@ -186,7 +186,7 @@ impl Store {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn put_observation(
+    pub(crate) fn put_observation(
         &self,
         run: &EventRun,
         observation: &Observation,
@@ -203,7 +203,7 @@ impl Store {
     ///
     /// # Errors
     /// If it cannot be moved.
-    pub fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
+    pub(crate) fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
         self.put_file_aside(OBSERVATIONS, &run.address())
     }
 
@@ -230,7 +230,7 @@ impl Store {
     }
 
     /// Directory of the run directories; those of failed runs stay.
-    pub fn work_directory(&self) -> &Path {
+    pub(crate) fn work_directory(&self) -> &Path {
         self.session.work()
     }
 

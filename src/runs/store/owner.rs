@@ -18,7 +18,7 @@ pub struct LockOwner {
 
 impl LockOwner {
     /// This program.
-    pub fn this_program() -> Self {
+    pub(crate) fn this_program() -> Self {
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname");
         let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         Self {

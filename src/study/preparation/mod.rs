@@ -10,8 +10,7 @@ mod plan;
 mod study;
 
 pub use critical::{CriticalPush, critical_pushes};
-pub use plan::{PreparationPlan, between_side_walls, plan_preparation};
-pub use study::{
-    Estimator, PreparationRow, PreparationStudy, preparation_cases, preparation_studies,
-    study_preparation,
-};
+pub(crate) use plan::between_side_walls;
+pub use plan::{PreparationPlan, plan_preparation};
+pub use study::{Estimator, PreparationRow, PreparationStudy, study_preparation};
+pub(crate) use study::{preparation_cases, preparation_studies};

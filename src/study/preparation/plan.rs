@@ -13,7 +13,7 @@ const FINE_FROM: f64 = 0.5;
 const FINER: f64 = 0.5;
 
 /// `protocol`, planned for a gravity ramp, with a preparation between side walls in its place.
-pub fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
+pub(crate) fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
     Protocol {
         preparation: Preparation::SideWalls(walls),
         wall_travel: FURTHER * protocol.wall_travel,

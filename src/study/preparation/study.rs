@@ -69,7 +69,7 @@ pub struct PreparationStudy {
 
 impl PreparationStudy {
     /// The rows of `code` with the convention of `convention_of`.
-    pub fn rows_of(
+    pub(crate) fn rows_of(
         &self,
         code: Code,
         convention_of: Code,
@@ -77,12 +77,6 @@ impl PreparationStudy {
         let own =
             move |row: &&PreparationRow| row.code == code && row.convention_of == convention_of;
         self.rows.iter().filter(own)
-    }
-
-    /// The row of the native twin of `row`.
-    pub fn twin_of(&self, row: &PreparationRow) -> Option<&PreparationRow> {
-        let mut twins = self.rows_of(Code::NATIVE, row.convention_of);
-        twins.find(|twin| twin.push == row.push)
     }
 
     /// By how much F at `push` is above F at A = 0, natively under the paper's convention, relative to
@@ -108,7 +102,7 @@ const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 ///
 /// # Errors
 /// See [`study_preparation`].
-pub fn preparation_studies(
+pub(crate) fn preparation_studies(
     campaign: &Campaign,
     codes: &[Code],
 ) -> Result<Vec<PreparationStudy>, RunError> {
@@ -126,7 +120,7 @@ pub fn preparation_studies(
 ///
 /// # Errors
 /// If a step of the bisection failed.
-pub fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
+pub(crate) fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
     let critical = critical_pushes(campaign, &[stack])?;
     let critical = critical.first().and_then(Option::as_ref);

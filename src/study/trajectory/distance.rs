@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Deviations whose first time is reported, in the unit of the quantity.
-pub const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
+pub(crate) const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// A quantity that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -83,7 +83,7 @@ impl Branch {
 
 /// The rows of a series at which its branches end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Milestones {
+pub(crate) struct Milestones {
     /// The wall force is highest.
     pub peak: usize,
     /// The first row without a wall force after that.

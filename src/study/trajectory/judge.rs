@@ -7,15 +7,15 @@ use std::f64::consts::LN_2;
 
 /// Largest distance of the wall force up to its peak that agrees, at the finest time step, in units of the
 /// peak.
-pub const FORCE_TOLERANCE: f64 = 1e-6;
+pub(crate) const FORCE_TOLERANCE: f64 = 1e-6;
 
 /// Largest deviation from a documented order that agrees. Orders are whole numbers: half of this would still
 /// tell them apart, and a half could not.
-pub const ORDER_TOLERANCE: f64 = 0.25;
+pub(crate) const ORDER_TOLERANCE: f64 = 0.25;
 
 /// The order seen in distances.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObservedOrder {
+pub(crate) struct ObservedOrder {
     /// log₂ of the ratio of two distances.
     pub order: f64,
     /// Its uncertainty from the next order in the time step.
@@ -33,7 +33,7 @@ impl ObservedOrder {
 
 /// log₂ of the ratio of two distances, the second at half the time step of the first; `None` if one of them
 /// is zero.
-pub fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
+pub(crate) fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
     let ratio = coarse.largest / fine.largest;
     (ratio.is_finite() && ratio > 0.0).then(|| libm::log2(ratio))
 }
@@ -43,7 +43,7 @@ pub fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
 /// A distance C hᵖ (1 + B h) gives the order p + B h/(2 ln 2) between h and h/2, and half of that excess
 /// between h/2 and h/4. The difference of the two orders is therefore the excess of the finer pair, and half
 /// the excess of the coarser one, which rounding disturbs less.
-pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
+pub(crate) fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     let [coarse, middle, fine] = distances else {
         return None;
     };
@@ -67,7 +67,7 @@ pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
 
 /// The grounds that `distances`, coarsest time step first, give for or against their documented order. `step_error`,
 /// the largest change of the twin itself when its time step is halved, bounds distances that fall irregularly.
-pub fn judge_order(
+pub(crate) fn judge_order(
     documented: DocumentedOrder,
     distances: &[Distance],
     step_error: f64,

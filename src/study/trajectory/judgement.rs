@@ -67,7 +67,7 @@ impl Comparison {
     }
 
     /// The order between the two finest time steps; `None` if there is nothing but rounding.
-    pub fn last_order(&self) -> Option<f64> {
+    pub(crate) fn last_order(&self) -> Option<f64> {
         let [.., coarser, finest] = self.distances.as_slice() else {
             return None;
         };

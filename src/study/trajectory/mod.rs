@@ -12,10 +12,9 @@ mod judge;
 mod judgement;
 mod plan;
 
-pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
+pub use distance::{Branch, Distance, Quantity};
 pub use documented::{Documented, DocumentedOrder, documented};
-pub use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
+pub(crate) use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
 pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement};
-pub use plan::{
-    TIME_STEPS, Trajectory, Twin, TwinRuns, WALL_SPEED, plan_trajectory, trajectory_stack,
-};
+pub(crate) use plan::WALL_SPEED;
+pub use plan::{TIME_STEPS, Trajectory, Twin, TwinRuns, plan_trajectory, trajectory_stack};

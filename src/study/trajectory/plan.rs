@@ -8,7 +8,7 @@ use crate::theory::quasistatic_limit;
 use serde::{Deserialize, Serialize};
 
 /// Wall speed in r √(k_n/m): fast enough for inertia and damping to show, slow enough for a yield.
-pub const WALL_SPEED: f64 = 1e-3;
+pub(crate) const WALL_SPEED: f64 = 1e-3;
 
 /// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the first
 /// touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.

@@ -29,7 +29,7 @@ pub struct Budget {
 
 /// One part of a [`Budget`], as tables and explanations give it.
 #[derive(Debug, Clone, Copy)]
-pub struct BudgetPart {
+pub(crate) struct BudgetPart {
     /// Name of its column in files.
     pub name: &'static str,
     /// Name in explanations.
@@ -42,7 +42,7 @@ pub struct BudgetPart {
 
 impl Budget {
     /// The parts, in order; the uncertainty is their sum.
-    pub const PARTS: [BudgetPart; 7] = [
+    pub(crate) const PARTS: [BudgetPart; 7] = [
         BudgetPart {
             name: "wall_speed",
             heading: "wall speed",
@@ -118,7 +118,7 @@ pub struct ConvergenceOrder {
 
 impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
-    pub const EXPECTED: f64 = 1.0;
+    pub(crate) const EXPECTED: f64 = 1.0;
 
     /// The order of forces at three speeds, each half the one before, known up to `noise`. The term of second order
     /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
@@ -141,7 +141,7 @@ impl ConvergenceOrder {
     }
 
     /// Whether the observed order, if there is one, is the expected one.
-    pub fn is_expected(&self) -> bool {
+    pub(crate) fn is_expected(&self) -> bool {
         let off = |observed: f64| (observed - Self::EXPECTED).abs();
         self.observed
             .is_none_or(|observed| off(observed) <= self.allowance)

@@ -290,7 +290,7 @@ const GRAINY_STEPS: f64 = 4.0;
 
 /// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
 /// `reference`; `None` where nothing is planned.
-pub fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
+pub(crate) fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
     let travel = measurement.limit.wall_travel?;
     let fastest = &measurement.cases.first()?.protocol;
     let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;

@@ -51,9 +51,9 @@ fn accepted(range: Option<(f64, f64)>) -> String {
 }
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
-pub const PAPER_WALL_SPEED: f64 = 1e-6;
+pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
 /// Time step of the paper, in √(m/k_n) (supplement I.C).
-pub const PAPER_TIME_STEP: f64 = 1e-3;
+pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
 /// Wall speeds of a literal measurement: the paper's, and twice it to estimate its error.
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
@@ -95,7 +95,11 @@ pub fn plan(code: Code, stack: &Stack, convention: ContactConvention) -> Measure
 }
 
 /// Plans the measurement of `stack` as the paper made it.
-pub fn plan_literal(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
+pub(crate) fn plan_literal(
+    code: Code,
+    stack: &Stack,
+    convention: ContactConvention,
+) -> Measurement {
     planned(code, stack, convention, Method::Literal)
 }
 
@@ -116,7 +120,7 @@ impl Measurement {
     ///
     /// Literal measurements, and those of codes without shortcuts, are unchanged.
     #[must_use]
-    pub fn shortened(mut self) -> Self {
+    pub(crate) fn shortened(mut self) -> Self {
         let fastest = self.cases.first().map(|case| case.protocol.wall_speed);
         let (Some(fastest), Some(travel)) = (fastest, self.limit.wall_travel) else {
             return self;
@@ -230,7 +234,7 @@ fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the
 /// speeds of a measurement are measured. `None` where nothing yields.
-pub fn planned_protocol(
+pub(crate) fn planned_protocol(
     limit: &Limit,
     stack: &Stack,
     convention: &ContactConvention,
@@ -279,7 +283,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The refusal to run a stack that does not yield, with what would be accepted.
-pub fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
+pub(crate) fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
     NoYield {
         stack: *stack,
         reason: limit
@@ -293,7 +297,7 @@ pub fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) ->
 
 /// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
 /// four digits; `None` if there is none.
-pub fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
+fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
     const GRID: f64 = 0.01;
     let yields = |floor_friction: f64| {
         let stack = Stack {

@@ -5,7 +5,7 @@ use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// Stiffnesses 1/ε of the paper (supplement I.A).
-pub const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
+pub(crate) const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
 
 /// Frictions of the quick profile.
 const QUICK_FRICTIONS: [f64; 6] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];

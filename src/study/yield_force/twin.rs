@@ -18,7 +18,7 @@ pub struct TwinForce {
 ///
 /// # Errors
 /// If one of its runs fails.
-pub fn measure_with_twin(
+pub(crate) fn measure_with_twin(
     measurement: &Measurement,
     settings: &Settings,
     progress: &dyn Progress,

@@ -66,9 +66,6 @@ static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
 
 /// Runs `command` until it ends or standard input is closed, without a network if `offline`, and kills all its
 /// descendants.
-///
-/// # Errors
-/// If it cannot be started that way.
 pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus> {
     set_child_subreaper(true)?;
     limit(Resource::RLIMIT_CORE, 0)?;

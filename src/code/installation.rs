@@ -21,7 +21,6 @@ const UNKNOWN: &str = "unknown";
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Installation {
-    /// The program.
     pub program: PathBuf,
     /// Its own version, or that of its package.
     pub version: String,
@@ -35,9 +34,6 @@ pub(crate) struct Installation {
 
 impl Installation {
     /// Refuses a program that has been replaced since it was found.
-    ///
-    /// # Errors
-    /// If it has been replaced.
     pub(crate) fn check_unchanged(&self) -> Result<(), FailureKind> {
         let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
         let replaced = || FailureKind::Replaced(self.program.clone());

@@ -86,9 +86,6 @@ impl dyn InstalledCode + '_ {
     }
 
     /// The motions of micro-tests, in order.
-    ///
-    /// # Errors
-    /// The first failure, if there is one.
     pub fn probe(
         &self,
         tests: &[ContactTest],

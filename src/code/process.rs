@@ -75,9 +75,6 @@ pub(crate) enum Ending {
 
 /// Runs `job` to its end, with its output in files of its directory. `progress` is polled while it runs; whenever
 /// it returns true, the time limit starts anew.
-///
-/// # Errors
-/// If the program cannot be started or watched.
 pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending> {
     let output = File::create(job.directory.join(STANDARD_OUTPUT))?;
     let error = File::create(job.directory.join(STANDARD_ERROR))?;
@@ -94,9 +91,6 @@ pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending>
 }
 
 /// Runs a short `job` to its end; returns how it ended and what it wrote to its standard output.
-///
-/// # Errors
-/// If the program cannot be started or watched.
 pub fn answer(job: &Job) -> std::io::Result<(Ending, Vec<u8>)> {
     let mut child = spawn(job)?;
     let output = child.stdout().take();

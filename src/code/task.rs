@@ -41,9 +41,6 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     }
 
     /// Reads the outcome that a program has written into `directory`.
-    ///
-    /// # Errors
-    /// If it is not there, or is not that of the task.
     fn read_outcome(
         &self,
         directory: &Path,

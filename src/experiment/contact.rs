@@ -39,7 +39,6 @@ impl ContactEstimate {
         }
     }
 
-    /// Its formula.
     pub(crate) fn formula(self) -> &'static str {
         match self {
             Self::PaperScaling => "epsilon = L rho g/E, L = r (k_n = pi E l)",

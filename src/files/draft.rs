@@ -109,9 +109,6 @@ pub(crate) fn sync_directory(directory: &Path) -> Result<(), FileError> {
 }
 
 /// Creates the directory for `target`, if there is none, and makes it last.
-///
-/// # Errors
-/// If the file system refuses.
 pub(crate) fn create_parent(target: &Path) -> Result<PathBuf, FileError> {
     let directory = parent(target);
     if !directory.is_dir() {

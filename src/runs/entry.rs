@@ -89,9 +89,6 @@ impl Archive {
     }
 
     /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
-    ///
-    /// # Errors
-    /// If the file system refuses.
     pub(crate) fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
         create_parent(target)?;
         match fs::rename(self.root.join(name), target) {

@@ -47,9 +47,6 @@ fn is_same(left: &ContactTest, right: &ContactTest) -> bool {
 
 impl ProbeRecord {
     /// Reads the record in the `text` of the file at `path`.
-    ///
-    /// # Errors
-    /// If it is damaged.
     pub fn parse(text: &[u8], path: &Path) -> Result<Self, FileError> {
         let record: Self = parse_json(text, path)?;
         for Answer { test, motion, .. } in &record.answers {

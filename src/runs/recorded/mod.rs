@@ -7,7 +7,7 @@ mod table;
 
 pub use recording::{RecordedRun, Recording};
 
-use crate::code::{Code, Provenance, Run};
+use crate::code::{Code, Run};
 use crate::files::FileError;
 use crate::model::{Case, shown};
 use crate::runs::{ProbeRecord, RunSummary};
@@ -157,9 +157,6 @@ impl Recorded {
     }
 
     /// The recorded runs of `code`, made with any deck.
-    ///
-    /// # Errors
-    /// If it is damaged.
     pub fn recording(&self, code: Code) -> Result<Recording, FileError> {
         let directory = self.directory();
         let table = self.read(&table_path(directory, code))?;
@@ -182,8 +179,17 @@ impl Recorded {
             let what = "run of this case";
             return Err(RecordedError::Absent { code, what, path });
         };
-        up_to_date(code, case, path, &row.summary.provenance)?;
-        Ok(row)
+        let recorded = row.summary.provenance.deck_hash.clone();
+        let current = code.deck_hash(case);
+        if recorded == current {
+            return Ok(row);
+        }
+        Err(RecordedError::OtherDeck {
+            code,
+            path,
+            recorded,
+            current,
+        })
     }
 
     fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
@@ -237,23 +243,4 @@ impl Recorded {
         let directory = self.directory.as_deref();
         directory.unwrap_or(Path::new(IN_THE_PROGRAM))
     }
-}
-
-/// Refuses what was made with another deck than today's.
-fn up_to_date(
-    code: Code,
-    case: &Case,
-    path: PathBuf,
-    provenance: &Provenance,
-) -> Result<(), RecordedError> {
-    let (recorded, current) = (provenance.deck_hash.clone(), code.deck_hash(case));
-    if recorded == current {
-        return Ok(());
-    }
-    Err(RecordedError::OtherDeck {
-        code,
-        path,
-        recorded,
-        current,
-    })
 }

@@ -79,9 +79,6 @@ impl Recording {
     }
 
     /// Writes the table and the archive of `code` in `directory`, in place of older ones.
-    ///
-    /// # Errors
-    /// If the file system refuses.
     pub fn save(&self, directory: &Path, code: Code) -> Result<(), FileError> {
         let (table, archive) = self.to_files(code);
         write_atomically(&archive_path(directory, code), &archive)?;
@@ -113,9 +110,6 @@ impl Recording {
     }
 
     /// The content of the table and the archive of `code`, read from `directory`.
-    ///
-    /// # Errors
-    /// If one of them is damaged.
     pub fn from_files(
         table: &str,
         archive: &[u8],
@@ -237,9 +231,6 @@ pub(super) fn series_of(
 }
 
 /// The micro-tests among `members` of the archive at `path`.
-///
-/// # Errors
-/// If they are damaged.
 pub(super) fn probe_in(members: &Members, path: &Path) -> Result<Option<ProbeRecord>, FileError> {
     let probe = members.get(PROBE);
     let probe = probe.map(|text| ProbeRecord::parse(text, &path.join(PROBE)));

@@ -111,9 +111,6 @@ impl Store {
     }
 
     /// Keeps a finished run and removes its checkpoint.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub fn put(&self, run: &Run) -> Result<(), FileError> {
         let Provenance {
             identity,
@@ -133,9 +130,6 @@ impl Store {
     }
 
     /// Puts the damaged run under `address` into quarantine, and returns its place there.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
     pub(crate) fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         let aside = self.aside(address);
         self.archive.move_away(&name(address), &aside)?;
@@ -154,17 +148,11 @@ impl Store {
     }
 
     /// Keeps a probe.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
         self.put_sealed(&self.path(PROBES, address), &record.to_json())
     }
 
     /// Puts the damaged probe under `address` into quarantine, and returns its place there.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
     pub(crate) fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         self.put_file_aside(PROBES, address)
     }
@@ -183,9 +171,6 @@ impl Store {
     }
 
     /// Keeps the `observation` of `run`.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub(crate) fn put_observation(
         &self,
         run: &EventRun,
@@ -200,9 +185,6 @@ impl Store {
     }
 
     /// Puts the damaged observation of `run` into quarantine, and returns its place there.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
     pub(crate) fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
         self.put_file_aside(OBSERVATIONS, &run.address())
     }

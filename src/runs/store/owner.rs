@@ -17,7 +17,6 @@ pub struct LockOwner {
 }
 
 impl LockOwner {
-    /// This program.
     pub(crate) fn this_program() -> Self {
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname");
         let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());

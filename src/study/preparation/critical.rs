@@ -25,9 +25,6 @@ pub struct CriticalPush {
 
 /// A* of each of `stacks`, the smallest push beyond which c appears, by bisection, every step a native run
 /// under the paper's convention; `None` where c > 0 already at A = 0, or c = 0 up to A = 2 ε.
-///
-/// # Errors
-/// The first run that failed.
 pub fn critical_pushes(
     campaign: &Campaign,
     stacks: &[Stack],

@@ -99,9 +99,6 @@ const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 
 /// The studies for the paper's figures: every one of `codes` at μ = 0.2 and stiffness 100, and native at frictions
 /// below, at and above the critical one at the stiffnesses 100 and 10⁴.
-///
-/// # Errors
-/// See [`study_preparation`].
 pub(crate) fn preparation_studies(
     campaign: &Campaign,
     codes: &[Code],
@@ -117,9 +114,6 @@ pub(crate) fn preparation_studies(
 }
 
 /// The cases of [`preparation_studies`] that `code` runs.
-///
-/// # Errors
-/// If a step of the bisection failed.
 pub(crate) fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
     let critical = critical_pushes(campaign, &[stack])?;

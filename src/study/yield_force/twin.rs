@@ -15,9 +15,6 @@ pub struct TwinForce {
 }
 
 /// Repeats `measurement` with the twin of its code; `None` if there is no such twin here.
-///
-/// # Errors
-/// If one of its runs fails.
 pub(crate) fn measure_with_twin(
     measurement: &Measurement,
     settings: &Settings,

@@ -67,10 +67,7 @@ impl<'a, T: Task> Batch<'a, T> {
     /// failed; those after it are not reported.
     pub fn run(&mut self, context: &RunContext, report: Report<T>) {
         if context.interrupt.requested() {
-            for index in 0..self.tasks.len() {
-                self.fail(index, FailureKind::Interrupted, report);
-            }
-            return;
+            return self.interrupt_from(0, report);
         }
         if let Err(kind) = self.prepare() {
             // Nothing may be read from directories that have not been cleared.
@@ -94,11 +91,7 @@ impl<'a, T: Task> Batch<'a, T> {
                 let limit = self.time_limit(context);
                 self.fail(delivered, FailureKind::TimedOut(limit), report);
             }
-            Ok(Ending::Interrupted) => {
-                for index in delivered..self.tasks.len() {
-                    self.fail(index, FailureKind::Interrupted, report);
-                }
-            }
+            Ok(Ending::Interrupted) => self.interrupt_from(delivered, report),
             Err(kind) => self.fail(delivered, kind, report),
         }
     }
@@ -203,6 +196,12 @@ impl<'a, T: Task> Batch<'a, T> {
         }
     }
 
+    fn interrupt_from(&mut self, first: usize, report: Report<T>) {
+        for index in first..self.tasks.len() {
+            self.fail(index, FailureKind::Interrupted, report);
+        }
+    }
+
     fn fail(&mut self, index: usize, kind: FailureKind, report: Report<T>) {
         let failure = Failure {
             code: self.program.code,
@@ -267,13 +266,7 @@ fn tail(path: &Path) -> Vec<String> {
         return Vec::new();
     }
     let text = String::from_utf8_lossy(&bytes);
-    let lines: Vec<&str> = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .collect();
-    let skipped = lines.len().saturating_sub(LAST_LINES);
-    lines[skipped..]
-        .iter()
-        .map(|line| (*line).to_owned())
-        .collect()
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let lines: Vec<String> = lines.map(str::to_owned).collect();
+    lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }

@@ -90,7 +90,7 @@ pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending>
     ending
 }
 
-/// Runs a short `job` to its end; returns how it ended and what it wrote to its standard output.
+/// Runs a short `job` to its end; returns how it ended and its standard output.
 pub fn answer(job: &Job) -> std::io::Result<(Ending, Vec<u8>)> {
     let mut child = spawn(job)?;
     let output = child.stdout().take();
@@ -165,7 +165,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
     .spawn()
 }
 
-/// Lets a guard clean up, if there is one; kills what is left.
+/// Lets a guard clean up, if there is one, and kills the remaining processes.
 fn kill(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
     let guarded = child.stdin().take().is_some();
     let start = Instant::now();

@@ -235,8 +235,8 @@ fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
     }
 }
 
-/// F at which the stack gives way at last. Beyond the stiffnesses of the regime map only what the closed form
-/// knows: the yield, and the saturated force of slipping cylinders.
+/// The largest F that the stack carries. Beyond the stiffnesses of the regime map the closed form gives it alone: by
+/// the yield, and by the saturated force of slipping cylinders.
 fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
         && let Some(outcome) = LoadingOutcome::of(stack)

@@ -45,7 +45,7 @@ pub fn seal(content: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// The content of what [`seal`] made, read from the file at `path`.
+/// The content of `sealed`, which [`seal`] made, read from the file at `path`.
 ///
 /// # Errors
 /// If a single bit has changed; the error names the file and both digests.

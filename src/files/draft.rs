@@ -101,7 +101,7 @@ pub(crate) fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError>
     written.map_err(FileError::writing(path))
 }
 
-/// Makes what was renamed into or out of `directory` last through a power failure.
+/// Makes renames into and out of `directory` last through a power failure.
 pub(crate) fn sync_directory(directory: &Path) -> Result<(), FileError> {
     File::open(directory)
         .and_then(|directory| directory.sync_all())

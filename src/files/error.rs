@@ -40,7 +40,7 @@ pub enum FileError {
     Series {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The error.
         source: SeriesError,
     },
     /// A file cannot be understood.
@@ -48,7 +48,7 @@ pub enum FileError {
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The error.
         message: String,
     },
 }

@@ -138,7 +138,7 @@ fn value(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|_| Value::from(text))
 }
 
-/// The values of an object by their joined keys; what is null is absent.
+/// The values of an object by their joined keys, without nulls.
 fn flattened(object: &Value) -> Row {
     let mut row = Row::new();
     flatten(object, "", &mut row);

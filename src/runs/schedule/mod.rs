@@ -20,7 +20,7 @@ pub struct Settings<'a> {
     pub store: Store,
     /// The runs that stand in for codes that are not installed.
     pub recorded: Recorded,
-    /// Whether to ignore what is in the store.
+    /// Whether to ignore stored runs.
     pub fresh: bool,
     /// Runs at the same time.
     pub threads: usize,

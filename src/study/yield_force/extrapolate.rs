@@ -330,7 +330,7 @@ mod tests {
         let budget = result.budget;
         assert!((budget.round_off / (one_step * walked) - 1.0).abs() < 1e-12);
         assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
-        // What the order is known to: the noisiest of the runs, here the longest.
+        // The noise in the order is that of the noisiest run, here the longest.
         let noise = 1e-9 + one_step * 200.0;
         let allowance = ConvergenceOrder::of(&[10.4, 10.2, 10.1], noise).allowance;
         assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);

@@ -282,7 +282,7 @@ fn rounded(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-/// The refusal to run a stack that does not yield, with what would be accepted.
+/// The refusal to run a stack that does not yield, with the accepted frictions.
 pub(crate) fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
     NoYield {
         stack: *stack,

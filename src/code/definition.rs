@@ -14,7 +14,7 @@ const SCHEMA: i64 = 1;
 /// Placeholders that every command knows.
 const DECK: &str = "{deck}";
 const DIRECTORIES: &str = "{directories}";
-/// About twenty times the slowest start, and the slowest step of a stack, ever measured.
+/// About twenty times the slowest start and the slowest step of a stack that were measured.
 pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
 const LONGEST_STEP: Duration = Duration::from_micros(100);
 const SAFETY: f64 = 20.0;

@@ -34,7 +34,7 @@ const LONGEST_FILE: u64 = 1 << 30;
 
 static GUARDED: AtomicBool = AtomicBool::new(false);
 
-/// Guards external programs from now on. Call it only in a program that understands [`COMMAND`].
+/// Guards external programs from now on. Call it only in a program that understands `COMMAND`.
 pub fn guard_foreign_programs() {
     GUARDED.store(true, Ordering::SeqCst);
 }

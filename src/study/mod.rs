@@ -13,5 +13,5 @@ mod verdict;
 pub mod yield_force;
 
 pub use pipeline::{Campaign, Evaluation, Judged, Study};
-pub(crate) use verdict::{Ground, MAX_TOLERANCE};
-pub use verdict::{Grounds, MIN_TOLERANCE, Source, Verdict, tolerance};
+pub(crate) use verdict::Ground;
+pub use verdict::{Grounds, MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict, tolerance};

@@ -57,7 +57,7 @@ pub const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
 /// An uncertainty above it decides nothing.
-pub(crate) const MAX_TOLERANCE: f64 = 1e-5;
+pub const MAX_TOLERANCE: f64 = 1e-5;
 
 /// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
 /// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].

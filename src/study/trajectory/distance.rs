@@ -126,7 +126,7 @@ pub struct Distance {
     pub largest: f64,
     /// Root of the mean square over the rows.
     pub rms: f64,
-    /// Time of the first row that deviates by more than each of [`DEVIATIONS`].
+    /// Time of the first row that deviates by more than each of `DEVIATIONS`.
     pub first_above: [Option<f64>; 3],
     /// The part of the largest distance that may be rounding.
     pub round_off: f64,

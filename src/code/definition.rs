@@ -203,7 +203,7 @@ impl Definition {
 
     /// Whether it runs tasks of this kind.
     pub(super) fn runs(&self, kind: TaskKind) -> bool {
-        self.program.is_none() || self.tasks.get(&kind).is_some()
+        self.program.is_none() || self.tasks.contains_key(&kind)
     }
 
     /// Whether one process carries out many tasks.

@@ -12,7 +12,7 @@ use std::time::Duration;
 /// Progress callback: index of the case, steps done.
 pub(crate) type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
 
-/// Where and how runs are made.
+/// The conditions under which runs are made.
 #[derive(Clone, Copy)]
 pub struct RunContext<'a> {
     /// Directory in which every case gets a run directory of its own.

@@ -106,6 +106,6 @@ pub struct Run {
     pub case: Case,
     /// Its series.
     pub series: Series,
-    /// Where it comes from.
+    /// Its origin.
     pub provenance: Provenance,
 }

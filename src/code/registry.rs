@@ -260,7 +260,7 @@ impl Code {
         self.definition().seconds.step
     }
 
-    /// How to install it.
+    /// Instructions for installing it.
     pub(crate) fn installation_hint(self) -> &'static str {
         &self.definition().install
     }

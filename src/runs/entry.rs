@@ -37,7 +37,7 @@ impl Archive {
         Self { drafts, ..self }
     }
 
-    /// Where the archive is.
+    /// The directory of the archive.
     pub fn root(&self) -> &Path {
         &self.root
     }

@@ -4,7 +4,7 @@ use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
 use super::verdict::{Ground, Grounds, Source, Verdict};
-use crate::code::{Code, Identity};
+use crate::code::{Code, Identity, InstalledCode};
 use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
 use std::sync::OnceLock;
 
@@ -161,13 +161,8 @@ impl<'a> Campaign<'a> {
         }
         let installed = place.and_then(|place| self.codes[place].code.as_deref());
         let identities = identities(results.first());
-        let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
-        versions.dedup();
-        if let Some(code) = installed.filter(|_| versions.is_empty()) {
-            versions.push(&code.identity().version);
-        }
         let mut judged = Judged {
-            version: versions.join(", "),
+            version: versions(&identities, installed),
             source: installed.map_or(Source::Recorded, |_| Source::Live),
             arms_are_measured: probed.is_some_and(arms_are_measured),
             study,
@@ -203,6 +198,16 @@ fn identities<R: Reading>(own: Option<&Vec<Result<R, RunError>>>) -> Vec<Identit
         .flatten()
         .filter_map(|run| run.as_ref().ok());
     runs.map(|run| run.identity().clone()).collect()
+}
+
+/// The version of the runs, all versions if there are several, or that of the `installed` code if there are no runs.
+fn versions(identities: &[Identity], installed: Option<&dyn InstalledCode>) -> String {
+    let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
+    versions.dedup();
+    if let Some(code) = installed.filter(|_| versions.is_empty()) {
+        versions.push(&code.identity().version);
+    }
+    versions.join(", ")
 }
 
 /// All runs, or the reasons why some of them are missing.

@@ -13,6 +13,7 @@ use crate::runs::{LockOwner, in_parallel};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use tempfile::TempDir;
 
 /// Interval at which runs of other programs are looked for.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
@@ -213,17 +214,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         if requests.is_empty() {
             return;
         }
-        let cases: Vec<Case> = requests
-            .iter()
-            .map(|&request| *self.case(request))
-            .collect();
-        let root = self.settings.store.work_directory();
-        let prefix = format!("{}-", job.code.name());
-        let directory = match tempfile::Builder::new().prefix(&prefix).tempdir_in(root) {
+        let cases = requests.iter().map(|&request| *self.case(request));
+        let cases: Vec<Case> = cases.collect();
+        let directory = match self.run_directory(job.code.name()) {
             Ok(directory) => directory,
             Err(error) => {
-                let message = error.to_string();
-                let start = || FailureKind::Start(std::io::Error::other(message.clone()));
+                let start = || FailureKind::Start(std::io::Error::other(error.to_string()));
                 return self.fail_all(job.code, &requests, start);
             }
         };
@@ -249,6 +245,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         if evidence {
             keep_evidence(directory);
         }
+    }
+
+    fn run_directory(&self, code: Code) -> std::io::Result<TempDir> {
+        let prefix = format!("{code}-");
+        let root = self.settings.store.work_directory();
+        tempfile::Builder::new().prefix(&prefix).tempdir_in(root)
     }
 
     /// Claims the requests of `job`, and returns those that are still to be made, by this program.

@@ -1,4 +1,4 @@
-//! How far two series are apart, branch by branch.
+//! The distance between two series, branch by branch.
 
 use crate::series::Sample;
 use serde::{Deserialize, Serialize};
@@ -116,7 +116,7 @@ impl Milestones {
     }
 }
 
-/// How far two series of the same time step are apart in one quantity on one branch, in the unit of the
+/// The distance between two series of the same time step in one quantity on one branch, in the unit of the
 /// quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {

@@ -166,23 +166,14 @@ pub fn extrapolate(
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
     let by_speed = all.get(..SPEEDS.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
-    let straight_line = |runs: [usize; 2]| {
-        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
-        Some(2.0 * middle? - fast?)
-    };
-    let change_without_shortcuts = straight_line(PLAIN_RUNS)
-        .zip(straight_line([0, MIDDLE_RUN]))
-        .map(|(plain, short)| (plain - short).abs());
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
     let force = value_at_zero(&SPEEDS, &forces);
     let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
     let weights = weights_at_zero(&SPEEDS);
     let amplified = |error: &dyn Fn(&Estimate, u64) -> f64| -> f64 {
-        let runs = by_speed.iter().zip(steps);
-        let terms = weights.iter().zip(runs);
-        terms
-            .map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps))
-            .sum()
+        let terms = weights.iter().zip(by_speed.iter().zip(steps));
+        let terms = terms.map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps));
+        terms.sum()
     };
     let rounded = |estimate: &Estimate, steps: u64| {
         let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
@@ -197,7 +188,7 @@ pub fn extrapolate(
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
-        shortcuts: change_without_shortcuts.unwrap_or(0.0),
+        shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
     };
     let noise =
         |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);
@@ -208,6 +199,15 @@ pub fn extrapolate(
         budget,
         order: ConvergenceOrder::of(&forces, noise),
     })
+}
+
+/// Change of the straight line through the two faster runs without their shortcuts; `None` if there are no such runs.
+fn change_without_shortcuts(all: &[Estimate]) -> Option<f64> {
+    let straight_line = |runs: [usize; 2]| {
+        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
+        Some(2.0 * middle? - fast?)
+    };
+    Some((straight_line(PLAIN_RUNS)? - straight_line([0, MIDDLE_RUN])?).abs())
 }
 
 #[cfg(test)]

@@ -175,10 +175,7 @@ pub fn extrapolate(
         let terms = terms.map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps));
         terms.sum()
     };
-    let rounded = |estimate: &Estimate, steps: u64| {
-        let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
-        per_step * (steps as f64).sqrt() * estimate.sensitivity
-    };
+    let rounded = |estimate: &Estimate, steps| round_off(estimate, steps, stiffness);
     let printed =
         |estimate: &Estimate, _| PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity;
     let budget = Budget {
@@ -199,6 +196,12 @@ pub fn extrapolate(
         budget,
         order: ConvergenceOrder::of(&forces, noise),
     })
+}
+
+/// Rounding of positions in so many `steps`, a random walk, as the estimator amplifies it.
+fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
+    let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
+    per_step * (steps as f64).sqrt() * estimate.sensitivity
 }
 
 /// Change of the straight line through the two faster runs without their shortcuts; `None` if there are no such runs.

@@ -1,8 +1,7 @@
 //! Studies: each names the runs that it needs and evaluates them.
 //!
 //! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
-//! all cores, contradicted conventions. [`Grounds`] collects what speaks for and against a row and derives its
-//! verdict.
+//! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
 
 pub mod convention;
 pub mod cost;
@@ -16,4 +15,5 @@ pub mod yield_force;
 
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
-pub use verdict::{Ground, Grounds, Verdict};
+pub(crate) use verdict::Ground;
+pub use verdict::{Grounds, Verdict};

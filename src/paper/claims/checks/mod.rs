@@ -1,4 +1,4 @@
-//! The checks, by subject. Each holds what is printed against something worked out another way.
+//! The checks, by subject. Each compares what is printed with the same thing derived in another way.
 
 mod appendix;
 mod contact_law;
@@ -15,14 +15,21 @@ mod supplement;
 
 use super::finding::Finding;
 use super::printed::PaperTheory;
+use super::truth::YieldState;
 use crate::paper::reproduction::Reproduction;
 
-/// How a check works.
+type TheoryTest = fn(&PaperTheory) -> Finding;
+type StateTest = fn(&PaperTheory, &YieldState) -> f64;
+type RunTest = fn(&PaperTheory, &Reproduction) -> Result<Finding, String>;
+
+/// The data that a check needs.
 enum Test {
-    /// On formulas and theory alone.
-    Theory(fn(&PaperTheory) -> Finding),
-    /// On runs; the error says what is missing.
-    Runs(fn(&PaperTheory, &Reproduction) -> Result<Finding, String>),
+    /// Formulas and theory alone.
+    Theory(TheoryTest),
+    /// The deviation of an equation at every yield state.
+    AtStates(StateTest),
+    /// Runs; the error names those that are missing.
+    Runs(RunTest),
 }
 
 /// A check that claims can name.
@@ -33,23 +40,26 @@ pub struct Check {
 }
 
 impl Check {
-    const fn theory(name: &'static str, test: fn(&PaperTheory) -> Finding) -> Self {
+    const fn theory(name: &'static str, test: TheoryTest) -> Self {
         let test = Test::Theory(test);
         Self { name, test }
     }
 
-    const fn runs(
-        name: &'static str,
-        test: fn(&PaperTheory, &Reproduction) -> Result<Finding, String>,
-    ) -> Self {
+    const fn at_states(name: &'static str, test: StateTest) -> Self {
+        let test = Test::AtStates(test);
+        Self { name, test }
+    }
+
+    const fn runs(name: &'static str, test: RunTest) -> Self {
         let test = Test::Runs(test);
         Self { name, test }
     }
 
-    /// What the check finds in what `paper` says and what was run, or why it cannot find anything.
+    /// Compares `paper` with theory or with the runs; an error says why that is impossible.
     pub fn run(&self, paper: &PaperTheory, runs: Option<&Reproduction>) -> Result<Finding, String> {
         match (&self.test, runs) {
             (Test::Theory(test), _) => Ok(test(paper)),
+            (Test::AtStates(test), _) => Ok(appendix::at_states(|state| test(paper, state))),
             (Test::Runs(test), Some(runs)) => test(paper, runs),
             (Test::Runs(_), None) => Err("this takes DEM runs, and none were made".to_owned()),
         }
@@ -75,7 +85,6 @@ pub fn all() -> impl Iterator<Item = &'static Check> {
     groups.into_iter().flatten()
 }
 
-/// The check of that name.
 pub fn find(name: &str) -> Option<&'static Check> {
     all().find(|check| check.name == name)
 }

@@ -1,9 +1,10 @@
-//! The DEM's contact law as the paper writes it, held against kinematics, energy and the motion it causes.
+//! The DEM's contact law as printed, compared with kinematics, energy and the motion that it causes.
 
 use super::Check;
 use crate::model::Stack;
-use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, worst};
+use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, violation, worst};
 use crate::paper::claims::printed::{PaperTheory, Sliding};
+use crate::paper::claims::truth::{NORMAL_STIFFNESS, RADIUS};
 use crate::theory::{LoadingOutcome, LoadingPhase};
 use nalgebra::Vector2;
 
@@ -22,18 +23,24 @@ pub const CHECKS: &[Check] = &[
     Check::theory("pair-restitution", pair_restitution),
 ];
 
-const STIFFNESS: f64 = 2.3;
 const MASS: f64 = 0.8;
-const RADIUS: f64 = 1.7;
+/// e_r of the paper.
+const RESTITUTION: f64 = 0.7;
 
-/// Numbers without a pattern between −1 and 1.
-fn samples(count: u32) -> impl Iterator<Item = f64> {
-    (1..=count).map(|index| (f64::from(index) * 2.399_963).sin())
+/// An identity at `count` numbers without a pattern between −1 and 1.
+fn at_samples(count: u32, compared: &str, deviation: impl Fn(f64) -> f64) -> Finding {
+    let samples = (1..=count).map(|index| (f64::from(index) * 2.399_963).sin());
+    Finding::identity(samples.map(deviation), compared)
+}
+
+/// The unit vector at an angle from the x-axis.
+fn unit_vector(angle: f64) -> Vector2<f64> {
+    Vector2::new(angle.cos(), angle.sin())
 }
 
 fn overlap(paper: &PaperTheory) -> Finding {
     let deviations = [3.1, 3.39, 3.41].map(|distance| {
-        // How far the surfaces interpenetrate on the line of centres.
+        // Interpenetration of the surfaces on the line of centres.
         let (right_of_left, left_of_right) = (RADIUS, distance - RADIUS);
         (paper.overlap(distance, RADIUS) - (right_of_left - left_of_right)).abs()
     });
@@ -44,10 +51,12 @@ fn overlap(paper: &PaperTheory) -> Finding {
 }
 
 fn normal_force(paper: &PaperTheory) -> Finding {
-    let energy = |overlap: f64| 0.5 * STIFFNESS * overlap.max(0.0).powi(2);
+    let energy = |overlap: f64| 0.5 * NORMAL_STIFFNESS * overlap.max(0.0).powi(2);
     let damping = 0.6;
-    let deviations: Vec<f64> = samples(30)
-        .map(|sample| {
+    at_samples(
+        30,
+        "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact",
+        |sample| {
             let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
             let step = 1e-6;
             let spring = (energy(overlap + step) - energy(overlap - step)) / (2.0 * step);
@@ -57,57 +66,54 @@ fn normal_force(paper: &PaperTheory) -> Finding {
             } else {
                 0.0
             };
-            let force = paper.normal_force(STIFFNESS, damping, overlap, velocity);
+            let force = paper.normal_force(NORMAL_STIFFNESS, damping, overlap, velocity);
             ((force - spring) * velocity - power).abs()
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact",
+        },
     )
 }
 
 fn tangential_spring(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(30)
-        .map(|sample| {
+    at_samples(
+        30,
+        "power of a spring k_t and of a dashpot eta_t",
+        |sample| {
             let contact = Sliding {
-                stiffness: STIFFNESS,
+                stiffness: NORMAL_STIFFNESS,
                 damping: 0.6,
                 stretch: 0.1 * sample,
                 velocity: (5.0 * sample).sin(),
                 cap: f64::INFINITY,
             };
-            let spring_power = -STIFFNESS * contact.stretch * contact.velocity;
+            let spring_power = -NORMAL_STIFFNESS * contact.stretch * contact.velocity;
             let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
             (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
-        })
-        .collect();
-    Finding::identity(deviations, "power of a spring k_t and of a dashpot eta_t")
+        },
+    )
 }
 
 fn pair_tangent(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(20)
-        .map(|sample| {
-            let separation = Vector2::new((9.0 * sample).cos(), (9.0 * sample).sin()) * 3.3;
+    at_samples(
+        20,
+        "product with the line of centres, and n turned by 90 degrees",
+        |sample| {
+            let separation = unit_vector(9.0 * sample) * 3.3;
             let tangent = paper.pair_tangent(separation);
             let quarter_turn = Vector2::new(-separation.y, separation.x).normalize();
             worst([
                 tangent.dot(&separation).abs(),
                 (tangent - quarter_turn).norm(),
             ])
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "product with the line of centres, and n turned by 90 degrees",
+        },
     )
 }
 
-/// Surface velocities at the contact point from v + ω × arm, with arms r along the line of centres.
+/// Surface velocities at the contact point are v + ω × arm, with arms r along the line of centres.
 fn tangential_velocity(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(20)
-        .map(|sample| {
-            let normal = Vector2::new((9.0 * sample).cos(), (9.0 * sample).sin());
+    at_samples(
+        20,
+        "velocities of the two surfaces from rigid motion with arms r",
+        |sample| {
+            let normal = unit_vector(9.0 * sample);
             let velocity = Vector2::new(sample, (3.0 * sample).cos());
             let spins = [(4.0 * sample).sin(), (6.0 * sample).sin()];
             let surface = |spin: f64, arm: Vector2<f64>| Vector2::new(-arm.y, arm.x) * spin;
@@ -116,19 +122,15 @@ fn tangential_velocity(paper: &PaperTheory) -> Finding {
             let tangent = Vector2::new(-normal.y, normal.x);
             let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
             (printed - difference.dot(&tangent)).abs()
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "velocities of the two surfaces from rigid motion with arms r",
+        },
     )
 }
 
-/// A contact dragged at a constant speed: the force must rise to the cap and stay there, the spring stop.
+/// In a contact dragged at a constant speed the force rises to the cap and stays there, and the spring stops.
 fn stick(paper: &PaperTheory) -> Finding {
     let (cap, step) = (0.4, 1e-4);
     let mut contact = Sliding {
-        stiffness: STIFFNESS,
+        stiffness: NORMAL_STIFFNESS,
         damping: 0.0,
         stretch: 0.0,
         velocity: 0.1,
@@ -141,8 +143,8 @@ fn stick(paper: &PaperTheory) -> Finding {
         }
         overshoot = overshoot.max(paper.tangential_force(&contact).abs() / cap - 1.0);
     }
-    let stretch = relative(contact.stretch, cap / STIFFNESS);
-    let one_step = contact.velocity * step * STIFFNESS / cap;
+    let stretch = relative(contact.stretch, cap / NORMAL_STIFFNESS);
+    let one_step = contact.velocity * step * NORMAL_STIFFNESS / cap;
     let evidence = format!(
         "a contact dragged at constant speed: the force reaches the cap, never exceeds it, and the spring stops at \
          mu |f_n|/k_t within one step ({one_step:.1e})"
@@ -150,14 +152,14 @@ fn stick(paper: &PaperTheory) -> Finding {
     Finding::new(worst([overshoot, stretch]), 1.01 * one_step, evidence)
 }
 
-/// The force on both sides of the Coulomb threshold, and where the contact does not move.
+/// The force must be continuous at the Coulomb threshold, and defined where the contact does not move.
 fn cap_direction(paper: &PaperTheory) -> Finding {
     let (cap, damping) = (0.4, 0.05);
     let jump = |velocity: f64| {
-        let threshold = (cap - damping * velocity) / STIFFNESS;
+        let threshold = (cap - damping * velocity) / NORMAL_STIFFNESS;
         let force = |stretch: f64| {
             paper.tangential_force(&Sliding {
-                stiffness: STIFFNESS,
+                stiffness: NORMAL_STIFFNESS,
                 damping,
                 stretch,
                 velocity,
@@ -169,7 +171,7 @@ fn cap_direction(paper: &PaperTheory) -> Finding {
     let loading = worst([1.0, 0.1, 1e-3].map(jump));
     let unloading = worst([-1e-3, -0.1, -1.0].map(jump));
     let still = Sliding {
-        stiffness: STIFFNESS,
+        stiffness: NORMAL_STIFFNESS,
         damping,
         stretch: 1.0,
         velocity: 0.0,
@@ -181,11 +183,11 @@ fn cap_direction(paper: &PaperTheory) -> Finding {
          further, {unloading:.2} while it relaxes; a contact at rest with |h_t| above the cap has {} force",
         if undefined { "no defined" } else { "a defined" }
     );
-    let deviation = worst([loading, unloading, if undefined { 1.0 } else { 0.0 }]);
+    let deviation = worst([loading, unloading, violation(!undefined)]);
     Finding::new(deviation, ROUND_OFF, evidence)
 }
 
-/// With the printed cap between cylinders, does a stack that is said to yield at the floor get that far?
+/// Whether stacks that the paper has yield at the floor stand until then, with the printed cap between cylinders.
 fn cap_between_cylinders(paper: &PaperTheory) -> Finding {
     let frictions = [0.12, 0.15, 0.2, 0.25];
     let fallen: Vec<f64> = frictions
@@ -212,7 +214,7 @@ fn cap_between_cylinders(paper: &PaperTheory) -> Finding {
 fn arm_correction(paper: &PaperTheory) -> Finding {
     let torque = |scale: f64, coefficient: f64| {
         let (overlap, stretch) = (0.3 * scale, 0.2 * scale);
-        (RADIUS + coefficient * overlap) * STIFFNESS * stretch
+        (RADIUS + coefficient * overlap) * NORMAL_STIFFNESS * stretch
     };
     let correction = |scale: f64| torque(scale, -0.5) - torque(scale, 0.0);
     let order = (correction(1e-2) / correction(1e-3)).log10();
@@ -223,60 +225,69 @@ fn arm_correction(paper: &PaperTheory) -> Finding {
     Finding::new((paper.arm_order - order).abs(), 1e-6, evidence)
 }
 
-/// Restitution of an oscillator with mass, stiffness and damping over half a period, by numerical integration
-/// until the displacement is back at zero.
+/// Restitution of a damped oscillator over half a period, integrated until the displacement is back at zero.
 fn restitution(mass: f64, stiffness: f64, damping: f64) -> f64 {
     let step = 1e-3 * (mass / stiffness).sqrt();
-    let acceleration = |x: f64, v: f64| (-stiffness * x - damping * v) / mass;
-    let (mut x, mut v) = (0.0, 1.0);
+    // The state is (x, v); a Runge–Kutta method of fourth order.
+    let rate = |state: Vector2<f64>| {
+        Vector2::new(state.y, (-stiffness * state.x - damping * state.y) / mass)
+    };
+    let mut state = Vector2::new(0.0, 1.0);
     loop {
-        let (x1, v1) = (v, acceleration(x, v));
-        let (x2, v2) = (
-            v + 0.5 * step * v1,
-            acceleration(x + 0.5 * step * x1, v + 0.5 * step * v1),
-        );
-        let (x3, v3) = (
-            v + 0.5 * step * v2,
-            acceleration(x + 0.5 * step * x2, v + 0.5 * step * v2),
-        );
-        let (x4, v4) = (v + step * v3, acceleration(x + step * x3, v + step * v3));
-        let next_x = x + step * (x1 + 2.0 * x2 + 2.0 * x3 + x4) / 6.0;
-        let next_v = v + step * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0;
-        if next_x <= 0.0 || !next_x.is_finite() {
+        let first = rate(state);
+        let second = rate(state + 0.5 * step * first);
+        let third = rate(state + 0.5 * step * second);
+        let fourth = rate(state + step * third);
+        let next = state + step * (first + 2.0 * second + 2.0 * third + fourth) / 6.0;
+        if next.x <= 0.0 || !next.x.is_finite() {
             // Near the end the motion is straight to second order in the step.
-            let part = if x > 0.0 { x / (x - next_x) } else { f64::NAN };
-            return -(v + part * (next_v - v));
+            let part = if state.x > 0.0 {
+                state.x / (state.x - next.x)
+            } else {
+                f64::NAN
+            };
+            return -(state.y + part * (next.y - state.y));
         }
-        (x, v) = (next_x, next_v);
+        state = next;
     }
 }
 
-/// Deviation that the integration of a collision may have.
-const COLLISION: f64 = 1e-6;
+/// The measured `restitution` must be that of the paper, up to the error of the integration.
+fn restores(restitution: f64, evidence: String) -> Finding {
+    Finding::new((restitution - RESTITUTION).abs(), 1e-6, evidence)
+}
 
 fn normal_damping(paper: &PaperTheory) -> Finding {
-    let measured = restitution(MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
+    let measured = restitution(
+        MASS,
+        NORMAL_STIFFNESS,
+        paper.damping(MASS, NORMAL_STIFFNESS),
+    );
     let evidence = format!(
         "a cylinder thrown against a wall with this eta_n, integrated: restitution {measured:.5}"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }
 
 fn tangential_damping(paper: &PaperTheory) -> Finding {
-    let stiffness = STIFFNESS / paper.stiffness_ratio;
+    let stiffness = NORMAL_STIFFNESS / paper.stiffness_ratio;
     let measured = restitution(MASS, stiffness, paper.damping(MASS, stiffness));
     let turning = restitution(MASS / 3.0, stiffness, paper.damping(MASS, stiffness));
     let evidence = format!(
         "a mass m on a spring k_t with this eta_t, integrated: restitution {measured:.5}. (A cylinder free to turn \
          has the tangential mass m/3 at a wall and {turning:.3}.)"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }
 
 fn pair_restitution(paper: &PaperTheory) -> Finding {
-    let measured = restitution(0.5 * MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
+    let measured = restitution(
+        0.5 * MASS,
+        NORMAL_STIFFNESS,
+        paper.damping(MASS, NORMAL_STIFFNESS),
+    );
     let evidence = format!(
         "two cylinders thrown against each other with this eta_n (reduced mass m/2), integrated: restitution {measured:.5}"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }

@@ -44,86 +44,72 @@ fn overlap(paper: &PaperTheory) -> Finding {
         let (right_of_left, left_of_right) = (RADIUS, distance - RADIUS);
         (paper.overlap(distance, RADIUS) - (right_of_left - left_of_right)).abs()
     });
-    Finding::identity(
-        deviations,
-        "positions of the two surfaces on the line of centres",
-    )
+    let compared = "positions of the two surfaces on the line of centres";
+    Finding::identity(deviations, compared)
 }
 
 fn normal_force(paper: &PaperTheory) -> Finding {
     let energy = |overlap: f64| 0.5 * NORMAL_STIFFNESS * overlap.max(0.0).powi(2);
     let damping = 0.6;
-    at_samples(
-        30,
-        "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact",
-        |sample| {
-            let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
-            let step = 1e-6;
-            let spring = (energy(overlap + step) - energy(overlap - step)) / (2.0 * step);
-            // The dashpot takes the power η v².
-            let power = if overlap > 0.0 {
-                -damping * velocity * velocity
-            } else {
-                0.0
-            };
-            let force = paper.normal_force(NORMAL_STIFFNESS, damping, overlap, velocity);
-            ((force - spring) * velocity - power).abs()
-        },
-    )
+    let compared = "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact";
+    at_samples(30, compared, |sample| {
+        let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
+        let step = 1e-6;
+        let spring = (energy(overlap + step) - energy(overlap - step)) / (2.0 * step);
+        // The dashpot takes the power η v².
+        let power = if overlap > 0.0 {
+            -damping * velocity * velocity
+        } else {
+            0.0
+        };
+        let force = paper.normal_force(NORMAL_STIFFNESS, damping, overlap, velocity);
+        ((force - spring) * velocity - power).abs()
+    })
 }
 
 fn tangential_spring(paper: &PaperTheory) -> Finding {
-    at_samples(
-        30,
-        "power of a spring k_t and of a dashpot eta_t",
-        |sample| {
-            let contact = Sliding {
-                stiffness: NORMAL_STIFFNESS,
-                damping: 0.6,
-                stretch: 0.1 * sample,
-                velocity: (5.0 * sample).sin(),
-                cap: f64::INFINITY,
-            };
-            let spring_power = -NORMAL_STIFFNESS * contact.stretch * contact.velocity;
-            let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
-            (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
-        },
-    )
+    let compared = "power of a spring k_t and of a dashpot eta_t";
+    at_samples(30, compared, |sample| {
+        let contact = Sliding {
+            stiffness: NORMAL_STIFFNESS,
+            damping: 0.6,
+            stretch: 0.1 * sample,
+            velocity: (5.0 * sample).sin(),
+            cap: f64::INFINITY,
+        };
+        let spring_power = -NORMAL_STIFFNESS * contact.stretch * contact.velocity;
+        let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
+        (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
+    })
 }
 
 fn pair_tangent(paper: &PaperTheory) -> Finding {
-    at_samples(
-        20,
-        "product with the line of centres, and n turned by 90 degrees",
-        |sample| {
-            let separation = unit_vector(9.0 * sample) * 3.3;
-            let tangent = paper.pair_tangent(separation);
-            let quarter_turn = Vector2::new(-separation.y, separation.x).normalize();
-            worst([
-                tangent.dot(&separation).abs(),
-                (tangent - quarter_turn).norm(),
-            ])
-        },
-    )
+    let compared = "product with the line of centres, and n turned by 90 degrees";
+    at_samples(20, compared, |sample| {
+        let separation = unit_vector(9.0 * sample) * 3.3;
+        let tangent = paper.pair_tangent(separation);
+        let quarter_turn = Vector2::new(-separation.y, separation.x).normalize();
+        worst([
+            tangent.dot(&separation).abs(),
+            (tangent - quarter_turn).norm(),
+        ])
+    })
 }
 
 /// Surface velocities at the contact point are v + ω × arm, with arms r along the line of centres.
 fn tangential_velocity(paper: &PaperTheory) -> Finding {
-    at_samples(
-        20,
-        "velocities of the two surfaces from rigid motion with arms r",
-        |sample| {
-            let normal = unit_vector(9.0 * sample);
-            let velocity = Vector2::new(sample, (3.0 * sample).cos());
-            let spins = [(4.0 * sample).sin(), (6.0 * sample).sin()];
-            let surface = |spin: f64, arm: Vector2<f64>| Vector2::new(-arm.y, arm.x) * spin;
-            let difference =
-                velocity + surface(spins[0], -normal * RADIUS) - surface(spins[1], normal * RADIUS);
-            let tangent = Vector2::new(-normal.y, normal.x);
-            let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
-            (printed - difference.dot(&tangent)).abs()
-        },
-    )
+    let compared = "velocities of the two surfaces from rigid motion with arms r";
+    at_samples(20, compared, |sample| {
+        let normal = unit_vector(9.0 * sample);
+        let velocity = Vector2::new(sample, (3.0 * sample).cos());
+        let spins = [(4.0 * sample).sin(), (6.0 * sample).sin()];
+        let surface = |spin: f64, arm: Vector2<f64>| Vector2::new(-arm.y, arm.x) * spin;
+        let difference =
+            velocity + surface(spins[0], -normal * RADIUS) - surface(spins[1], normal * RADIUS);
+        let tangent = Vector2::new(-normal.y, normal.x);
+        let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
+        (printed - difference.dot(&tangent)).abs()
+    })
 }
 
 /// In a contact dragged at a constant speed the force rises to the cap and stays there, and the spring stops.

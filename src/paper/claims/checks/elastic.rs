@@ -47,20 +47,16 @@ fn epsilon(paper: &PaperTheory) -> Finding {
             sinking,
         )
     });
-    Finding::identity(
-        deviations,
-        "epsilon r against how far one cylinder sinks into the floor under its weight",
-    )
+    let compared = "epsilon r against how far one cylinder sinks into the floor under its weight";
+    Finding::identity(deviations, compared)
 }
 
 fn floor_load(paper: &PaperTheory) -> Finding {
-    at_states(
-        "(f + 3mg)/mg of the solution against 2z/(epsilon r)",
-        |state| {
-            let load = state.force / state.weight() + 3.0;
-            relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
-        },
-    )
+    let compared = "(f + 3mg)/mg of the solution against 2z/(epsilon r)";
+    at_states(compared, |state| {
+        let load = state.force / state.weight() + 3.0;
+        relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
+    })
 }
 
 fn lowest_displacement(paper: &PaperTheory) -> Finding {
@@ -83,32 +79,28 @@ fn elastic_equation(paper: &PaperTheory) -> Finding {
 
 /// 𝒟 = (T² + 2√3 T − 1)/(T (1 + T²))/(1 − α) with T read off the solution's geometry.
 fn script_d(paper: &PaperTheory) -> Finding {
-    at_states(
-        "D against its value in terms of the angle of the line of centres",
-        |state| {
-            let tangent = state.half_angle_tangent();
-            let square = tangent * tangent;
-            let truth = (square + 2.0 * 3f64.sqrt() * tangent - 1.0) / (tangent * (1.0 + square));
-            let printed = paper.geometry(state.friction, state.alpha()) * (1.0 - state.alpha());
-            // 𝒟 vanishes with the displacements, but its terms are of order 1: the deviation is relative to them.
-            (printed - truth).abs()
-        },
-    )
+    let compared = "D against its value in terms of the angle of the line of centres";
+    at_states(compared, |state| {
+        let tangent = state.half_angle_tangent();
+        let square = tangent * tangent;
+        let truth = (square + 2.0 * 3f64.sqrt() * tangent - 1.0) / (tangent * (1.0 + square));
+        let printed = paper.geometry(state.friction, state.alpha()) * (1.0 - state.alpha());
+        // 𝒟 vanishes with the displacements, but its terms are of order 1: the deviation is relative to them.
+        (printed - truth).abs()
+    })
 }
 
 /// ℰ = 1/(1 + κ(1 + T²)).
 fn script_e(paper: &PaperTheory) -> Finding {
-    at_states(
-        "E against its value in terms of the angle of the line of centres",
-        |state| {
-            let tangent = state.half_angle_tangent();
-            let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
-            relative(
-                paper.compliance(state.friction, state.ratio, state.alpha()),
-                truth,
-            )
-        },
-    )
+    let compared = "E against its value in terms of the angle of the line of centres";
+    at_states(compared, |state| {
+        let tangent = state.half_angle_tangent();
+        let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
+        relative(
+            paper.compliance(state.friction, state.ratio, state.alpha()),
+            truth,
+        )
+    })
 }
 
 const WIDE: [f64; 8] = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5, 0.7];
@@ -120,10 +112,8 @@ fn stiff_displacement(paper: &PaperTheory) -> Finding {
         let truth = RADIUS * numerator / (mu * (1.0 + square)) / (1.0 + kappa * (1.0 + square));
         relative(paper.stiff_displacement(mu, kappa, RADIUS), truth)
     });
-    Finding::identity(
-        deviations,
-        "the right side of the elastic equation at alpha = 0, in terms of T = mu",
-    )
+    let compared = "the right side of the elastic equation at alpha = 0, in terms of T = mu";
+    Finding::identity(deviations, compared)
 }
 
 fn changes_sign(paper: &PaperTheory) -> Finding {

@@ -98,11 +98,9 @@ fn whose_balances(paper: &PaperTheory) -> Finding {
         let of_the_bottom = forces.d - forces.a * normal.y - forces.b * turned(normal).y - WEIGHT;
         ((of_the_bottom + 0.5 * upper + 0.5 * stack) / forces.d).abs()
     });
-    Finding::identity(
-        deviations,
-        "Eq. (3) is the balance of the upper cylinder, as the paper says right below it; with f + 3mg = 2d it is \
-         equivalent to the vertical balance of the bottom one",
-    )
+    let compared = "Eq. (3) is the balance of the upper cylinder, as the paper says right below it; with f + 3mg = 2d it is \
+         equivalent to the vertical balance of the bottom one";
+    Finding::identity(deviations, compared)
 }
 
 fn mass(paper: &PaperTheory) -> Finding {
@@ -138,10 +136,8 @@ fn coulomb_slip(paper: &PaperTheory) -> Finding {
             deviations.push(relative(shear, mu * load));
         }
     }
-    Finding::identity(
-        deviations,
-        "e and d = (f + 3mg)/2 of the exact quasi-static limit at yield",
-    )
+    let compared = "e and d = (f + 3mg)/2 of the exact quasi-static limit at yield";
+    Finding::identity(deviations, compared)
 }
 
 fn bottom_contact_open(paper: &PaperTheory) -> Finding {
@@ -195,10 +191,8 @@ fn six_conditions(paper: &PaperTheory) -> Finding {
     }
     let singular = conditions(paper, CRITICAL_FRICTION).determinant().abs();
     deviations.push(singular);
-    Finding::identity(
-        deviations,
-        "six linear equations for six unknowns, solved for mu = 0.1 to 0.25; singular at mu_c alone, where f diverges",
-    )
+    let compared = "six linear equations for six unknowns, solved for mu = 0.1 to 0.25; singular at mu_c alone, where f diverges";
+    Finding::identity(deviations, compared)
 }
 
 /// f/(m g) at which rigid cylinders slip, by bisection of e − μ d; 0 if they slip at once, infinite if never.
@@ -235,10 +229,8 @@ fn unit_vectors(paper: &PaperTheory) -> Finding {
             (tangent - turned(normal)).norm(),
         ])
     });
-    Finding::identity(
-        deviations,
-        "length of t, its product with n, and n turned by -90 degrees",
-    )
+    let compared = "length of t, its product with n, and n turned by -90 degrees";
+    Finding::identity(deviations, compared)
 }
 
 fn rigid_directions(paper: &PaperTheory) -> Finding {

@@ -47,10 +47,8 @@ fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
     let deviations = arbitrary_displacements()
         .into_iter()
         .map(|moved| deviation(&moved) / RADIUS);
-    Finding::identity(
-        deviations,
-        "positions and motions of rigid cylinders at arbitrary displacements, r not 1",
-    )
+    let compared = "positions and motions of rigid cylinders at arbitrary displacements, r not 1";
+    Finding::identity(deviations, compared)
 }
 
 /// Motion of the point of cylinder 2 on the floor.
@@ -79,10 +77,8 @@ fn springs(printed: impl Fn(&Displacements) -> f64, component: impl Fn(&Forces) 
         let truth = component(&moved.spring_forces(RADIUS, NORMAL_STIFFNESS, RATIO));
         ((printed(&moved) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
     });
-    Finding::identity(
-        deviations,
-        "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)",
-    )
+    let compared = "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)";
+    Finding::identity(deviations, compared)
 }
 
 fn displacement_vectors(paper: &PaperTheory) -> Finding {
@@ -147,10 +143,9 @@ fn supplement_balances(paper: &PaperTheory) -> Finding {
             relative(forces.e, state.friction * forces.d),
         ])
     });
-    Finding::identity(
-        deviations,
-        "the supplement's a, b, d, e in solutions of the unreduced equations, and e = mu d",
-    )
+    let compared =
+        "the supplement's a, b, d, e in solutions of the unreduced equations, and e = mu d";
+    Finding::identity(deviations, compared)
 }
 
 /// Without c = 0: torque and horizontal balance of 2, vertical balance of 1 and of the stack, for a, b, c, d, e.

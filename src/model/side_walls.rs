@@ -35,7 +35,7 @@ pub struct SideWalls {
     pub landing_speed: f64,
     /// v_wall, speed of the walls, inwards and outwards, in r √(k_n/m).
     pub withdrawal_speed: f64,
-    /// How far each wall moves outwards, in r; more than A, so that it ends without contact.
+    /// Distance that each wall moves outwards, in r; more than A, so that it ends without contact.
     pub withdrawal: f64,
     /// Duration of the rest after the push and of the rest under the top cylinder, each, in √(m/k_n).
     pub settle_time: f64,
@@ -51,7 +51,7 @@ pub struct SideWallSteps {
     /// Speed at which the walls move inwards, so that they come to A in whole steps: the withdrawal speed
     /// but for that rounding; 0 where A = 0.
     pub push_speed: f64,
-    /// How far the top cylinder is lowered.
+    /// Distance by which the top cylinder is lowered.
     pub fall: f64,
     /// Steps during which the walls move inwards; 0 where A = 0.
     pub push_steps: u64,

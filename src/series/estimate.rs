@@ -15,7 +15,7 @@ pub struct Estimate {
     pub force: f64,
     /// Distance between the interpolations of two orders, in m g.
     pub sampling: f64,
-    /// By how much an error of the recorded forces is amplified in it.
+    /// Factor by which an error of the recorded forces is amplified in it.
     pub sensitivity: f64,
 }
 

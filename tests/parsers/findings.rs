@@ -97,7 +97,7 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
             &case.protocol.schedule(),
             case.protocol.time_step,
         );
-        let frames = Frames::of_trace(&series.expect("finite"), case.protocol.wall_speed);
+        let frames = Frames::of_series(&series.expect("finite"), case.protocol.wall_speed);
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }
 }

@@ -48,7 +48,7 @@ impl Reading for ForceRows {
         }
     }
 
-    /// A summary has no rows.
+    /// `None`, because a summary has no rows.
     fn of_summary(_: RunSummary) -> Option<Self> {
         None
     }

@@ -154,7 +154,7 @@ impl Schedule {
     }
 
     /// The first step of the compression from `step` on at which a row is taken.
-    pub fn row_from(&self, step: u64) -> Option<u64> {
+    pub(crate) fn row_from(&self, step: u64) -> Option<u64> {
         if step < self.fine_from_step {
             return Some(
                 step.next_multiple_of(self.coarse_every)
@@ -215,7 +215,7 @@ impl Protocol {
     }
 
     /// Speed of the wall in the first [`Schedule::fast_steps`].
-    pub fn fast_speed(&self) -> f64 {
+    pub(crate) fn fast_speed(&self) -> f64 {
         let factor = self
             .shortcuts
             .map_or(1.0, |shortcuts| shortcuts.speed_factor);

@@ -21,7 +21,7 @@ pub struct Shortcuts {
 impl Shortcuts {
     /// Time in which the wall slows down, in √(m/k_n). It is several times the ringing time of the stack, so that
     /// the floor does not slide.
-    pub const SLOWING_TIME: f64 = 50.0;
+    pub(crate) const SLOWING_TIME: f64 = 50.0;
 
     /// A wall up to ten times as fast, but not beyond `fastest_wall`, for four fifths of the way to the predicted
     /// yield, half of which is for slowing down; then the given speed, and an end at the drop. `None` where that

@@ -75,7 +75,7 @@ impl SideWallSteps {
     }
 
     /// Height of the top cylinder where it just touches both others, which lie at ±(1 − A/3) and 1 − ε.
-    pub fn landing_height(&self, epsilon: f64) -> f64 {
+    pub(crate) fn landing_height(&self, epsilon: f64) -> f64 {
         let half_distance = 1.0 - self.walls.push / 3.0;
         (1.0 - epsilon) + (4.0 - half_distance * half_distance).sqrt()
     }
@@ -83,9 +83,9 @@ impl SideWallSteps {
 
 impl SideWalls {
     /// v_fall of the paper (supplement I.B).
-    pub const PAPER_FALL_SPEED: f64 = 0.1;
+    pub(crate) const PAPER_FALL_SPEED: f64 = 0.1;
     /// v_wall of the paper (supplement I.B).
-    pub const PAPER_WITHDRAWAL_SPEED: f64 = 1e-3;
+    pub(crate) const PAPER_WITHDRAWAL_SPEED: f64 = 1e-3;
 
     /// The paper's preparation with walls pushed in by A = `push`, for stacks of stiffness 1/ε.
     ///

@@ -22,7 +22,7 @@ impl DropWatch {
     }
 
     /// Adds the force of the next row; true once it has dropped.
-    pub fn has_dropped(&mut self, force: f64) -> bool {
+    pub(crate) fn has_dropped(&mut self, force: f64) -> bool {
         if force > self.highest {
             self.highest = force;
             self.rows_since = 0;

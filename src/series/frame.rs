@@ -44,12 +44,12 @@ pub struct ContactPoint {
 
 impl ContactPoint {
     /// The normal part of the force on the cylinder.
-    pub fn normal_vector(&self) -> [f64; 2] {
+    pub(crate) fn normal_vector(&self) -> [f64; 2] {
         self.normal.map(|component| self.normal_force * component)
     }
 
     /// The tangential part of the force on the cylinder.
-    pub fn tangential_vector(&self) -> [f64; 2] {
+    pub(crate) fn tangential_vector(&self) -> [f64; 2] {
         let [x, y] = self.normal;
         [-y * self.tangential_force, x * self.tangential_force]
     }

@@ -87,7 +87,7 @@ pub trait Path {
 }
 
 /// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
-pub fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
+pub(crate) fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
     let margin = |parameter: f64| path.point(parameter).margin(event, stack);
     let stations = path.stations();
     let index = stations

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Deviation below which two formulas count as the same. The states at which they are evaluated are known to
 /// some 1e-11.
-pub const ROUND_OFF: f64 = 1e-8;
+pub(crate) const ROUND_OFF: f64 = 1e-8;
 
 /// The verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -40,18 +40,18 @@ impl std::fmt::Display for ClaimVerdict {
 
 /// The result of a check.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub(crate) struct Finding {
     /// Distance of the claim from the truth.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
     /// Largest deviation with which the claim holds as stated.
-    pub bound: f64,
+    pub(crate) bound: f64,
     /// The quantities compared, and their values.
-    pub evidence: String,
+    pub(crate) evidence: String,
 }
 
 impl Finding {
     /// A deviation held to `bound`.
-    pub fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
+    pub(crate) fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
         Self {
             deviation,
             bound,
@@ -60,17 +60,17 @@ impl Finding {
     }
 
     /// A statement that is true or false.
-    pub fn statement(holds: bool, evidence: impl Into<String>) -> Self {
+    pub(crate) fn statement(holds: bool, evidence: impl Into<String>) -> Self {
         Self::new(violation(holds), 0.0, evidence)
     }
 
     /// A statement without exceptions, and the number of them that were found.
-    pub fn exceptions(count: usize, evidence: impl Into<String>) -> Self {
+    pub(crate) fn exceptions(count: usize, evidence: impl Into<String>) -> Self {
         Self::new(count as f64, 0.0, evidence)
     }
 
     /// An identity: relative deviations of its two sides at several points.
-    pub fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
+    pub(crate) fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
         let deviations: Vec<f64> = deviations.into_iter().collect();
         let count = deviations.len();
         let largest = worst(deviations);
@@ -84,13 +84,13 @@ impl Finding {
     }
 
     /// A number of the text, which may be off by half a unit of its last digit.
-    pub fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
+    pub(crate) fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
         let evidence = format!("{of} is {truth:.5}, printed is {printed}");
         Self::new((printed - truth).abs(), 0.5 * unit * (1.0 + 1e-9), evidence)
     }
 
     /// The verdict, where the words of the claim allow a deviation up to `allowed`.
-    pub fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
+    pub(crate) fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
         if self.deviation <= self.bound {
             ClaimVerdict::Holds
         } else if allowed.is_some_and(|allowed| self.deviation <= allowed) {
@@ -111,23 +111,23 @@ fn worse(left: f64, right: f64) -> f64 {
 }
 
 /// The largest of all deviations; not a number if there are none.
-pub fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
     let largest = deviations.into_iter().reduce(worse);
     largest.unwrap_or(f64::NAN)
 }
 
 /// 0 where a condition holds, 1 where it does not.
-pub fn violation(holds: bool) -> f64 {
+pub(crate) fn violation(holds: bool) -> f64 {
     if holds { 0.0 } else { 1.0 }
 }
 
 /// The items, separated by commas.
-pub fn list(items: impl IntoIterator<Item = String>) -> String {
+pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
     items.into_iter().collect::<Vec<_>>().join(", ")
 }
 
 /// A deviation in words. Round-off is not spelled out, because its digits differ between machines.
-pub fn size(deviation: f64, bound: f64) -> String {
+pub(crate) fn size(deviation: f64, bound: f64) -> String {
     if deviation <= bound {
         format!("below {bound:.0e}")
     } else {
@@ -136,7 +136,7 @@ pub fn size(deviation: f64, bound: f64) -> String {
 }
 
 /// Distance of a sum from zero, relative to its largest term.
-pub fn imbalance(terms: &[f64]) -> f64 {
+pub(crate) fn imbalance(terms: &[f64]) -> f64 {
     let largest = terms
         .iter()
         .fold(0.0, |largest: f64, term| largest.max(term.abs()));
@@ -144,7 +144,7 @@ pub fn imbalance(terms: &[f64]) -> f64 {
 }
 
 /// |left/right − 1|.
-pub fn relative(left: f64, right: f64) -> f64 {
+pub(crate) fn relative(left: f64, right: f64) -> f64 {
     (left / right - 1.0).abs()
 }
 

@@ -8,11 +8,11 @@ use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
 use std::sync::LazyLock;
 
 /// A radius that is not 1.
-pub const RADIUS: f64 = 1.7;
+pub(crate) const RADIUS: f64 = 1.7;
 /// A normal stiffness that is not 1.
-pub const NORMAL_STIFFNESS: f64 = 2.3;
+pub(crate) const NORMAL_STIFFNESS: f64 = 2.3;
 /// Stiffness ratios κ: the paper's, a smaller and a larger one.
-pub const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
+pub(crate) const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
 
 const NEWTON_STEPS: usize = 12;
 /// Residual of the equilibrium, relative to the floor force, at which Newton's method has converged.
@@ -24,21 +24,21 @@ fn cross(left: Vector2<f64>, right: Vector2<f64>) -> f64 {
 }
 
 /// `normal` turned by −90°.
-pub fn turned(normal: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn turned(normal: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(normal.y, -normal.x)
 }
 
 /// Contact forces of the right half of the stack.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Forces {
+pub(crate) struct Forces {
     /// Normal force between 1 and 2.
-    pub a: f64,
+    pub(crate) a: f64,
     /// Tangential force between 1 and 2.
-    pub b: f64,
+    pub(crate) b: f64,
     /// Normal force of the floor.
-    pub d: f64,
+    pub(crate) d: f64,
     /// Tangential force of the floor.
-    pub e: f64,
+    pub(crate) e: f64,
 }
 
 impl From<Vector4<f64>> for Forces {
@@ -66,7 +66,12 @@ fn imbalance(
 
 /// The forces that keep the stack in equilibrium under `f` when cylinder 1 lies in the direction `normal`
 /// from cylinder 2; `None` if there are none.
-pub fn equilibrium(normal: Vector2<f64>, radius: f64, f: f64, weight: f64) -> Option<Forces> {
+pub(crate) fn equilibrium(
+    normal: Vector2<f64>,
+    radius: f64,
+    f: f64,
+    weight: f64,
+) -> Option<Forces> {
     let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, radius, f, weight);
     let loads = under(Vector4::zeros());
     let columns = [0, 1, 2, 3].map(|index| under(Vector4::ith(index, 1.0)) - loads);
@@ -76,49 +81,49 @@ pub fn equilibrium(normal: Vector2<f64>, radius: f64, f: f64, weight: f64) -> Op
 
 /// Displacements of the stack.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Displacements {
+pub(crate) struct Displacements {
     /// δ₁₁, by which 1 has sunk.
-    pub delta_11: f64,
+    pub(crate) delta_11: f64,
     /// δ₂₁, by which 2 has sunk.
-    pub delta_21: f64,
+    pub(crate) delta_21: f64,
     /// δ₂₂, by which 2 has moved outwards.
-    pub delta_22: f64,
+    pub(crate) delta_22: f64,
     /// θ, by which 2 has turned counter-clockwise.
-    pub theta: f64,
+    pub(crate) theta: f64,
 }
 
 impl Displacements {
     /// Centre of cylinder 1; without displacements the cylinders just touch.
-    pub fn upper(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn upper(&self, radius: f64) -> Vector2<f64> {
         let rise = (4.0 * radius * radius - radius * radius).sqrt();
         Vector2::new(0.0, radius + rise - self.delta_11)
     }
 
     /// Centre of cylinder 2.
-    pub fn lower(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn lower(&self, radius: f64) -> Vector2<f64> {
         Vector2::new(radius + self.delta_22, radius - self.delta_21)
     }
 
     /// Direction from 2 to 1.
-    pub fn normal(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn normal(&self, radius: f64) -> Vector2<f64> {
         (self.upper(radius) - self.lower(radius)).normalize()
     }
 
     /// Motion of the surface of 1 relative to that of 2 at their contact.
-    pub fn surface_gap(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn surface_gap(&self, radius: f64) -> Vector2<f64> {
         let arm = self.normal(radius) * radius;
         let upper = Vector2::new(0.0, -self.delta_11);
         upper - self.lower_surface(arm)
     }
 
     /// Motion of the point of 2 at `arm` from its centre.
-    pub fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
         let centre = Vector2::new(self.delta_22, -self.delta_21);
         centre + Vector2::new(-arm.y, arm.x) * self.theta
     }
 
     /// The forces of linear springs on these displacements.
-    pub fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
+    pub(crate) fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
         let normal = self.normal(radius);
         let gap = self.surface_gap(radius);
         let floor = self.lower_surface(Vector2::new(0.0, -radius));
@@ -135,21 +140,21 @@ impl Displacements {
 /// The stack when the floor slips, for springs on the total displacements: a solution of the paper's five
 /// equations, found without eliminating anything.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct YieldState {
+pub(crate) struct YieldState {
     /// μ.
-    pub friction: f64,
+    pub(crate) friction: f64,
     /// κ.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// ε.
-    pub epsilon: f64,
-    pub displacements: Displacements,
+    pub(crate) epsilon: f64,
+    pub(crate) displacements: Displacements,
     /// Force of the wall.
-    pub force: f64,
+    pub(crate) force: f64,
 }
 
 impl YieldState {
     /// Solves the five equations by Newton's method; `None` without a solution.
-    pub fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
+    pub(crate) fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
         let stack = Stack {
             stiffness_ratio: ratio,
             ..Stack::paper(friction, 1.0 / epsilon)
@@ -199,37 +204,37 @@ impl YieldState {
     }
 
     /// Weight of a cylinder.
-    pub fn weight(&self) -> f64 {
+    pub(crate) fn weight(&self) -> f64 {
         self.epsilon * RADIUS * NORMAL_STIFFNESS
     }
 
-    pub fn forces(&self) -> Forces {
+    pub(crate) fn forces(&self) -> Forces {
         self.displacements
             .spring_forces(RADIUS, NORMAL_STIFFNESS, self.ratio)
     }
 
     /// x = δ₁₁ − δ₂₁.
-    pub fn x(&self) -> f64 {
+    pub(crate) fn x(&self) -> f64 {
         self.displacements.delta_11 - self.displacements.delta_21
     }
 
     /// y = δ₂₂.
-    pub fn y(&self) -> f64 {
+    pub(crate) fn y(&self) -> f64 {
         self.displacements.delta_22
     }
 
     /// z = δ₂₁.
-    pub fn z(&self) -> f64 {
+    pub(crate) fn z(&self) -> f64 {
         self.displacements.delta_21
     }
 
     /// α = ε r/z.
-    pub fn alpha(&self) -> f64 {
+    pub(crate) fn alpha(&self) -> f64 {
         self.epsilon * RADIUS / self.z()
     }
 
     /// T, the tangent of half the angle between the line 2–1 and the vertical.
-    pub fn half_angle_tangent(&self) -> f64 {
+    pub(crate) fn half_angle_tangent(&self) -> f64 {
         let normal = self.displacements.normal(RADIUS);
         -normal.x / (1.0 + normal.y)
     }
@@ -237,7 +242,7 @@ impl YieldState {
 
 /// Yield states over the paper's range of μ and ε, and beyond it in κ. They do not depend on the printed
 /// constants.
-pub fn yield_states() -> &'static [YieldState] {
+pub(crate) fn yield_states() -> &'static [YieldState] {
     static STATES: LazyLock<Vec<YieldState>> = LazyLock::new(solve_everywhere);
     &STATES
 }
@@ -255,7 +260,7 @@ fn solve_everywhere() -> Vec<YieldState> {
 }
 
 /// Every value of `left` with every one of `right`.
-pub fn pairs<const M: usize, const N: usize>(
+pub(crate) fn pairs<const M: usize, const N: usize>(
     left: [f64; M],
     right: [f64; N],
 ) -> impl Iterator<Item = (f64, f64)> {
@@ -264,12 +269,12 @@ pub fn pairs<const M: usize, const N: usize>(
 }
 
 /// z of the elastic equation, in r; not a number without a solution.
-pub fn elastic_displacement(stack: &Stack) -> f64 {
+pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
-pub fn figure_loads() -> &'static [(Stack, f64)] {
+pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
         let stacks = [1e2, 1e3, 1e4].into_iter().flat_map(|stiffness| {
             (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
@@ -281,7 +286,7 @@ pub fn figure_loads() -> &'static [(Stack, f64)] {
 }
 
 /// Displacements out of equilibrium, for which statements on springs must hold too.
-pub fn arbitrary_displacements() -> Vec<Displacements> {
+pub(crate) fn arbitrary_displacements() -> Vec<Displacements> {
     (1..=12)
         .map(|index| {
             let wave = |frequency: f64| (f64::from(index) * frequency).sin();
@@ -299,7 +304,7 @@ pub fn arbitrary_displacements() -> Vec<Displacements> {
 ///
 /// Follows from T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
 /// G = (T² + 2√3 T − 1)/(T (1 + T²)(1 + κ(1 + T²))) (docs/theory.md, Eqs. 12, 14 and 67).
-pub fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
+pub(crate) fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
     let rest: Polynomial = vec![(1, 0, 1.0), (0, 1, -1.0)];
     let slip: Polynomial = vec![(1, 0, friction)];
     let square = product(&rest, &rest);

@@ -13,12 +13,12 @@ const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 /// Time steps at [`FAST_WALL`]. The native DEM alone runs the smallest.
 const TIME_STEPS: [f64; 6] = [1e-1, 5e-2, 1e-2, 5e-3, 1e-3, 1e-4];
 /// Wall speed at which the paper varies the time step.
-pub const FAST_WALL: f64 = 1e-3;
+pub(crate) const FAST_WALL: f64 = 1e-3;
 /// Interval of the rows, small because a fast wall passes the yield within a few time units.
 const FINE_INTERVAL: f64 = 0.1;
 
 /// The stack of the paper's convergence study.
-pub fn convergence_stack() -> Stack {
+pub(crate) fn convergence_stack() -> Stack {
     Stack::paper(0.2, 1e4)
 }
 
@@ -43,12 +43,12 @@ pub struct ConvergencePoint {
 
 impl ConvergencePoint {
     /// (peak − limit)/limit.
-    pub fn excess_of_peak(&self) -> Option<f64> {
+    pub(crate) fn excess_of_peak(&self) -> Option<f64> {
         self.excess(self.peak_force)
     }
 
     /// (slip onset − limit)/limit.
-    pub fn excess_of_slip(&self) -> Option<f64> {
+    pub(crate) fn excess_of_slip(&self) -> Option<f64> {
         self.excess(self.slip_force)
     }
 
@@ -102,7 +102,7 @@ fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
 }
 
 /// The runs of the study, code by code.
-pub fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
+pub(crate) fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
     codes.iter().map(|&code| workload(code)).collect()
 }
 

@@ -47,7 +47,7 @@ impl TheoryPoint {
     }
 
     /// Distance of `theory` from the exact limit, relative to F + 3.
-    pub fn error(&self, theory: Option<f64>) -> Option<f64> {
+    pub(crate) fn error(&self, theory: Option<f64>) -> Option<f64> {
         let (theory, exact) = theory.zip(self.exact)?;
         Some((theory - exact) / (exact + 3.0))
     }
@@ -108,7 +108,7 @@ pub fn curves() -> Curves {
 }
 
 /// The codes whose arms are not the paper's, grouped by their arms.
-pub fn codes_by_arms() -> Vec<Vec<Code>> {
+pub(crate) fn codes_by_arms() -> Vec<Vec<Code>> {
     let arms = |code: Code| code.convention().arms;
     let mut groups: Vec<Vec<Code>> = Vec::new();
     for code in Code::all() {

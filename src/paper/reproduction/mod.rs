@@ -6,15 +6,13 @@ mod force_series;
 mod scaling;
 mod snapshots;
 
-pub use convergence::{
-    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_stack, convergence_workloads,
-};
-pub use curves::{Curves, ModelFormPoint, TheoryPoint, codes_by_arms, curves};
-pub use force_series::{ForceSeries, force_series, force_series_stack};
-pub use scaling::{
-    Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
-    scaling_measurements,
-};
+pub use convergence::{Convergence, ConvergencePoint, converge};
+pub(crate) use convergence::{FAST_WALL, convergence_stack, convergence_workloads};
+pub(crate) use curves::codes_by_arms;
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use force_series::{ForceSeries, force_series};
+pub use scaling::{Exponent, exponents, scaling_measurements};
+pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS};
 pub use snapshots::{Snapshots, snapshots};
 
 use crate::code::{Code, Provenance};
@@ -79,7 +77,7 @@ pub enum ReproductionError {
 }
 
 /// Extent and settings of a reproduction.
-pub struct Scope<'a> {
+pub(crate) struct Scope<'a> {
     /// The codes that take part. The native one must be among them.
     pub codes: &'a [SelectedCode],
     /// Stores of the runs, and how new ones are made.
@@ -92,7 +90,7 @@ pub struct Scope<'a> {
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
-pub fn reproduce(
+pub(crate) fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
 ) -> Result<Option<Reproduction>, ReproductionError> {
@@ -219,7 +217,7 @@ fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
 ///
 /// # Errors
 /// The first run that fails.
-pub fn summaries_to_record(
+pub(crate) fn summaries_to_record(
     selected: &SelectedCode,
     settings: &Settings,
     progress: &dyn Progress,

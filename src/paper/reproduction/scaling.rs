@@ -8,13 +8,13 @@ use crate::study::yield_force::{Judgement, Measurement, plan};
 use serde::Serialize;
 
 /// Frictions of Fig. 2(b).
-pub const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
+pub(crate) const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
 
 /// Stiffnesses 1/ε of Fig. 2(b), one a decade.
-pub const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
 /// Lowest stiffness of the fits: ε is three decades below 1 from here on.
-pub const FITTED_FROM: f64 = 1e3;
+pub(crate) const FITTED_FROM: f64 = 1e3;
 
 /// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from [`FITTED_FROM`] on.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -125,7 +125,7 @@ fn slope_weights(points: &[Point]) -> Vec<f64> {
 }
 
 /// The exponent for ε → 0 (paper, scaling of f + 3 m g below, at and above μ_c).
-pub fn asymptotic_exponent(mu: f64) -> f64 {
+fn asymptotic_exponent(mu: f64) -> f64 {
     match mu.total_cmp(&CRITICAL_FRICTION) {
         std::cmp::Ordering::Less => 0.0,
         std::cmp::Ordering::Equal => 0.5,

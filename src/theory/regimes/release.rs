@@ -61,7 +61,7 @@ pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
 }
 
 /// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0.
-pub fn released_wall_tangent(stack: &Stack) -> Option<f64> {
+pub(crate) fn released_wall_tangent(stack: &Stack) -> Option<f64> {
     wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond)
 }
 

@@ -7,7 +7,7 @@ use crate::paper::claims::truth::{
     Displacements, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
 };
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("five-unknowns", five_unknowns),
     Check::at_states("slip-condition", PaperTheory::slip_condition),
     Check::at_states("first-of-xyz", PaperTheory::first_of_xyz),
@@ -26,7 +26,7 @@ pub const CHECKS: &[Check] = &[
 const COMPARED: &str = "put in solutions of the five unreduced equations (Newton's method; mu = 0.1 to 0.7, \
                         1/epsilon = 1e2 to 1e4, kappa = 1, 2.5, 10; r and k_n not 1)";
 
-pub fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
+pub(crate) fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
     Finding::identity(yield_states().iter().map(deviation), COMPARED)
 }
 

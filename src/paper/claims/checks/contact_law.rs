@@ -8,7 +8,7 @@ use crate::paper::claims::truth::{NORMAL_STIFFNESS, RADIUS};
 use crate::theory::{LoadingOutcome, LoadingPhase};
 use nalgebra::Vector2;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("overlap", overlap),
     Check::theory("normal-force", normal_force),
     Check::theory("tangential-spring", tangential_spring),

@@ -10,7 +10,7 @@ use crate::paper::claims::truth::{
 };
 use crate::theory::{elastic_root, pair_overlap, quasistatic_limit};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("epsilon", epsilon),
     Check::theory("floor-load", floor_load),
     Check::theory("lowest-displacement", lowest_displacement),

@@ -6,7 +6,7 @@ use crate::paper::claims::finding::{Finding, list, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::theory::{floor_slip_force, quasistatic_limit};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("epsilon-of-elasticity", epsilon_of_elasticity),
     Check::theory("epsilon-of-elastomer", epsilon_of_elastomer),
     Check::theory("elastomer-in-range", elastomer_in_range),

@@ -9,7 +9,7 @@ use crate::theory::{
     Boundary, EquilibriumPath, Event, LoadingOutcome, bracketed_root, elastic_root, followed_limit,
 };
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("inward-friction", inward_friction),
     Check::theory("inward-solutions", inward_solutions),
     Check::theory("non-destructive", non_destructive),

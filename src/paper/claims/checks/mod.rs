@@ -33,9 +33,9 @@ enum Test {
 }
 
 /// A check that claims can name.
-pub struct Check {
+pub(crate) struct Check {
     /// Its name in the register.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     test: Test,
 }
 
@@ -56,7 +56,11 @@ impl Check {
     }
 
     /// Compares `paper` with theory or with the runs; an error says why that is impossible.
-    pub fn run(&self, paper: &PaperTheory, runs: Option<&Reproduction>) -> Result<Finding, String> {
+    pub(crate) fn run(
+        &self,
+        paper: &PaperTheory,
+        runs: Option<&Reproduction>,
+    ) -> Result<Finding, String> {
         match (&self.test, runs) {
             (Test::Theory(test), _) => Ok(test(paper)),
             (Test::AtStates(test), _) => Ok(appendix::at_states(|state| test(paper, state))),
@@ -67,7 +71,7 @@ impl Check {
 }
 
 /// Every check.
-pub fn all() -> impl Iterator<Item = &'static Check> {
+pub(crate) fn all() -> impl Iterator<Item = &'static Check> {
     let groups: [&'static [Check]; 12] = [
         rigid::CHECKS,
         contact_law::CHECKS,
@@ -85,6 +89,6 @@ pub fn all() -> impl Iterator<Item = &'static Check> {
     groups.into_iter().flatten()
 }
 
-pub fn find(name: &str) -> Option<&'static Check> {
+pub(crate) fn find(name: &str) -> Option<&'static Check> {
     all().find(|check| check.name == name)
 }

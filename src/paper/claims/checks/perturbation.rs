@@ -6,7 +6,7 @@ use crate::paper::claims::finding::{Finding, imbalance, list, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("remainder", remainder),
     Check::theory("coefficient", coefficient),
     Check::theory("product-quotient", product_quotient),

@@ -7,7 +7,7 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::reproduction::Reproduction;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::runs("prepared-without-contact", prepared_without_contact),
     Check::runs("push-controls-contact", push_controls_contact),
     Check::runs("no-contact-specifies", no_contact_specifies),

@@ -7,7 +7,7 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{RADIUS, RATIOS, multiplied_out, pairs};
 use crate::theory::bracketed_root;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("quintic", quintic),
     Check::theory("quintic-orders", quintic_orders),
     Check::theory("balance-exponents", balance_exponents),

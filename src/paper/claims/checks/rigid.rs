@@ -8,7 +8,7 @@ use crate::paper::claims::truth::{Forces, equilibrium, pairs, turned};
 use crate::theory::quasistatic_limit;
 use nalgebra::{Matrix6, Vector2, Vector6};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("mass", mass),
     Check::theory("vertical-balance-of-stack", stack_balance),
     Check::theory("coulomb-slip", coulomb_slip),

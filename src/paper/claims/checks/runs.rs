@@ -8,7 +8,7 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction};
 use crate::study::yield_force::Judgement;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::runs("force-series", force_series),
     Check::runs("peak-is-quasistatic", peak_is_quasistatic),
     Check::runs("converges-with-speed", converges_with_speed),

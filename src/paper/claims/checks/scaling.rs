@@ -7,7 +7,7 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::elastic_displacement;
 use crate::theory::{floor_slip_force, rigid_yield};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("scaling", scaling),
     Check::theory("scaling-of-naive", scaling_of_naive),
     Check::theory("scaling-of-perturbation", scaling_of_perturbation),

@@ -8,7 +8,7 @@ use crate::paper::claims::truth::{
 };
 use nalgebra::{Matrix4x5, Vector2};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("displacement-vectors", displacement_vectors),
     Check::theory("positions", positions),
     Check::theory("separation", separation),

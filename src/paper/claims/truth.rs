@@ -155,11 +155,7 @@ pub(crate) struct YieldState {
 impl YieldState {
     /// Solves the five equations by Newton's method; `None` without a solution.
     pub(crate) fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
-        let stack = Stack {
-            stiffness_ratio: ratio,
-            ..Stack::paper(friction, 1.0 / epsilon)
-        };
-        let guess = elastic_root(&stack)?;
+        let guess = elastic_root(&stack(friction, ratio, epsilon))?;
         let scale = RADIUS * NORMAL_STIFFNESS;
         let mut unknowns = SVector::<f64, 5>::from([
             (guess.x + guess.z) * RADIUS,
@@ -268,6 +264,14 @@ pub(crate) fn pairs<const M: usize, const N: usize>(
         .flat_map(move |left| right.into_iter().map(move |right| (left, right)))
 }
 
+/// A stack of any stiffness ratio κ.
+pub(crate) fn stack(friction: f64, ratio: f64, epsilon: f64) -> Stack {
+    Stack {
+        stiffness_ratio: ratio,
+        ..Stack::paper(friction, 1.0 / epsilon)
+    }
+}
+
 /// z of the elastic equation, in r; not a number without a solution.
 pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
@@ -354,10 +358,7 @@ mod tests {
         let states = yield_states();
         assert!(states.len() > 80, "{}", states.len());
         for state in states {
-            let stack = Stack {
-                stiffness_ratio: state.ratio,
-                ..Stack::paper(state.friction, 1.0 / state.epsilon)
-            };
+            let stack = stack(state.friction, state.ratio, state.epsilon);
             let root = elastic_root(&stack).unwrap();
             assert!((state.z() / RADIUS - root.z).abs() < 1e-10 * root.z);
             assert!((state.y() / RADIUS - root.y).abs() < 1e-9);
@@ -374,10 +375,7 @@ mod tests {
                 .flat_map(|k| (0..6).map(move |j| (k, j)))
                 .map(|(k, j)| table[k][j] * z.powi(k as i32) * epsilon.powi(j as i32))
                 .collect();
-            let largest = terms
-                .iter()
-                .fold(0.0, |largest: f64, term| largest.max(term.abs()));
-            assert!(terms.iter().sum::<f64>().abs() < 1e-11 * largest);
+            assert!(crate::paper::claims::finding::imbalance(&terms) < 1e-11);
         }
     }
 }

@@ -63,7 +63,7 @@ impl ConvergencePoint {
 pub struct Convergence {
     /// Over the wall speed, at the paper's time step.
     pub wall_speeds: Vec<ConvergencePoint>,
-    /// Over the time step, at [`FAST_WALL`].
+    /// Over the time step, at a wall speed of 1e-3.
     pub time_steps: Vec<ConvergencePoint>,
 }
 

@@ -16,7 +16,7 @@ const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 /// Lowest stiffness of the fits: ε is three decades below 1 from here on.
 pub(crate) const FITTED_FROM: f64 = 1e3;
 
-/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from [`FITTED_FROM`] on.
+/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from 10³ on.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Exponent {
     /// The code that measured the yield forces.

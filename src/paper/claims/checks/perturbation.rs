@@ -1,10 +1,10 @@
 //! The singular perturbation, Eqs. (14) to (17), and appendix B.
 
 use super::Check;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::CRITICAL_FRICTION;
 use crate::paper::claims::finding::{Finding, imbalance, list, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs};
+use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs, stack};
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::theory("remainder", remainder),
@@ -20,11 +20,7 @@ pub(crate) const CHECKS: &[Check] = &[
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 
 fn root(mu: f64, kappa: f64, epsilon: f64) -> f64 {
-    let stack = Stack {
-        stiffness_ratio: kappa,
-        ..Stack::paper(mu, 1.0 / epsilon)
-    };
-    elastic_displacement(&stack)
+    elastic_displacement(&stack(mu, kappa, epsilon))
 }
 
 /// (𝒟ℰ(α) − 𝒟ℰ(0))/α with 𝒟 and ℰ in terms of T = μ/(1 − α), as they follow from the springs.

@@ -53,7 +53,7 @@ fn frames_come_from_the_same_run_and_their_forces_balance() {
             );
         }
     }
-    // What the series knows is the same in both.
+    // Everything in the series is the same in both.
     let known = Frames::of_series(&series, case.protocol.wall_speed);
     assert_eq!(known.frames.len(), frames.frames.len());
     for (one, other) in known.frames.iter().zip(&frames.frames) {

@@ -38,7 +38,7 @@ fn check_series(text: &[u8], case: &Case) {
     }
 }
 
-/// What is accepted is finite, lies at the planned steps, and can be read.
+/// An accepted series is finite, lies at the planned steps, and can be read.
 pub fn is_sound(series: &Series, case: &Case) {
     let planned = case.protocol.schedule();
     let rows = series.samples();

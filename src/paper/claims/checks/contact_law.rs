@@ -4,7 +4,7 @@ use super::Check;
 use crate::model::Stack;
 use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, violation, worst};
 use crate::paper::claims::printed::{PaperTheory, Sliding};
-use crate::paper::claims::truth::{NORMAL_STIFFNESS, RADIUS};
+use crate::paper::claims::truth::{NORMAL_STIFFNESS as STIFFNESS, RADIUS};
 use crate::theory::{LoadingOutcome, LoadingPhase};
 use nalgebra::Vector2;
 
@@ -49,7 +49,7 @@ fn overlap(paper: &PaperTheory) -> Finding {
 }
 
 fn normal_force(paper: &PaperTheory) -> Finding {
-    let energy = |overlap: f64| 0.5 * NORMAL_STIFFNESS * overlap.max(0.0).powi(2);
+    let energy = |overlap: f64| 0.5 * STIFFNESS * overlap.max(0.0).powi(2);
     let damping = 0.6;
     let compared = "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact";
     at_samples(30, compared, |sample| {
@@ -62,7 +62,7 @@ fn normal_force(paper: &PaperTheory) -> Finding {
         } else {
             0.0
         };
-        let force = paper.normal_force(NORMAL_STIFFNESS, damping, overlap, velocity);
+        let force = paper.normal_force(STIFFNESS, damping, overlap, velocity);
         ((force - spring) * velocity - power).abs()
     })
 }
@@ -71,13 +71,13 @@ fn tangential_spring(paper: &PaperTheory) -> Finding {
     let compared = "power of a spring k_t and of a dashpot eta_t";
     at_samples(30, compared, |sample| {
         let contact = Sliding {
-            stiffness: NORMAL_STIFFNESS,
+            stiffness: STIFFNESS,
             damping: 0.6,
             stretch: 0.1 * sample,
             velocity: (5.0 * sample).sin(),
             cap: f64::INFINITY,
         };
-        let spring_power = -NORMAL_STIFFNESS * contact.stretch * contact.velocity;
+        let spring_power = -STIFFNESS * contact.stretch * contact.velocity;
         let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
         (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
     })
@@ -116,7 +116,7 @@ fn tangential_velocity(paper: &PaperTheory) -> Finding {
 fn stick(paper: &PaperTheory) -> Finding {
     let (cap, step) = (0.4, 1e-4);
     let mut contact = Sliding {
-        stiffness: NORMAL_STIFFNESS,
+        stiffness: STIFFNESS,
         damping: 0.0,
         stretch: 0.0,
         velocity: 0.1,
@@ -129,8 +129,8 @@ fn stick(paper: &PaperTheory) -> Finding {
         }
         overshoot = overshoot.max(paper.tangential_force(&contact).abs() / cap - 1.0);
     }
-    let stretch = relative(contact.stretch, cap / NORMAL_STIFFNESS);
-    let one_step = contact.velocity * step * NORMAL_STIFFNESS / cap;
+    let stretch = relative(contact.stretch, cap / STIFFNESS);
+    let one_step = contact.velocity * step * STIFFNESS / cap;
     let evidence = format!(
         "a contact dragged at constant speed: the force reaches the cap, never exceeds it, and the spring stops at \
          mu |f_n|/k_t within one step ({one_step:.1e})"
@@ -142,10 +142,10 @@ fn stick(paper: &PaperTheory) -> Finding {
 fn cap_direction(paper: &PaperTheory) -> Finding {
     let (cap, damping) = (0.4, 0.05);
     let jump = |velocity: f64| {
-        let threshold = (cap - damping * velocity) / NORMAL_STIFFNESS;
+        let threshold = (cap - damping * velocity) / STIFFNESS;
         let force = |stretch: f64| {
             paper.tangential_force(&Sliding {
-                stiffness: NORMAL_STIFFNESS,
+                stiffness: STIFFNESS,
                 damping,
                 stretch,
                 velocity,
@@ -157,7 +157,7 @@ fn cap_direction(paper: &PaperTheory) -> Finding {
     let loading = worst([1.0, 0.1, 1e-3].map(jump));
     let unloading = worst([-1e-3, -0.1, -1.0].map(jump));
     let still = Sliding {
-        stiffness: NORMAL_STIFFNESS,
+        stiffness: STIFFNESS,
         damping,
         stretch: 1.0,
         velocity: 0.0,
@@ -200,7 +200,7 @@ fn cap_between_cylinders(paper: &PaperTheory) -> Finding {
 fn arm_correction(paper: &PaperTheory) -> Finding {
     let torque = |scale: f64, coefficient: f64| {
         let (overlap, stretch) = (0.3 * scale, 0.2 * scale);
-        (RADIUS + coefficient * overlap) * NORMAL_STIFFNESS * stretch
+        (RADIUS + coefficient * overlap) * STIFFNESS * stretch
     };
     let correction = |scale: f64| torque(scale, -0.5) - torque(scale, 0.0);
     let order = (correction(1e-2) / correction(1e-3)).log10();
@@ -244,11 +244,7 @@ fn restores(restitution: f64, evidence: String) -> Finding {
 }
 
 fn normal_damping(paper: &PaperTheory) -> Finding {
-    let measured = restitution(
-        MASS,
-        NORMAL_STIFFNESS,
-        paper.damping(MASS, NORMAL_STIFFNESS),
-    );
+    let measured = restitution(MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
     let evidence = format!(
         "a cylinder thrown against a wall with this eta_n, integrated: restitution {measured:.5}"
     );
@@ -256,7 +252,7 @@ fn normal_damping(paper: &PaperTheory) -> Finding {
 }
 
 fn tangential_damping(paper: &PaperTheory) -> Finding {
-    let stiffness = NORMAL_STIFFNESS / paper.stiffness_ratio;
+    let stiffness = STIFFNESS / paper.stiffness_ratio;
     let measured = restitution(MASS, stiffness, paper.damping(MASS, stiffness));
     let turning = restitution(MASS / 3.0, stiffness, paper.damping(MASS, stiffness));
     let evidence = format!(
@@ -267,11 +263,7 @@ fn tangential_damping(paper: &PaperTheory) -> Finding {
 }
 
 fn pair_restitution(paper: &PaperTheory) -> Finding {
-    let measured = restitution(
-        0.5 * MASS,
-        NORMAL_STIFFNESS,
-        paper.damping(MASS, NORMAL_STIFFNESS),
-    );
+    let measured = restitution(0.5 * MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
     let evidence = format!(
         "two cylinders thrown against each other with this eta_n (reduced mass m/2), integrated: restitution {measured:.5}"
     );

@@ -13,12 +13,8 @@ mod printed;
 mod register;
 mod truth;
 
+pub use checks::check_names;
 pub use finding::ClaimVerdict;
 pub use judgement::{ClaimJudgement, judge, judge_theory};
 pub use printed::PaperTheory;
 pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};
-
-/// The names of all checks that a register may use.
-pub fn check_names() -> Vec<&'static str> {
-    checks::all().map(|check| check.name).collect()
-}

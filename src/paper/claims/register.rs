@@ -196,8 +196,7 @@ fn validate_check(name: &str) -> Result<(), InvalidValue> {
     if checks::find(name).is_some() {
         return Ok(());
     }
-    let names: Vec<&str> = checks::all().map(|check| check.name).collect();
-    let accepted = format!("one of {}", names.join(", "));
+    let accepted = format!("one of {}", checks::check_names().join(", "));
     Err(invalid("check", name, accepted))
 }
 

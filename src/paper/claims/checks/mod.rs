@@ -71,7 +71,7 @@ impl Check {
 }
 
 /// Every check.
-pub(crate) fn all() -> impl Iterator<Item = &'static Check> {
+fn all() -> impl Iterator<Item = &'static Check> {
     let groups: [&'static [Check]; 12] = [
         rigid::CHECKS,
         contact_law::CHECKS,
@@ -87,6 +87,11 @@ pub(crate) fn all() -> impl Iterator<Item = &'static Check> {
         preparation::CHECKS,
     ];
     groups.into_iter().flatten()
+}
+
+/// The names of all checks that a register may use.
+pub fn check_names() -> Vec<&'static str> {
+    all().map(|check| check.name).collect()
 }
 
 pub(crate) fn find(name: &str) -> Option<&'static Check> {

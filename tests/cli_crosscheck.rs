@@ -3,8 +3,7 @@
 mod common;
 
 use common::{
-    Bench, OWN_PROGRAM, assert_only, json_rows, save_recording, standard_error,
-    standard_output,
+    Bench, OWN_PROGRAM, assert_only, json_rows, save_recording, standard_error, standard_output,
 };
 use insta::assert_snapshot;
 use std::fs;

@@ -3,9 +3,7 @@
 
 mod common;
 
-use common::{
-    Bench, OWN_PROGRAM, assert_only, json_rows, network, recording, released_program,
-};
+use common::{Bench, OWN_PROGRAM, assert_only, json_rows, network, recording, released_program};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;

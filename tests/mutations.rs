@@ -14,11 +14,11 @@ use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, Series};
 use tristack::study::MIN_TOLERANCE;
+use tristack::study::convention::probe_all;
 use tristack::study::preparation::plan_preparation;
 use tristack::study::trajectory::plan_trajectory;
-use tristack::study::{Campaign, Judged, Verdict};
-use tristack::study::convention::probe_all;
 use tristack::study::yield_force::{Judgement, plan};
+use tristack::study::{Campaign, Judged, Verdict};
 
 /// The line that is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
-//! Messages for the user.
+//! Messages on standard error.
 
-/// Writes a line to standard error. A reader who has gone away is no reason to stop.
+/// Writes a line to standard error; a closed pipe is no reason to stop.
 macro_rules! tell {
     ($($message:tt)*) => {{
         use std::io::Write as _;

@@ -18,8 +18,8 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
-pub use performance::performance_svg;
-pub use regimes::regimes_svg;
+pub(crate) use performance::performance_svg;
+pub(crate) use regimes::regimes_svg;
 pub use stack::{StackPanel, representative_panels, run_svg};
 
 use crate::model::CRITICAL_FRICTION;
@@ -35,7 +35,7 @@ const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
 
 /// A figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// The name of its files, without extension.
     pub name: &'static str,
     /// What it shows, from which runs, and how to make it again.
@@ -69,7 +69,7 @@ impl Figure {
 }
 
 /// Every figure: those of the paper first, then what the paper lacks.
-pub fn figures(reproduction: &Reproduction) -> Vec<Figure> {
+pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
     let Reproduction {
         yield_curves: curves_measured,
         scaling: scaling_measured,

@@ -11,7 +11,7 @@ use crate::study::cost::{Scaling, ScalingRow, StackCost};
 const ABOVE: f64 = 0.27;
 
 /// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
-pub fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
+pub(crate) fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
     let panels = [bars(costs), speedups(&scaling.cases)];
     draw(&panels, 2, super::HALF_PAGE).svg()
 }

@@ -47,7 +47,7 @@ pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
 }
 
 /// The figure as SVG.
-pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
+pub(crate) fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
     drawn(maps, survey).svg()
 }
 

@@ -1,11 +1,11 @@
-//! Text between the marks of each format.
+//! Escapes of text for Markdown, HTML and TeX.
 
 /// `text` in one cell of a Markdown table.
 pub(super) fn markdown_cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
-/// `text` for HTML: what stands between backticks as code, everything else escaped.
+/// `text` escaped for HTML, with the parts between backticks as code.
 pub(crate) fn html_text(text: &str) -> String {
     code_marked(text, "<code>", "</code>", |part| {
         part.replace('&', "&amp;")
@@ -15,8 +15,7 @@ pub(crate) fn html_text(text: &str) -> String {
     })
 }
 
-/// `text` for TeX: its special characters escaped, symbols as commands, what stands between backticks in
-/// typewriter.
+/// `text` for TeX: special characters escaped, symbols as commands, parts between backticks in typewriter.
 pub(super) fn latex_text(text: &str) -> String {
     code_marked(text, "\\texttt{", "}", |part| {
         part.chars().map(character).collect()

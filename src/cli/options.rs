@@ -90,14 +90,28 @@ impl StackOptions {
         stack.validate().map_err(as_flag)?;
         Ok(stack)
     }
+}
 
-    /// The checked stacks of every combination of `frictions` and `stiffnesses`; the friction varies fastest.
-    pub fn stacks(
-        &self,
-        frictions: &[f64],
-        stiffnesses: &[f64],
-    ) -> Result<Vec<Stack>, InvalidValue> {
-        let count = frictions.len().saturating_mul(stiffnesses.len());
+/// The parameters of several stacks other than floor friction.
+#[derive(Debug, Clone, Args)]
+pub(super) struct StackListOptions {
+    /// Stiffness k_n r/(m g); one or several, separated by commas
+    #[arg(
+        long = "stiffness",
+        required = true,
+        value_name = "S1,S2",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffnesses: Vec<f64>,
+    #[command(flatten)]
+    common: StackOptions,
+}
+
+impl StackListOptions {
+    /// The checked stacks of every combination of friction and stiffness; the friction varies fastest.
+    pub fn stacks(&self, frictions: &[f64]) -> Result<Vec<Stack>, InvalidValue> {
+        let count = frictions.len().saturating_mul(self.stiffnesses.len());
         if count > MOST_STACKS {
             return Err(InvalidValue {
                 key: "--mu, --stiffness".to_owned(),
@@ -105,9 +119,9 @@ impl StackOptions {
                 accepted: format!("at most {MOST_STACKS} combinations"),
             });
         }
-        let stacks = stiffnesses.iter().flat_map(|&stiffness| {
+        let stacks = self.stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
-            frictions.map(move |&mu| self.stack(mu, stiffness))
+            frictions.map(move |&mu| self.common.stack(mu, stiffness))
         });
         stacks.collect()
     }

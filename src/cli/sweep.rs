@@ -2,8 +2,8 @@
 
 use super::crosscheck::conclude;
 use super::options::{
-    ArmOptions, CodeParser, Format, RunOptions, StackOptions, as_flag, friction, selected_codes,
-    writable, write_all,
+    ArmOptions, CodeParser, Format, RunOptions, StackListOptions, as_flag, friction,
+    selected_codes, writable, write_all,
 };
 use super::progress::with_progress;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -34,17 +34,8 @@ pub(super) struct Arguments {
     /// Floor frictions from A to B in steps, or a single one
     #[arg(long, value_name = "A:B:STEP", value_parser = Frictions::parse, allow_negative_numbers = true)]
     mu: Frictions,
-    /// Stiffnesses k_n r/(m g), separated by commas
-    #[arg(
-        long,
-        required = true,
-        value_name = "S1,S2",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
-    stiffness: Vec<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: StackListOptions,
     #[command(flatten)]
     arms: ArmOptions,
     /// Directory for sweep.csv and sweep.json
@@ -107,9 +98,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;
-    let stacks = arguments
-        .stack
-        .stacks(&arguments.mu.0, &arguments.stiffness)?;
+    let stacks = arguments.stack.stacks(&arguments.mu.0)?;
     writable(arguments.out.as_deref())?;
     let settings = arguments.run.settings()?;
     let planned = |stack: &Stack| {

@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ArmOptions, Format, StackOptions, friction};
+use super::options::{ArmOptions, Format, StackListOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -16,17 +16,8 @@ pub(super) struct Arguments {
     /// Floor friction: numbers or the word `critical`, separated by commas
     #[arg(long, required = true, value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
     mu: Vec<f64>,
-    /// Stiffness k_n r/(m g); one or several, separated by commas
-    #[arg(
-        long,
-        required = true,
-        value_name = "S",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
-    stiffness: Vec<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: StackListOptions,
     #[command(flatten)]
     arms: ArmOptions,
     /// Format of the result
@@ -37,9 +28,7 @@ pub(super) struct Arguments {
 /// Prints the predictions for every combination of friction and stiffness.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(Code::NATIVE)?;
-    let stacks = arguments
-        .stack
-        .stacks(&arguments.mu, &arguments.stiffness)?;
+    let stacks = arguments.stack.stacks(&arguments.mu)?;
     let predictions: Vec<Predictions> = stacks
         .iter()
         .map(|stack| Predictions::new(stack, &convention.arms))

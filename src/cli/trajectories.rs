@@ -93,19 +93,7 @@ fn conclude(
     planned: usize,
     codes: &[SelectedCode],
 ) -> ExitStatus {
-    for judgement in judgements {
-        for note in judgement.notes() {
-            tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
-        }
-        for comparison in judgement.comparisons() {
-            for note in comparison.grounds.notes() {
-                let (code, verdict) = (judgement.code, comparison.verdict());
-                let twin = comparison.twin.as_str();
-                let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
-                tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
-            }
-        }
-    }
+    judgements.iter().for_each(tell_notes);
     tell_stand_ins(codes, |code| {
         let mut own = judgements.iter().filter(|one| one.code == code);
         own.any(|one| one.is_recorded())
@@ -132,4 +120,19 @@ fn conclude(
         .chain(contradicted)
         .max()
         .unwrap_or(ExitStatus::Success)
+}
+
+/// Prints the notes on a code and on its comparisons.
+fn tell_notes(judgement: &TrajectoryJudgement) {
+    for note in judgement.notes() {
+        tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
+    }
+    for comparison in judgement.comparisons() {
+        for note in comparison.grounds.notes() {
+            let (code, verdict) = (judgement.code, comparison.verdict());
+            let twin = comparison.twin.as_str();
+            let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
+            tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
+        }
+    }
 }

@@ -105,7 +105,7 @@ pub(super) struct StackListOptions {
     )]
     stiffnesses: Vec<f64>,
     #[command(flatten)]
-    common: StackOptions,
+    others: StackOptions,
 }
 
 impl StackListOptions {
@@ -121,7 +121,7 @@ impl StackListOptions {
         }
         let stacks = self.stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
-            frictions.map(move |&mu| self.common.stack(mu, stiffness))
+            frictions.map(move |&mu| self.others.stack(mu, stiffness))
         });
         stacks.collect()
     }
@@ -130,16 +130,16 @@ impl StackListOptions {
 /// Arm coefficients that replace those of the code.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ArmOptions {
-    /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap
+    /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap [default: that of the code]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_arm: Option<f64>,
-    /// Arm coefficient r1 of the surface velocity in these contacts [default: that of the torque]
+    /// Arm coefficient r1 of the surface velocity at these contacts [default: as --pair-arm]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_kinematic_arm: Option<f64>,
-    /// Arm coefficient r1 of floor contacts
+    /// Arm coefficient r1 of floor contacts [default: that of the code]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_arm: Option<f64>,
-    /// Arm coefficient r1 of the surface velocity in these contacts [default: that of the torque]
+    /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_kinematic_arm: Option<f64>,
 }
@@ -254,7 +254,7 @@ pub(super) fn recording_directory() -> Result<PathBuf, InvalidValue> {
     })
 }
 
-/// The directory that an environment variable names; an empty one names none.
+/// The directory that an environment variable names, unless the variable is empty.
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
     value.map(PathBuf::from)

@@ -101,7 +101,7 @@ fn record(
     recording.save(directory, name)?;
     let (count, directory) = (recording.runs.len(), shown(directory));
     tell!(
-        "{count} runs of {name} are recorded in {directory}; a program built from it carries them"
+        "{count} runs of {name} are recorded in {directory}; the next build of the program embeds them"
     );
     Ok(ExitStatus::Success)
 }

@@ -24,9 +24,9 @@ const DEFAULT_TIME_STEP: f64 = 0.1;
 /// The preparation of the stack before the compression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum PreparationKind {
-    /// Gravity rises over 100 time units: no sliding, no force between the bottom cylinders
+    /// Gravity rises over 100 sqrt(m/k_n): no sliding, no force between the bottom cylinders
     GravityRamp,
-    /// That of the paper: side walls pushed in by A, top cylinder lowered at 0.1, walls withdrawn at 1e-3
+    /// That of the paper: side walls pushed in by A, top cylinder lowered at 0.1, walls withdrawn at 1e-3 (speeds in r sqrt(k_n/m))
     SideWalls,
 }
 

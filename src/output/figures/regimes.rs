@@ -62,7 +62,7 @@ fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
     let strips = strips(map);
     for strip in &strips {
         for band in &strip.bands {
-            panel.area(colour(band.region), band.outline(strip));
+            panel.area(look(band.region).0, band.outline(strip));
         }
         for curve in &strip.curves {
             let frictions = curve.frictions.iter().map(|&friction| Some(friction));
@@ -227,27 +227,25 @@ fn region(stack: &Stack) -> Option<Region> {
     Some((ending, shares))
 }
 
-fn colour((ending, shares): Region) -> &'static str {
+/// Colour and words of a region.
+fn look((ending, shares): Region) -> (&'static str, &'static [&'static str]) {
     match (ending, shares) {
-        (Ending::Falls, _) => FALLS,
-        (Ending::Yields, false) => YIELDS,
-        (Ending::Yields, true) => YIELDS_TOUCHING,
-        (Ending::Saturates, false) => SATURATES,
-        (Ending::Saturates, true) => SATURATES_TOUCHING,
-        (Ending::NoPeak, false) => NO_PEAK,
-        (Ending::NoPeak, true) => NO_PEAK_TOUCHING,
-    }
-}
-
-fn words((ending, shares): Region) -> &'static [&'static str] {
-    match (ending, shares) {
-        (Ending::Falls, _) => &["falls under own weight"],
-        (Ending::Yields, false) => &["floor slips:", "yield force"],
-        (Ending::Yields, true) => &["2–3 touch,", "floor slips:", "yield force"],
-        (Ending::Saturates, false) => &["cylinders slip:", "saturated"],
-        (Ending::Saturates, true) => &["2–3 touch,", "cylinders slip:", "saturated"],
-        (Ending::NoPeak, false) => &["wall contact:", "no peak"],
-        (Ending::NoPeak, true) => &["2–3 touch,", "wall contact:", "no peak"],
+        (Ending::Falls, _) => (FALLS, &["falls under own weight"]),
+        (Ending::Yields, false) => (YIELDS, &["floor slips:", "yield force"]),
+        (Ending::Yields, true) => (
+            YIELDS_TOUCHING,
+            &["2–3 touch,", "floor slips:", "yield force"],
+        ),
+        (Ending::Saturates, false) => (SATURATES, &["cylinders slip:", "saturated"]),
+        (Ending::Saturates, true) => (
+            SATURATES_TOUCHING,
+            &["2–3 touch,", "cylinders slip:", "saturated"],
+        ),
+        (Ending::NoPeak, false) => (NO_PEAK, &["wall contact:", "no peak"]),
+        (Ending::NoPeak, true) => (
+            NO_PEAK_TOUCHING,
+            &["2–3 touch,", "wall contact:", "no peak"],
+        ),
     }
 }
 
@@ -293,7 +291,7 @@ fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
 
 /// Writes the words of `region` in lines around a point.
 fn name(panel: &mut Panel, region: Region, (x, y): Point) {
-    let words = words(region);
+    let (_, words) = look(region);
     let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 2.0);
     for (index, &line) in words.iter().enumerate() {
         let place = (x, top - LINE_HEIGHT * index as f64);

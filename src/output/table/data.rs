@@ -64,7 +64,7 @@ impl<'a> DataTable<'a> {
     }
 
     /// The machine-readable columns as CSV, with every digit.
-    pub fn csv(&self) -> Vec<u8> {
+    pub(crate) fn csv(&self) -> Vec<u8> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let names: Vec<&str> = self.named().map(|(_, column)| column.name).collect();
         let header = writer.write_record(names);

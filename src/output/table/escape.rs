@@ -57,13 +57,11 @@ fn character(character: char) -> String {
 
 /// The TeX command of a symbol.
 fn symbol(character: char) -> Option<String> {
-    const DIGITS: [&str; 2] = ["⁰¹²³⁴⁵⁶⁷⁸⁹", "₀₁₂₃₄₅₆₇₈₉"];
-    let digit = |row: usize| DIGITS[row].chars().position(|digit| digit == character);
-    if let Some(value) = digit(0) {
-        return Some(format!("^{value}"));
-    }
-    if let Some(value) = digit(1) {
-        return Some(format!("_{value}"));
+    for (digits, mark) in [("⁰¹²³⁴⁵⁶⁷⁸⁹", '^'), ("₀₁₂₃₄₅₆₇₈₉", '_')]
+    {
+        if let Some(value) = digits.chars().position(|digit| digit == character) {
+            return Some(format!("{mark}{value}"));
+        }
     }
     let name = match character {
         'α' => "\\alpha",
@@ -112,7 +110,6 @@ fn symbol(character: char) -> Option<String> {
         'ᵣ' => "_r",
         '½' => "\\tfrac12",
         '°' => "^\\circ",
-        '|' => "|",
         _ => return None,
     };
     Some(name.to_owned())

@@ -39,7 +39,7 @@ impl Table {
     }
 
     /// The table in Markdown.
-    pub fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
     }
 

@@ -45,10 +45,6 @@ impl Agreement {
 }
 
 pub(super) fn section(reproduction: &Reproduction) -> Section {
-    let evidence = Evidence::ALL.map(|tier| {
-        let (name, limit) = (tier.as_str(), tier.does_not_prove());
-        format!("{name}: does not prove {limit}.")
-    });
     let blocks = vec![
         Block::paragraph(format!(
             "Each code is held to the exact quasi-static limit under its own, measured convention. The \
@@ -86,12 +82,21 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
             "At the paper’s literal wall speed 10⁻⁶ and time step 10⁻³, yield force by the peak.",
             &reproduction.literal,
         ),
-        Block::List {
-            items: evidence.to_vec(),
-        },
+        evidence(),
     ];
     let title = "Agreement of the codes with the exact limit";
     Section::new("tolerances", title, blocks)
+}
+
+/// The limits of the kinds of evidence.
+fn evidence() -> Block {
+    let tiers = Evidence::ALL.map(|tier| {
+        let (name, limit) = (tier.as_str(), tier.does_not_prove());
+        format!("{name}: does not prove {limit}.")
+    });
+    Block::List {
+        items: tiers.to_vec(),
+    }
 }
 
 pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a> {

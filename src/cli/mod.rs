@@ -16,22 +16,19 @@ mod record;
 mod regimes;
 mod report;
 mod simulate;
+mod streams;
 mod sweep;
-mod tell;
 mod theory;
 mod trajectories;
 
 pub use error::{CliError, ExitStatus};
 
 use crate::code::GUARD_COMMAND;
-use crate::files::FileError;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 pub(crate) use interrupt::INTERRUPT;
 use std::cell::RefCell;
 use std::ffi::OsString;
-use std::io::Write;
-use std::path::Path;
-pub(crate) use tell::tell;
+pub(crate) use streams::{print, tell};
 
 /// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes compared with it
 #[derive(Debug, Parser)]
@@ -108,17 +105,5 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
         Command::Guard(arguments) => guard::run(&arguments),
-    }
-}
-
-/// Writes results to standard output; a closed pipe is no error.
-fn print(bytes: &[u8]) -> Result<ExitStatus, CliError> {
-    let mut output = std::io::stdout().lock();
-    let written = output.write_all(bytes).and_then(|()| output.flush());
-    match written {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(FileError::writing(Path::new("standard output"))(error).into())
-        }
-        _ => Ok(ExitStatus::Success),
     }
 }

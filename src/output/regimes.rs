@@ -152,10 +152,10 @@ pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
 pub(crate) fn survey_text(survey: &Survey) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.terminal());
     format!(
-        "Boundaries in mu, and how many of their neighbours at a relative distance of {THREE_DIGITS:e} are in \
-         the DEM what they should be\n{friction}\n\
-         Boundaries that do not depend on mu, looked at from mu on\n{lines}\n\
-         Largest force F that a stack bears, theory and peak of the DEM at vanishing wall speed\n{forces}"
+        "Boundaries in mu, and the number of neighbours at a relative distance of {THREE_DIGITS:e} for which \
+         the DEM agrees\n{friction}\n\
+         Boundaries that do not depend on mu, tested from mu on\n{lines}\n\
+         Largest force F of a stack: theory, and peak of the DEM at vanishing wall speed\n{forces}"
     )
 }
 
@@ -166,11 +166,11 @@ pub(crate) fn regimes_markdown(survey: &Survey, command: &str) -> String {
         "# Which event comes first\n\nMade by tristack {} with `{command}`.\n\n\
          ![The three maps](regimes.svg)\n\n\
          Colours say how a stack ends, full lines where another event comes first, dashed lines where the \
-         end changes while the events come in the same order. A marker is a point that was looked at with the \
-         native DEM on both sides; it is filled if the DEM shows on both what it should.\n\n\
+         end changes while the events come in the same order. A marker is a point with native DEM runs on \
+         both sides; it is a dot if both agree with theory, and a cross if not.\n\n\
          ## What each event does\n\n{}\n\
-         ## Boundaries in mu\n\nOn both sides, at a relative distance of {THREE_DIGITS:e}, the DEM was asked \
-         what happens first.\n\n{friction}\n\
+         ## Boundaries in mu\n\nNative DEM runs on both sides, at a relative distance of {THREE_DIGITS:e}, show \
+         which event comes first.\n\n{friction}\n\
          ## Boundaries that do not depend on mu\n\n{lines}\n\
          ## Largest force\n\nThe peak of the wall force in the DEM, extrapolated to vanishing wall speed; \
          the error is relative to F + 3.\n\n{forces}\n\

@@ -1,4 +1,4 @@
-//! What a yield force of the closed form costs: one, a curve of 25, and with all events on the way.
+//! Cost of yield forces by the closed form: one, a curve of 25, and one with all events on the way.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

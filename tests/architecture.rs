@@ -1,4 +1,4 @@
-//! The documents speak of the project as it is.
+//! The documents describe the project as it is.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -110,7 +110,7 @@ fn every_erratum_holds_and_is_needed() {
     }
 }
 
-/// What a constant is changed to: far enough for words like "of the order of" to notice.
+/// The value to which a constant is changed, far enough for words like "of the order of".
 fn changed(name: &str, value: f64) -> f64 {
     const FAR: [&str; 9] = [
         "elastomer_modulus",
@@ -140,7 +140,7 @@ fn changed(name: &str, value: f64) -> f64 {
     }
 }
 
-/// What must be right before a constant of a claim that fails as printed can show.
+/// The correction that a claim needs before another of its constants can show.
 fn mended(name: &str) -> Option<(&'static str, f64)> {
     match name {
         "slope_factor" => Some(("slope_power", -1.0)),
@@ -221,7 +221,7 @@ impl Progress for Quiet {
     fn warn(&self, _: &str) {}
 }
 
-/// What claims on runs need of a reproduction, natively.
+/// A reproduction with the native runs that claims on runs need.
 fn native_reproduction() -> Reproduction {
     let scratch = tempfile::tempdir().expect("a directory");
     let interrupt = Interrupt::new();

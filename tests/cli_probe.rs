@@ -141,14 +141,14 @@ fn stored_probe(bench: &Bench) -> PathBuf {
     entry.path()
 }
 
-/// As if the code had been told something else, say another damping, when it was probed.
-fn told_otherwise(probe: String) -> String {
+/// The probe with the hash of another input, for example of another damping.
+fn with_another_input(probe: String) -> String {
     let hash = "\"input_hash\":\"";
     assert!(probe.contains(hash));
     probe.replacen(hash, &format!("{hash}0"), 1)
 }
 
-/// What the store keeps behind its digest.
+/// Content of a store file behind its digest.
 fn unsealed(path: &Path) -> String {
     let sealed = fs::read(path).expect("a probe");
     let content = unseal(path, &sealed).expect("its digest");
@@ -163,7 +163,7 @@ fn a_stored_probe_to_which_something_else_was_told_is_made_anew() {
     let first = standard_output(&mut bench.tristack(line));
     let stored = stored_probe(&bench);
     let kept = unsealed(&stored);
-    let other = seal(told_otherwise(kept.clone()).as_bytes());
+    let other = seal(with_another_input(kept.clone()).as_bytes());
     fs::write(&stored, other).expect("a file");
     assert_eq!(standard_output(&mut bench.tristack(line)), first);
     let anew = unsealed(&stored);

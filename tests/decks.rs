@@ -1,4 +1,4 @@
-//! What the decks of the external codes are told, and which deck it is.
+//! The parameters that the decks of the external codes receive, and the choice of the deck.
 
 use insta::assert_snapshot;
 use proptest::prelude::*;

@@ -104,7 +104,7 @@ fn many_in_a_vector_have_the_golden_bits_on_one_core_and_on_two_in_every_build()
     assert!(tables.iter().all(|table| *table == tables[0]));
 }
 
-/// What a compiler, an allocator or a scheduler may do differently on another machine.
+/// Operations whose results may depend on the compiler, the allocator or the scheduler.
 const UNORDERED_OR_FUSED: [&str; 9] = [
     "mul_add",
     ".sum()",
@@ -159,7 +159,7 @@ fn the_compiled_stepping_fuses_nothing_and_approximates_nothing() {
         let (mut stepping, mut instructions, mut vectors) = (false, 0, 0);
         for line in text.lines() {
             if line.ends_with(">:") {
-                // What runs in vectors is compiled into the function of pulp that switches them on.
+                // Vector code is compiled into the function of pulp that switches the instructions on.
                 stepping = line.contains("tristack::dem::") || line.contains("::vectorize::");
             } else if let Some((_, instruction)) = line.split_once(":\t") {
                 let name = instruction.split_whitespace().next().unwrap_or_default();

@@ -25,7 +25,7 @@ fn long_cases(count: usize) -> Vec<Case> {
     cases.collect()
 }
 
-/// What becomes of `cases`, if the user interrupts as soon as one of them has done so many steps.
+/// Outcomes of `cases` with an interrupt as soon as one of them has done `stop_at` steps.
 fn outcomes(cases: &[Case], checkpoints: &Path, stop_at: u64) -> (Vec<Result<Run, Failure>>, u64) {
     let (interrupt, first) = (Interrupt::new(), AtomicU64::new(u64::MAX));
     let advanced = |_: usize, steps: u64| {

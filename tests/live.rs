@@ -182,8 +182,8 @@ fn a_live_run_repeats_its_recording() {
     }
 }
 
-/// What is left between a code and a native twin with its convention, after a preparation between side walls,
-/// must be less than what halving the time step changes in the twin.
+/// After a preparation between side walls, a code and a native twin with its convention must differ by less than
+/// halving the time step changes in the twin.
 #[test]
 fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_them() {
     for code in installed() {

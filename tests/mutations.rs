@@ -1,4 +1,4 @@
-//! A table of wrong codes: twins of the native DEM with one line changed, and who notices.
+//! A table of wrong codes: twins of the native DEM with one line changed, and the studies that notice.
 
 use std::path::Path;
 use tristack::code::{
@@ -296,7 +296,7 @@ fn crosscheck(mutation: Mutation) -> Judgement {
     judgements.into_iter().next().expect("a row")
 }
 
-/// What the crosscheck would say if nobody had probed: the row still has its numbers.
+/// The verdict of the crosscheck without a probe: the row still has its numbers.
 fn crosscheck_alone(judgement: &Judgement) -> &'static str {
     let row = judgement;
     let (Some(force), Some(reference), Some(uncertainty)) =
@@ -330,7 +330,7 @@ fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     assert_eq!(crosscheck(Mutation::None).verdict(), Verdict::Agrees);
 }
 
-/// Holds a study to the rule for a code whose probe contradicts its declaration.
+/// Asserts that a study follows the rule for a code whose probe contradicts its declaration.
 fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
     assert_eq!(judged.len(), 1);
     let study = &judged[0];

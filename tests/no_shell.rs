@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 /// The only place that starts a program.
 const STARTERS: [&str; 2] = ["src/code/process.rs", "src/code/guard.rs"];
 
-/// What starts a program in Rust, or is one that interprets what it is given.
+/// Ways to start a program in Rust.
 const STARTS: [&str; 4] = [
     "Command::new",
     "CommandWrap",
     "std::process::Command",
     "exec(",
 ];
+/// Shells, their usual argument, and a program that starts its arguments.
 const SHELLS: [&str; 6] = [
     "\"sh\"",
     "\"bash\"",
@@ -23,7 +24,7 @@ const SHELLS: [&str; 6] = [
     "\"env\"",
 ];
 
-/// What starts a program in Python, or runs text as a program.
+/// Ways to start a program in Python, or to run text as a program.
 const PYTHON: [&str; 10] = [
     "os.system",
     "subprocess",
@@ -116,7 +117,7 @@ fn decks_of_lammps_and_liggghts_start_nothing() {
     }
 }
 
-/// What the tests above look for, they find.
+/// The tests above find what they look for.
 #[test]
 fn shells_would_be_noticed() {
     assert_eq!(

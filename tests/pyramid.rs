@@ -144,7 +144,7 @@ fn a_pyramid_stands_on_its_floor_in_equilibrium_and_symmetric() {
         floor / weight - 1.0,
         unbalanced / one_weight
     );
-    // What is left of the slowest oscillation, which has a period of some 60 time units and is hardly damped.
+    // The rest of the slowest oscillation, which has a period of some 60 time units and is hardly damped.
     assert!((floor / weight - 1.0).abs() < 1e-6);
     assert!(unbalanced < 1e-6 * one_weight);
     let farthest = asymmetry(&pyramid, packing.cylinders());

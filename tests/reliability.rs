@@ -143,7 +143,7 @@ must hold of each parser stands in `tests/soundness/`, and proptest tries it in 
     findings_section(page, list(fuzz, "findings"), "target");
 }
 
-/// What was wrong, where it showed, and the test that holds its mend.
+/// Table of defects, the places where they showed, and the tests that guard against them.
 fn findings_section(page: &mut String, findings: &[Value], place: &str) {
     writeln!(page, "\nFound on the way, and mended:\n").expect("text");
     for finding in findings {

@@ -153,7 +153,7 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// What a browser finds on the page: see tests/page_inspection.js.
+/// Measurements of the page by a browser; see tests/page_inspection.js.
 fn inspected(width: u32) -> Option<serde_json::Value> {
     let browser = browser()?;
     let bench = Bench::without_codes();
@@ -173,7 +173,7 @@ fn inspected(width: u32) -> Option<serde_json::Value> {
     ))
 }
 
-/// What `browser` makes of a page, printed after its scripts have run; no name is resolved.
+/// The document as `browser` prints it after the scripts of the page have run; no name is resolved.
 fn laid_out(browser: &Path, bench: &Bench, page: &str, width: u32) -> Output {
     let path = bench.path("page.html");
     fs::write(&path, page).expect("a page");

@@ -1,4 +1,4 @@
-//! What the program is made of: whose code, under which licence, for which compiler.
+//! Origin, licence and compiler version of the dependencies.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

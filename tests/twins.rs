@@ -107,7 +107,7 @@ fn a_twin_with_one_part_of_its_convention_wrong_differs() {
     }
 }
 
-/// What is wrong is no error of the time step: it is ten times the largest one.
+/// The deviation of a wrong code is ten times the largest error of the time step.
 #[test]
 fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
     for what in ["inertia", "operand", "sliding spring"] {

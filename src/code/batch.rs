@@ -1,4 +1,4 @@
-//! Tasks for one process of an external code: run directories, the runner, blame, outcomes read back.
+//! One process of an external code and its tasks: run directories, the run, outcomes and failures.
 
 use super::failure::{Failure, FailureKind};
 use super::installation::InstalledProgram;
@@ -7,7 +7,7 @@ use super::manifest::{Definition, ResultFile};
 use super::parameters::only_numbers;
 use super::process::{Ending, Environment, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
 use super::task::Task;
-use crate::files::{FileError, remove_abandoned};
+use crate::files::{FileError, locked_directory, remove_abandoned};
 use std::ffi::OsString;
 use std::fs;
 use std::io::{Read, Seek, SeekFrom};
@@ -19,7 +19,7 @@ const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
 
 /// Some tasks of one kind for one process.
-pub struct Batch<'a, T: Task> {
+pub(crate) struct Batch<'a, T: Task> {
     program: &'a InstalledProgram,
     definition: &'static Definition,
     result: ResultFile,
@@ -57,20 +57,17 @@ impl<'a, T: Task> Batch<'a, T> {
         }
     }
 
-    /// Number of tasks up to the last one that has been reported. Those beyond have had no chance.
-    pub fn settled(&self) -> usize {
+    /// Number of tasks up to the last reported one. Those beyond it were never started.
+    pub(crate) fn settled(&self) -> usize {
         let last = self.reported.iter().rposition(|&reported| reported);
         last.map_or(0, |index| index + 1)
     }
 
-    /// Runs the process and reports tasks, at least the first one. Those beyond the last reported one have
-    /// had no chance, because it took the process down.
+    /// Runs the process and reports tasks, at least the first one. A task that ends the process is reported as
+    /// failed; those after it are not reported.
     pub fn run(&mut self, context: &RunContext, report: Report<T>) {
         if context.interrupt.requested() {
-            for index in 0..self.tasks.len() {
-                self.fail(index, FailureKind::Interrupted, report);
-            }
-            return;
+            return self.interrupt_from(0, report);
         }
         if let Err(kind) = self.prepare() {
             // Nothing may be read from directories that have not been cleared.
@@ -94,11 +91,7 @@ impl<'a, T: Task> Batch<'a, T> {
                 let limit = self.time_limit(context);
                 self.fail(delivered, FailureKind::TimedOut(limit), report);
             }
-            Ok(Ending::Interrupted) => {
-                for index in delivered..self.tasks.len() {
-                    self.fail(index, FailureKind::Interrupted, report);
-                }
-            }
+            Ok(Ending::Interrupted) => self.interrupt_from(delivered, report),
             Err(kind) => self.fail(delivered, kind, report),
         }
     }
@@ -117,7 +110,7 @@ impl<'a, T: Task> Batch<'a, T> {
             for (name, content) in task.files() {
                 write(&directory.join(name), content.as_bytes())?;
             }
-            // What an earlier run left behind must not pass for the result of this one.
+            // Files of an earlier run must not pass for results of this one.
             for stale in self.logs().iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
@@ -128,7 +121,7 @@ impl<'a, T: Task> Batch<'a, T> {
         Ok(())
     }
 
-    /// Files of the program's own that say what went wrong.
+    /// Log files of the program, quoted when it fails.
     fn logs(&self) -> &'static [String] {
         let program = self.definition.program.as_ref();
         program.map_or(&[], |program| &program.logs)
@@ -146,14 +139,9 @@ impl<'a, T: Task> Batch<'a, T> {
         let none = Environment::new();
         let own = self.definition.program.as_ref();
         let directory = self.directory.clone();
-        // In the directory of a user, a killed program may have left one.
+        // A killed process may have left its home in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
-        let home = tempfile::Builder::new()
-            .prefix(HOME)
-            .tempdir_in(&directory)
-            .map_err(FailureKind::Start)?;
-        let held = fs::File::open(home.path()).map_err(FailureKind::Start)?;
-        let _ = held.try_lock();
+        let (home, _lock) = locked_directory(&directory, HOME).map_err(FailureKind::Start)?;
         let job = Job {
             command: &command,
             directory: &directory,
@@ -171,7 +159,7 @@ impl<'a, T: Task> Batch<'a, T> {
         context.time_limit.unwrap_or(longest)
     }
 
-    /// Reports the tasks that have become complete; says whether there was one.
+    /// Reports the tasks that have become complete; returns whether there was one.
     fn harvest(&mut self, report: Report<T>) -> bool {
         let complete = |index: &usize| !self.reported[*index] && self.is_complete(*index);
         let complete: Vec<usize> = (0..self.tasks.len()).filter(complete).collect();
@@ -197,7 +185,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let directory = self.task_directory(index);
         let outcome = self.tasks[index].read_outcome(&directory, &self.result);
         let outcome = outcome.map_err(FailureKind::Series);
-        // A program that was replaced meanwhile may not be the one that answered.
+        // A program that was replaced meanwhile may not be the one that ran.
         let unchanged = self.program.installation.check_unchanged();
         match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
@@ -205,6 +193,12 @@ impl<'a, T: Task> Batch<'a, T> {
                 self.report(index, Ok((outcome, seconds)), report);
             }
             Err(kind) => self.fail(index, kind, report),
+        }
+    }
+
+    fn interrupt_from(&mut self, first: usize, report: Report<T>) {
+        for index in first..self.tasks.len() {
+            self.fail(index, FailureKind::Interrupted, report);
         }
     }
 
@@ -272,13 +266,7 @@ fn tail(path: &Path) -> Vec<String> {
         return Vec::new();
     }
     let text = String::from_utf8_lossy(&bytes);
-    let lines: Vec<&str> = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .collect();
-    let skipped = lines.len().saturating_sub(LAST_LINES);
-    lines[skipped..]
-        .iter()
-        .map(|line| (*line).to_owned())
-        .collect()
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let lines: Vec<String> = lines.map(str::to_owned).collect();
+    lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }

@@ -1,4 +1,4 @@
-//! What a program writes, as much of it as anybody will read: the beginning and the end.
+//! Captured output of a program: the beginning and the end.
 
 use std::collections::VecDeque;
 use std::io::{Read, Write};
@@ -7,7 +7,7 @@ use std::time::Duration;
 
 const HEAD_BYTES: u64 = 1 << 20;
 const TAIL_BYTES: usize = 1 << 16;
-/// A pipe that stays open longer after its program has ended is held by something that outlives it.
+/// Longest wait for a pipe after its program has ended: a process that outlives it may keep the pipe open.
 const LONGEST_REST: Duration = Duration::from_secs(1);
 
 /// Copies a pipe to `W` on a thread of its own.
@@ -19,7 +19,7 @@ impl<W: Write + Send + 'static> Capture<W> {
     pub(super) fn new(pipe: impl Read + Send + 'static, mut output: W) -> Self {
         let (sender, result) = channel();
         std::thread::spawn(move || {
-            // Output that cannot be written is lost, and the program does not notice: it is judged by its series.
+            // Output that cannot be written is dropped: a program is judged by its series.
             let mut pipe = pipe;
             if copy(&mut pipe, &mut output).is_err() {
                 let _ = std::io::copy(&mut pipe, &mut std::io::sink());
@@ -29,13 +29,13 @@ impl<W: Write + Send + 'static> Capture<W> {
         Self { result }
     }
 
-    /// What was written to, once all is there.
+    /// The destination of the copy, once that is complete.
     pub(super) fn finish(self) -> Option<W> {
         self.result.recv_timeout(LONGEST_REST).ok()
     }
 }
 
-/// Copies the first bytes at once and the last ones at the end, and says how many are missing between them.
+/// Copies the first bytes at once and the last ones at the end, with a note on how many are left out between them.
 fn copy(mut pipe: impl Read, output: &mut impl Write) -> std::io::Result<()> {
     std::io::copy(&mut pipe.by_ref().take(HEAD_BYTES), output)?;
     let mut tail = VecDeque::new();

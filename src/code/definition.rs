@@ -14,12 +14,12 @@ const SCHEMA: i64 = 1;
 /// Placeholders that every command knows.
 const DECK: &str = "{deck}";
 const DIRECTORIES: &str = "{directories}";
-/// Some twenty times the slowest start and step of a stack that were ever seen.
+/// About twenty times the slowest start and the slowest step of a stack that were measured.
 pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
 const LONGEST_STEP: Duration = Duration::from_micros(100);
 const SAFETY: f64 = 20.0;
 
-/// A folder that describes no code.
+/// The reason why a folder describes no code.
 #[derive(Debug, Clone, Error)]
 #[error("{}: {message}", shown(path))]
 pub struct ManifestError {
@@ -51,7 +51,7 @@ impl Definition {
     /// The codes that `folder` describes, one a variant, in the order of their names.
     ///
     /// # Errors
-    /// The first thing that is wrong with the manifest or its files.
+    /// The first error in the manifest or its files.
     pub fn read(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         Self::read_with(folder, &|name| {
             std::fs::read(folder.join(name)).map_err(|error| error.to_string())
@@ -82,7 +82,7 @@ impl Definition {
         finished.collect::<Result<_, _>>().map_err(failed)
     }
 
-    /// Itself, or one code for each of its variants, whose keys take the place of its own.
+    /// The code itself, or one code for each of its variants, whose keys override its own.
     fn expand(self, mut table: Table) -> Result<Vec<Self>, String> {
         let family = self.name.clone();
         if self.variants.is_empty() {
@@ -104,7 +104,7 @@ impl Definition {
         variants.collect()
     }
 
-    /// Checks what the types do not, and takes in the files of the tasks.
+    /// Checks what the types cannot, and reads the files of the tasks.
     fn finish(mut self, read: ReadFile) -> Result<Self, String> {
         self.check().map_err(|invalid| invalid.to_string())?;
         if self.title.is_empty() {
@@ -133,7 +133,8 @@ impl Definition {
         self.check_command()
     }
 
-    /// Every file stays inside the folder and the run directory, and none passes for a result.
+    /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or
+    /// logs.
     fn check_files(&mut self) -> Result<(), InvalidValue> {
         let logs = self.program.iter().flat_map(|program| &program.logs);
         let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
@@ -167,7 +168,7 @@ impl Definition {
         Ok(())
     }
 
-    /// Every placeholder has a value.
+    /// Refuses a command with an unknown placeholder.
     fn check_command(&self) -> Result<(), InvalidValue> {
         let Some(program) = &self.program else {
             return Ok(());
@@ -200,7 +201,7 @@ impl Definition {
         })
     }
 
-    /// Whether it runs a task of this kind.
+    /// Whether it runs tasks of this kind.
     pub(super) fn runs(&self, kind: TaskKind) -> bool {
         self.program.is_none() || self.tasks.contains_key(&kind)
     }
@@ -245,7 +246,7 @@ impl Definition {
         sha256_hex(&bytes)
     }
 
-    /// Where the result of a task is found.
+    /// The result file of a task.
     pub(super) fn result(&self, kind: TaskKind) -> ResultFile {
         let own = self.tasks.get(&kind).and_then(|task| task.result.clone());
         ResultFile {
@@ -254,7 +255,7 @@ impl Definition {
         }
     }
 
-    /// Time after which a task of so many steps counts as hanging.
+    /// Time after which a task of `steps` steps counts as hanging.
     pub(super) fn time_limit(&self, steps: u64) -> Duration {
         let at_least = |seconds: f64, least: Duration| (SAFETY * seconds).max(least.as_secs_f64());
         let start = at_least(self.seconds.start, LONGEST_START);
@@ -263,7 +264,7 @@ impl Definition {
         limit.unwrap_or(Duration::MAX)
     }
 
-    /// Refuses a restitution that the manifest refuses.
+    /// Refuses a restitution that the manifest rules out.
     pub(super) fn check_restitution(&self, asked: f64) -> Result<(), InvalidValue> {
         let Some(RefusedValues { values, because }) = &self.refused.restitution else {
             return Ok(());

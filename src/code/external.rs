@@ -1,7 +1,7 @@
-//! An external code that is installed: its tasks, handed in batches to its program.
+//! An installed external code, whose program is given its tasks in batches.
 
 use super::batch::Batch;
-use super::failure::Failure;
+use super::failure::{Failure, FailureKind};
 use super::installation::InstalledProgram;
 use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
 use super::provenance::{Identity, Provenance, Run};
@@ -11,8 +11,8 @@ use crate::model::{Case, InvalidValue};
 use crate::series::Series;
 use std::ops::Range;
 
-/// An external code that is installed.
-pub struct ExternalCode {
+/// An installed external code.
+pub(crate) struct ExternalCode {
     program: InstalledProgram,
     identity: Identity,
 }
@@ -24,7 +24,7 @@ fn same_deck(left: &Case, right: &Case) -> bool {
 }
 
 impl ExternalCode {
-    /// The code with the program `word`, which takes the same decks, if it is installed here.
+    /// `code` with the program `word`, if that is installed here.
     pub(super) fn find(code: Code, word: &str) -> Option<Box<dyn InstalledCode>> {
         let program = InstalledProgram::find(code, word)?;
         let installation = &program.installation;
@@ -37,7 +37,7 @@ impl ExternalCode {
         Some(Box::new(Self { program, identity }))
     }
 
-    /// Carries out those of `tasks` in `range`, all of one kind, in order, as many at once as the code can; if
+    /// Carries out the `tasks` in `range`, all of one kind, in order, as many at once as the code can; if
     /// `all_or_nothing`, only up to the first failure.
     fn carry_out_range<T: Task>(
         &self,
@@ -137,7 +137,7 @@ impl ExternalCode {
     }
 
     fn unsupported(&self, task: &impl Task, refusal: InvalidValue) -> Failure {
-        Failure::unsupported(self.program.code, task, refusal)
+        Failure::new(self.program.code, task, FailureKind::Unsupported(refusal))
     }
 }
 

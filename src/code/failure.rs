@@ -1,4 +1,4 @@
-//! A run that did not deliver, with everything needed to look into it.
+//! Failed runs, with everything needed to find the cause.
 
 use super::registry::Code;
 use crate::files::FileError;
@@ -9,7 +9,7 @@ use std::process::ExitStatus;
 use std::time::Duration;
 use thiserror::Error;
 
-/// Why a code delivered no series.
+/// The reason why a code delivered no series.
 #[derive(Debug, Error)]
 pub enum FailureKind {
     /// The code cannot run this case.
@@ -17,7 +17,7 @@ pub enum FailureKind {
     Unsupported(InvalidValue),
     /// The run directory could not be prepared.
     #[error(transparent)]
-    RunContext(#[from] FileError),
+    RunDirectory(#[from] FileError),
     /// The program could not be started.
     #[error("cannot start the program: {0}")]
     Start(std::io::Error),
@@ -48,36 +48,36 @@ pub enum FailureKind {
     context(run_directory, last_lines)
 )]
 pub struct Failure {
-    /// Who failed.
+    /// The code that failed.
     pub code: Code,
-    /// On what.
+    /// The task, in words.
     pub subject: String,
-    /// Why.
+    /// The reason.
     pub kind: FailureKind,
-    /// Where the deck and the captured output are.
+    /// Directory with the deck and the captured output.
     pub run_directory: Option<PathBuf>,
-    /// The end of what the program wrote.
+    /// The end of the program's output.
     pub last_lines: Vec<String>,
 }
 
 impl Failure {
-    /// `code` cannot do what `subject` asks for.
-    pub(super) fn unsupported(code: Code, subject: &impl ToString, reason: InvalidValue) -> Self {
+    /// The failure of `code` on `subject` outside any run directory.
+    pub(crate) fn new(code: Code, subject: &impl ToString, kind: FailureKind) -> Self {
         Self {
             code,
             subject: subject.to_string(),
-            kind: FailureKind::Unsupported(reason),
+            kind,
             run_directory: None,
             last_lines: Vec::new(),
         }
     }
 
-    /// Whether the run directory holds what the program wrote before it failed.
-    pub fn left_evidence(&self) -> bool {
+    /// Whether the run directory holds output that helps to find the cause.
+    pub(crate) fn left_evidence(&self) -> bool {
         self.run_directory.is_some() && !self.is_interrupted()
     }
 
-    /// Whether nothing is wrong but that the user did not want to wait.
+    /// Whether an interrupt is the only cause.
     pub fn is_interrupted(&self) -> bool {
         matches!(self.kind, FailureKind::Interrupted)
     }

@@ -76,7 +76,7 @@ impl ResultFormat {
     }
 }
 
-/// The rows between the header and `Loop time`.
+/// The rows of the last table in `log` with these `columns`: from its header to `Loop time`.
 fn last_table<Row: DeserializeOwned>(
     log: &[u8],
     columns: &[&str],

@@ -1,8 +1,8 @@
-//! A process of this program between it and a foreign one.
+//! The guard: a process of tristack between it and an external program.
 //!
-//! It lives as long as the foreign program and all that this has started, and ends them when tristack ends,
-//! however that ends: `kill -9` leaves nothing running. It also limits what they may use, and shuts them off from
-//! the network where the system lets it.
+//! A guard lives as long as the external program and its descendants, and kills them when tristack ends for any
+//! reason, `kill -9` included. It also limits their memory and files, and shuts them off from the network where the
+//! system permits.
 
 use nix::errno::Errno;
 use nix::sched::{CloneFlags, unshare};
@@ -21,8 +21,8 @@ use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// The command of `tristack` that is a guard.
-pub const COMMAND: &str = "guard";
+/// The command of `tristack` that runs a guard.
+pub(crate) const COMMAND: &str = "guard";
 /// Its flag for a program without a network.
 const OFFLINE: &str = "--offline";
 const THIS_PROGRAM: &str = "/proc/self/exe";
@@ -34,13 +34,12 @@ const LONGEST_FILE: u64 = 1 << 30;
 
 static GUARDED: AtomicBool = AtomicBool::new(false);
 
-/// From now on foreign programs are guarded. To be called by a program that understands [`COMMAND`].
+/// Guards external programs from now on. Call it only in a program that understands `COMMAND`.
 pub fn guard_foreign_programs() {
     GUARDED.store(true, Ordering::SeqCst);
 }
 
-/// What stands before the command of a foreign program. The link leads to this program even after another one has
-/// taken its name.
+/// Words before the command of an external program. The link leads to this program even after its file was replaced.
 pub(super) fn prefix() -> Vec<&'static OsStr> {
     let words: &[&str] = match GUARDED.load(Ordering::SeqCst) {
         false => &[],
@@ -50,7 +49,7 @@ pub(super) fn prefix() -> Vec<&'static OsStr> {
     words.iter().map(OsStr::new).collect()
 }
 
-/// Whether the system lets this user leave the network. Somebody has to try: half of it cannot be undone.
+/// Whether the system lets this user leave the network. A process of its own tries, because that cannot be undone.
 static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
     let mut guard = Command::new(THIS_PROGRAM);
     guard.args([COMMAND, OFFLINE, "--", THIS_PROGRAM, "--version"]);
@@ -65,11 +64,8 @@ static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
     status.is_ok_and(|status| status.success())
 });
 
-/// Runs `command` under guard until it ends or standard input is closed, without a network if `offline`. Whatever it
-/// has started is then dead.
-///
-/// # Errors
-/// If it cannot be started that way.
+/// Runs `command` until it ends or standard input is closed, without a network if `offline`, and kills all its
+/// descendants.
 pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus> {
     set_child_subreaper(true)?;
     limit(Resource::RLIMIT_CORE, 0)?;
@@ -84,7 +80,7 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
         .spawn()?;
     let program = Pid::from_raw(child.id() as i32);
     std::thread::spawn(move || {
-        // Nothing ever comes: this waits for the end of the other side.
+        // Nothing is ever written: this waits until the other side closes.
         let _ = std::io::stdin().read(&mut [0]);
         let _ = kill(program, Signal::SIGKILL);
     });
@@ -93,14 +89,15 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
     Ok(status)
 }
 
-/// Ends this program the way `status` says, so that whoever waits for it sees what the foreign program did.
-pub fn end_like(status: ExitStatus) -> i32 {
+/// Ends this program by the signal in `status`, or returns the exit code in it, so that the parent process sees how
+/// the external program ended.
+pub(crate) fn end_like(status: ExitStatus) -> i32 {
     if let Some(signal) = status.signal().and_then(|it| Signal::try_from(it).ok()) {
-        // The first may only take the handler away that the runtime has for it.
+        // The first may only remove the handler of the runtime.
         let _ = raise(signal);
         let _ = raise(signal);
     }
-    // As a shell tells of a signal that this program ignores.
+    // The code by which a shell reports a signal, for one that this program ignores.
     let signal = status.signal().unwrap_or_default();
     status.code().unwrap_or(128 + signal)
 }
@@ -116,7 +113,7 @@ fn limit(resource: Resource, most: u64) -> std::io::Result<()> {
 fn leave_network() -> std::io::Result<()> {
     let (user, group) = (getuid(), getgid());
     if unshare(CloneFlags::CLONE_NEWNET).is_err() {
-        // Only the owner of a name space may do that; a user may own a new one, in which nobody else exists.
+        // Only the owner of a user name space may do that, and every user may create one.
         unshare(CloneFlags::CLONE_NEWUSER | CloneFlags::CLONE_NEWNET)?;
         std::fs::write("/proc/self/setgroups", "deny")?;
         std::fs::write("/proc/self/uid_map", format!("{user} {user} 1"))?;
@@ -146,8 +143,8 @@ fn start_loopback() -> std::io::Result<()> {
     Ok(())
 }
 
-/// Kills every process that the foreign program has started, also those that have left its group: orphans become
-/// children of this process.
+/// Kills all descendants of the external program, also those that have left its group: orphans become children of
+/// this process.
 fn end_descendants() {
     loop {
         match waitpid(None, Some(WaitPidFlag::WNOHANG)) {

@@ -1,4 +1,4 @@
-//! The program of a code as it is installed here: which file, and which version.
+//! The program of a code as it is installed here: its file and its version.
 
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
@@ -11,17 +11,16 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// A question is put again if a signal ends who is asked: the answer becomes part of the address of every run.
+/// Attempts at a query that a signal ends: the answer becomes part of the address of every run.
 const TRIES: usize = 3;
 
-/// A version in characters: it stands in tables.
+/// Longest version in characters, as it is printed in tables.
 const LONGEST_VERSION: usize = 100;
 const UNKNOWN: &str = "unknown";
 
 /// An installed program.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Installation {
-    /// The program.
+pub(crate) struct Installation {
     pub program: PathBuf,
     /// Its own version, or that of its package.
     pub version: String,
@@ -29,16 +28,13 @@ pub struct Installation {
     pub package: Option<String>,
     /// SHA-256 of the program file.
     pub hash: String,
-    /// What changes when somebody writes to the file or puts another in its place.
+    /// Changes when the file is written to or replaced.
     stamp: Stamp,
 }
 
 impl Installation {
     /// Refuses a program that has been replaced since it was found.
-    ///
-    /// # Errors
-    /// It names the program.
-    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+    pub(crate) fn check_unchanged(&self) -> Result<(), FailureKind> {
         let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
         let replaced = || FailureKind::Replaced(self.program.clone());
         unchanged.then_some(()).ok_or_else(replaced)
@@ -58,12 +54,12 @@ impl Stamp {
 }
 
 /// A code whose program is installed.
-pub struct InstalledProgram {
-    /// Whose tasks it carries out.
+pub(crate) struct InstalledProgram {
+    /// The code it belongs to.
     pub code: Code,
     /// First word of the command: that of the manifest, or a build in another precision.
     pub word: String,
-    /// Where it was found.
+    /// The file that was found.
     pub installation: Installation,
 }
 
@@ -87,8 +83,8 @@ impl InstalledProgram {
 }
 
 /// Looks for `program` in the search path and asks the package manager, or the program itself in its
-/// `environment`, for its version. One that does not say within [`LONGEST_START`] which it is counts as not there:
-/// its runs would be kept under a wrong name.
+/// `environment`, for its version. A program that gives none within [`LONGEST_START`] counts as not
+/// installed: its runs would be kept under a wrong name.
 fn find(
     program: &str,
     question: &VersionQuestion,
@@ -169,8 +165,8 @@ fn own_version(
     Ok(version_in_answer(&text, &question.before))
 }
 
-/// The version in what a program answers when asked for it: the first line, as far as it goes from
-/// `before` to a comma; `unknown` if there is nothing readable.
+/// The version in the `answer` of a program: its first line from behind `before` to a comma; `unknown` if nothing
+/// there is readable.
 pub fn version_in_answer(answer: &str, before: &str) -> String {
     let first = answer.lines().find(|line| !line.trim().is_empty());
     let line = first.unwrap_or_default().trim();
@@ -184,11 +180,11 @@ pub fn version_in_answer(answer: &str, before: &str) -> String {
     }
 }
 
-/// Nothing was said in time.
+/// There was no answer within the time limit.
 #[derive(Debug)]
 struct TooSlow;
 
-/// What a command that succeeds writes to its standard output.
+/// The standard output of `command`; `None` if it fails or cannot be started.
 fn answer(
     command: &[OsString],
     environment: &Environment,
@@ -197,7 +193,7 @@ fn answer(
     let job = Job {
         command,
         directory: Path::new("/"),
-        // Nothing is to be left behind.
+        // A query leaves no files behind.
         home: Path::new("/nonexistent"),
         environment,
         time_limit,

@@ -1,4 +1,4 @@
-//! An installed code, and how runs are asked of it.
+//! The interface of an installed code.
 
 use super::failure::Failure;
 use super::process::Interrupt;
@@ -10,25 +10,25 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Progress callback: index of the case, steps done.
-pub type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
+pub(crate) type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
 
-/// Where and how runs are made.
+/// The conditions under which runs are made.
 #[derive(Clone, Copy)]
 pub struct RunContext<'a> {
     /// Directory in which every case gets a run directory of its own.
     pub directory: &'a Path,
-    /// Directory that keeps runs which are under way, if they are to be taken up after an interruption.
+    /// Directory for checkpoints of unfinished runs; `None` to keep none.
     pub checkpoints: Option<&'a Path>,
     /// Longest time without a finished case; the code's own estimate if absent.
     pub time_limit: Option<Duration>,
-    /// Set when the user wants to stop.
+    /// Stops the runs when requested.
     pub interrupt: &'a Interrupt,
-    /// Called now and then while long runs go on.
+    /// Receives the progress of long runs.
     pub advanced: Advanced<'a>,
 }
 
 impl<'a> RunContext<'a> {
-    /// Runs in `directory` until they end or the user wants to stop; nothing is kept or reported.
+    /// Runs in `directory`, without checkpoints, time limit or progress.
     pub fn new(directory: &'a Path, interrupt: &'a Interrupt) -> Self {
         Self {
             directory,
@@ -40,36 +40,36 @@ impl<'a> RunContext<'a> {
     }
 }
 
-/// How a code is fastest.
+/// The distribution of cases over calls with which a code is fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Batching {
-    /// With a call for each case.
+    /// A call for each case.
     OneCallACase,
-    /// With as few calls as there are cores for it, because starting takes longer than running.
+    /// A call for each core that the code gets, because starting takes longer than running.
     FewCalls,
-    /// With a call on each core, because cases in one call share every instruction.
+    /// A call for each core, because the cases of a call share vector instructions.
     OneCallACore,
 }
 
-/// Receives results, each with its index, as soon as they are there.
+/// Receives each result, with the index of its task, as soon as it is available.
 pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
 
-/// A code that carries out tasks here.
+/// A code that is installed here.
 pub trait InstalledCode: Send + Sync {
-    /// Its name.
+    /// The name of the code.
     fn name(&self) -> Code;
 
-    /// What decides its numbers.
+    /// The program behind its numbers.
     fn identity(&self) -> &Identity;
 
-    /// How many cases one call should have.
+    /// The distribution of cases over calls.
     fn batching(&self) -> Batching;
 
-    /// Carries out `tasks`, and hands each outcome to their receiver.
+    /// Carries out `tasks`.
     fn carry_out(&self, tasks: Tasks, context: &RunContext);
 }
 
-/// Tasks of one kind. Each outcome goes to the receiver, with the index of its task, as soon as it is there.
+/// Tasks of one kind, and the receiver of their outcomes.
 pub enum Tasks<'a, 'f> {
     /// Stacks to be compressed. A failure does not keep the others from running.
     Cases(&'a [Case], Finished<'f, Run>),
@@ -86,9 +86,6 @@ impl dyn InstalledCode + '_ {
     }
 
     /// The motions of micro-tests, in order.
-    ///
-    /// # Errors
-    /// The first failure, if there is one.
     pub fn probe(
         &self,
         tests: &[ContactTest],

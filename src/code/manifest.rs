@@ -16,7 +16,7 @@ pub struct Definition {
     /// Name in prose and figures; the variants of a folder share it.
     #[serde(default)]
     pub(super) title: String,
-    /// What tells the variant from others in figures.
+    /// Distinguishes the variant from others in figures.
     pub(super) label: Option<String>,
     /// How to install the program.
     #[serde(default)]
@@ -48,7 +48,7 @@ pub struct Definition {
     pub(super) family: String,
 }
 
-/// What a code can be asked to do.
+/// The kinds of tasks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TaskKind {
@@ -132,13 +132,13 @@ pub(super) struct Program {
     pub(super) logs: Vec<String>,
 }
 
-/// How a program says its version.
+/// How the version of a program is found.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct VersionQuestion {
-    /// Whether the version of its package, which is quicker to know, is as good.
+    /// Whether the version of its package, which is found faster, will do.
     pub(super) package: bool,
-    /// Arguments that make it print the version; it is not asked if there are none.
+    /// Arguments with which it prints its version; without any, the version is unknown.
     pub(super) arguments: Vec<String>,
     /// Text before the version in the first line it prints.
     pub(super) before: String,
@@ -184,19 +184,19 @@ impl Default for ResultFile {
 pub(super) struct TaskFiles {
     /// The first one is the deck.
     pub(super) files: Vec<String>,
-    /// Where the result is, if not where that of other tasks is.
+    /// Its result file, if not the common one.
     pub(super) result: Option<String>,
     #[serde(skip)]
     pub(super) contents: Vec<Vec<u8>>,
 }
 
-/// How a code steps through time, as far as it can be seen beside a native twin.
+/// Properties of a code's time integration that show in a comparison with its native twin.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Integration {
+pub(crate) struct Integration {
     /// Steps by which reported velocities lag behind reported positions.
     pub velocity_lag: f64,
-    /// Where its angles come from.
+    /// The origin of its angles.
     pub angle: Angle,
     /// Whether two surfaces that just touch are a contact.
     pub touches_at_zero_overlap: bool,
@@ -212,10 +212,10 @@ impl Default for Integration {
     }
 }
 
-/// Where the angles of a code come from.
+/// The origin of the angles of a code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Angle {
+pub(crate) enum Angle {
     /// The integrator turns the body by spin × time step.
     Exact,
     /// The deck sums the spin by the trapezoidal rule.
@@ -224,7 +224,7 @@ pub enum Angle {
     Dipole,
 }
 
-/// Values of parameters that the code cannot take.
+/// Parameter values that the code cannot take.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Refused {

@@ -22,15 +22,17 @@ mod written;
 pub use definition::ManifestError;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
-pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
+pub(crate) use guard::{COMMAND as GUARD_COMMAND, end_like};
+pub use guard::{guard, guard_foreign_programs};
 pub use installation::version_in_answer;
-pub use installed::{Advanced, Batching, Finished, InstalledCode, RunContext, Tasks};
-pub use manifest::{Angle, Colour, Definition, Integration, Mark, Shape, TaskKind};
+pub use installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+pub(crate) use manifest::Angle;
+pub use manifest::{Colour, Definition, Mark, Shape, TaskKind};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
 pub use task::Task;
-pub use written::keep_evidence;
+pub(crate) use written::keep_evidence;
 
 impl Code {
     /// The code as it is installed here; `None` if it is not.
@@ -38,12 +40,12 @@ impl Code {
         if self == Self::NATIVE {
             return Some(Box::new(native::Native::new()));
         }
-        let word = self.definition().command(TaskKind::Stack, &[]);
-        external::ExternalCode::find(self, word.first()?)
+        let command = self.definition().command(TaskKind::Stack, &[]);
+        external::ExternalCode::find(self, command.first()?)
     }
 
-    /// The same code computing with more digits, if there is one here: native in double-double arithmetic, another
-    /// in the program that its manifest names. The difference of the two is round-off.
+    /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
+    /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
     pub fn find_precise(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
             return Some(Box::new(native::Native::precise()));

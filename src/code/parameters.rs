@@ -2,6 +2,7 @@
 
 use crate::model::{
     Case, ContactConvention, ContactTest, InitialMotion, InvalidValue, PreparationSteps, Pyramid,
+    Stack,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -18,25 +19,37 @@ struct ContactParameters {
     damping_normal: f64,
     /// η_t.
     damping_tangential: f64,
+    /// μ.
+    floor_friction: f64,
+    /// μ_d.
+    cylinder_friction: f64,
 }
 
 impl ContactParameters {
-    fn new(convention: &ContactConvention, tangential_stiffness: f64) -> Self {
+    fn new(
+        convention: &ContactConvention,
+        tangential_stiffness: f64,
+        floor_friction: f64,
+        cylinder_friction: f64,
+    ) -> Self {
         Self {
             normal_stiffness: 1.0,
             tangential_stiffness,
             damping_normal: convention.damping(1.0),
             damping_tangential: convention.damping(tangential_stiffness),
+            floor_friction,
+            cylinder_friction,
         }
+    }
+
+    fn of_stack(convention: &ContactConvention, stack: &Stack) -> Self {
+        let (mu, mu_d) = (stack.floor_friction, stack.cylinder_friction);
+        Self::new(convention, stack.tangential_stiffness(), mu, mu_d)
     }
 }
 
-/// Refuses parameters that are no numbers: those of a micro-test are measured, and a code that reports nonsense
-/// could have led to an infinite one.
-///
-/// # Errors
-/// It names the first such parameter.
-pub fn only_numbers(parameters: &serde_json::Value) -> Result<(), InvalidValue> {
+/// Refuses parameters that are not finite numbers: some of those of a micro-test were measured with the code.
+pub(super) fn only_numbers(parameters: &serde_json::Value) -> Result<(), InvalidValue> {
     let mut named = parameters.as_object().into_iter().flatten();
     let other = named.find(|(_, value)| !value.is_number());
     other.map_or(Ok(()), |(name, value)| {
@@ -50,40 +63,32 @@ pub fn only_numbers(parameters: &serde_json::Value) -> Result<(), InvalidValue> 
 
 /// The parameters of a case as the decks of the external codes read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DeckParameters {
+pub(super) struct DeckParameters {
     #[serde(flatten)]
     contact: ContactParameters,
-    /// μ.
-    pub floor_friction: f64,
-    /// μ_d.
-    pub cylinder_friction: f64,
     /// ε.
-    pub gravity: f64,
-    /// Time step.
-    pub time_step: f64,
+    gravity: f64,
+    time_step: f64,
     /// Speed of the wall, downwards.
-    pub wall_speed: f64,
+    wall_speed: f64,
     /// How the stack is brought to rest.
     #[serde(flatten)]
-    pub preparation: PreparationParameters,
+    preparation: PreparationParameters,
     /// Steps of compression.
-    pub compression_steps: u64,
+    compression_steps: u64,
     /// Steps between coarse rows.
-    pub coarse_every: u64,
+    coarse_every: u64,
     /// First fine row.
-    pub fine_from_step: u64,
+    fine_from_step: u64,
     /// Steps between fine rows.
-    pub fine_every: u64,
+    fine_every: u64,
 }
 
 impl DeckParameters {
-    /// The parameters of `case`.
-    pub fn new(case: &Case) -> Self {
+    pub(super) fn new(case: &Case) -> Self {
         let schedule = case.protocol.schedule();
         Self {
-            contact: ContactParameters::new(&case.convention, case.stack.tangential_stiffness()),
-            floor_friction: case.stack.floor_friction,
-            cylinder_friction: case.stack.cylinder_friction,
+            contact: ContactParameters::of_stack(&case.convention, &case.stack),
             gravity: case.stack.epsilon(),
             time_step: case.protocol.time_step,
             wall_speed: case.protocol.wall_speed,
@@ -99,7 +104,7 @@ impl DeckParameters {
 /// The parameters of a preparation, each kind for a deck of its own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum PreparationParameters {
+pub(super) enum PreparationParameters {
     /// Gravity rises.
     GravityRamp {
         /// Steps during which gravity rises.
@@ -163,42 +168,36 @@ impl PreparationParameters {
 
 /// The parameters of a micro-test as the decks of the external codes read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ProbeParameters {
+pub(super) struct ProbeParameters {
     #[serde(flatten)]
     contact: ContactParameters,
-    /// Friction of the floor.
-    pub floor_friction: f64,
-    /// Friction between cylinders.
-    pub cylinder_friction: f64,
-    /// Time step.
-    pub time_step: f64,
+    time_step: f64,
     /// Number of steps.
-    pub steps: u64,
+    steps: u64,
     /// Height of the top wall at step 0.
-    pub wall_height: f64,
+    wall_height: f64,
     /// Speed of the top wall, downwards.
-    pub wall_speed: f64,
+    wall_speed: f64,
     /// Position, velocity and spin of cylinders 1 and 2, as x1, y1, vx1, vy1, spin1, x2, …
     #[serde(flatten)]
-    pub initial_motions: BTreeMap<String, f64>,
+    initial_motions: BTreeMap<String, f64>,
 }
 
 impl ProbeParameters {
-    /// The parameters of `test`.
-    pub fn new(test: &ContactTest) -> Self {
-        let initial_motions =
-            test.initial_motions
-                .iter()
-                .zip(1..)
-                .flat_map(|(initial_motion, body)| {
-                    let InitialMotion { x, y, vx, vy, spin } = *initial_motion;
-                    let values = [("x", x), ("y", y), ("vx", vx), ("vy", vy), ("spin", spin)];
-                    values.map(|(name, value)| (format!("{name}{body}"), value))
-                });
+    pub(super) fn new(test: &ContactTest) -> Self {
+        let bodies = test.initial_motions.iter().zip(1..);
+        let initial_motions = bodies.flat_map(|(motion, body)| {
+            let InitialMotion { x, y, vx, vy, spin } = *motion;
+            let values = [("x", x), ("y", y), ("vx", vx), ("vy", vy), ("spin", spin)];
+            values.map(|(name, value)| (format!("{name}{body}"), value))
+        });
         Self {
-            contact: ContactParameters::new(&test.convention, test.tangential_stiffness()),
-            floor_friction: test.floor_friction,
-            cylinder_friction: test.cylinder_friction,
+            contact: ContactParameters::new(
+                &test.convention,
+                test.tangential_stiffness(),
+                test.floor_friction,
+                test.cylinder_friction,
+            ),
             time_step: test.time_step,
             steps: test.steps,
             wall_height: test.wall_height,
@@ -210,35 +209,27 @@ impl ProbeParameters {
 
 /// The parameters of a pyramid as the decks of the external codes read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PyramidParameters {
+pub(super) struct PyramidParameters {
     #[serde(flatten)]
     contact: ContactParameters,
-    /// Friction of the floor.
-    pub floor_friction: f64,
-    /// Friction between cylinders.
-    pub cylinder_friction: f64,
     /// ε.
-    pub gravity: f64,
-    /// Time step.
-    pub time_step: f64,
+    gravity: f64,
+    time_step: f64,
     /// Distance of the side walls from the middle.
-    pub half_width: f64,
+    half_width: f64,
     /// Steps during which gravity rises.
-    pub ramp_steps: u64,
+    ramp_steps: u64,
     /// Steps at rest.
-    pub rest_steps: u64,
+    rest_steps: u64,
     /// Steps the time for which is measured.
-    pub timed_steps: u64,
+    timed_steps: u64,
 }
 
 impl PyramidParameters {
-    /// The parameters of `pyramid`.
-    pub fn new(pyramid: &Pyramid) -> Self {
+    pub(super) fn new(pyramid: &Pyramid) -> Self {
         let groups = &pyramid.groups;
         Self {
-            contact: ContactParameters::new(&pyramid.convention, groups.tangential_stiffness()),
-            floor_friction: groups.floor_friction,
-            cylinder_friction: groups.cylinder_friction,
+            contact: ContactParameters::of_stack(&pyramid.convention, groups),
             gravity: groups.epsilon(),
             time_step: pyramid.time_step,
             half_width: pyramid.half_width(),
@@ -252,7 +243,7 @@ impl PyramidParameters {
 /// Name and content of the file with the cylinders of `pyramid` in its box, in the format that `read_data` of
 /// LAMMPS and LIGGGHTS understands: atom, type, diameter, density, centre. Three types, as the contacts of
 /// LIGGGHTS have them; the mass is set by the deck.
-pub fn placed_cylinders(pyramid: &Pyramid) -> (&'static str, String) {
+pub(super) fn placed_cylinders(pyramid: &Pyramid) -> (&'static str, String) {
     let (x, y) = (
         pyramid.half_width() + 1.0,
         2.0 * f64::from(pyramid.rows) + 1.0,

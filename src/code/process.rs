@@ -12,42 +12,42 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// The most that counts of the time between two looks: while this program was stopped, nobody was waiting.
-const LONGEST_LOOK: Duration = Duration::from_secs(1);
-/// A guard that takes longer to clean up is killed.
+/// Longest interval between two polls that counts towards a time limit; tristack may have been suspended.
+const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
+/// Longest time that a guard may take to clean up before it is killed.
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 
-/// Names of the files that receive what the program writes.
-pub const STANDARD_OUTPUT: &str = "stdout.txt";
+/// Names of the files that receive the output of a program.
+pub(crate) const STANDARD_OUTPUT: &str = "stdout.txt";
 /// See [`STANDARD_OUTPUT`].
-pub const STANDARD_ERROR: &str = "stderr.txt";
+pub(crate) const STANDARD_ERROR: &str = "stderr.txt";
 
 /// Variables for the environment of a program.
 pub type Environment = BTreeMap<String, String>;
 
-/// The user's wish to stop, shared by everything that runs.
+/// A request to stop, shared by everything that runs.
 #[derive(Debug, Default)]
 pub struct Interrupt(AtomicBool);
 
 impl Interrupt {
-    /// Nobody wants to stop yet.
+    /// No request yet.
     pub const fn new() -> Self {
         Self(AtomicBool::new(false))
     }
 
-    /// Asks everything to stop; says whether somebody had asked before.
+    /// Requests a stop; returns whether one was requested before.
     pub fn request(&self) -> bool {
         self.0.swap(true, Ordering::SeqCst)
     }
 
-    /// Whether everything should stop.
-    pub fn requested(&self) -> bool {
+    /// Whether a stop was requested.
+    pub(crate) fn requested(&self) -> bool {
         self.0.load(Ordering::SeqCst)
     }
 }
 
 /// A program to run.
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// Program, and the arguments given to it as they are.
     pub command: &'a [OsString],
     /// Its working directory.
@@ -58,13 +58,13 @@ pub struct Job<'a> {
     pub environment: &'a Environment,
     /// Longest time without progress.
     pub time_limit: Duration,
-    /// Set when the user wants to stop.
+    /// Ends the program when requested.
     pub interrupt: &'a Interrupt,
 }
 
 /// How a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub(crate) enum Ending {
     /// By itself.
     Exited(ExitStatus),
     /// Killed after the time limit.
@@ -73,11 +73,8 @@ pub enum Ending {
     Interrupted,
 }
 
-/// Runs `job` to its end, with its output in files of its directory. `progress` is called while it runs and says
-/// whether something was finished, which starts the time limit anew.
-///
-/// # Errors
-/// If the program cannot be started or watched.
+/// Runs `job` to its end, with its output in files of its directory. `progress` is polled while it runs; whenever
+/// it returns true, the time limit starts anew.
 pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending> {
     let output = File::create(job.directory.join(STANDARD_OUTPUT))?;
     let error = File::create(job.directory.join(STANDARD_ERROR))?;
@@ -93,10 +90,7 @@ pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending>
     ending
 }
 
-/// Runs a short `job` to its end; returns how it ended and what it wrote to its standard output.
-///
-/// # Errors
-/// If the program cannot be started or watched.
+/// Runs a short `job` to its end; returns how it ended and its standard output.
 pub fn answer(job: &Job) -> std::io::Result<(Ending, Vec<u8>)> {
     let mut child = spawn(job)?;
     let output = child.stdout().take();
@@ -115,10 +109,10 @@ fn watch(
     mut progress: impl FnMut() -> bool,
 ) -> std::io::Result<Ending> {
     let mut waited = Duration::ZERO;
-    let mut last_look = Instant::now();
+    let mut last_poll = Instant::now();
     loop {
         if let Some(status) = child.try_wait()? {
-            // What the program left behind in its group goes with it.
+            // Kills what is left of its process group.
             let _ = child.start_kill();
             return Ok(Ending::Exited(status));
         }
@@ -134,8 +128,8 @@ fn watch(
             return Ok(Ending::TimedOut);
         }
         std::thread::sleep(POLL_INTERVAL);
-        waited += last_look.elapsed().min(LONGEST_LOOK);
-        last_look = Instant::now();
+        waited += last_poll.elapsed().min(LONGEST_INTERVAL);
+        last_poll = Instant::now();
     }
 }
 
@@ -158,7 +152,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
             .env("LC_ALL", "C.UTF-8")
             .env("OMP_NUM_THREADS", "1")
             .envs(job.environment)
-            // A guard watches its end; for other programs nothing is ever in it.
+            // A guard ends when its input closes; other programs get no input.
             .stdin(if prefix.is_empty() {
                 Stdio::null()
             } else {
@@ -171,7 +165,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
     .spawn()
 }
 
-/// Lets a guard clean up, if there is one; kills what is left.
+/// Lets a guard clean up, if there is one, and kills the remaining processes.
 fn kill(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
     let guarded = child.stdin().take().is_some();
     let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Where a run comes from.
+//! The origin of a run: program, inputs, time and machine.
 
 use crate::model::{Case, sha256_hex};
 use crate::series::Series;
@@ -32,9 +32,9 @@ impl Identity {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// Who computed it.
+    /// The program that computed it.
     pub identity: Identity,
-    /// SHA-256 of all that the program was given: deck, parameters, arguments, environment; of sources and
+    /// SHA-256 of all inputs of the program: deck, parameters, arguments, environment; of sources and
     /// parameters for the native code.
     pub deck_hash: String,
     /// Version of tristack that drove it.
@@ -61,25 +61,19 @@ impl Provenance {
         steps: u64,
         seconds: f64,
     ) -> Self {
+        let now = jiff::Timestamp::now();
         Self {
             identity,
             deck_hash,
             tristack: env!("CARGO_PKG_VERSION").to_owned(),
             command,
-            date: jiff::Timestamp::now()
-                .round(jiff::Unit::Second)
-                .map_or_else(
-                    |_| jiff::Timestamp::now().to_string(),
-                    |rounded| rounded.to_string(),
-                ),
+            date: now.round(jiff::Unit::Second).unwrap_or(now).to_string(),
             machine: machine().to_owned(),
             steps,
             seconds,
         }
     }
-}
 
-impl Provenance {
     /// Indented JSON with a final newline.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"
@@ -108,10 +102,10 @@ fn read_machine() -> String {
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// What was run.
+    /// The case.
     pub case: Case,
-    /// What came out.
+    /// Its series.
     pub series: Series,
-    /// Who ran it, how, and when.
+    /// Its origin.
     pub provenance: Provenance,
 }

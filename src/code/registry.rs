@@ -46,7 +46,7 @@ fn registry() -> MutexGuard<'static, Registry> {
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What a folder says stays the same until the program ends.
+/// `definition`, kept until the program ends.
 fn leaked(definition: Definition) -> &'static Definition {
     Box::leak(Box::new(definition))
 }
@@ -55,10 +55,10 @@ fn leaked(definition: Definition) -> &'static Definition {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(usize);
 
-/// What the folder of a code declares, and the probe measures.
+/// The properties that a manifest declares and the probe measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Declaration {
-    /// What a contact is.
+    /// The contact convention.
     pub convention: ContactConvention,
     /// Steps by which reported velocities lag behind reported positions.
     pub velocity_lag: f64,
@@ -73,7 +73,7 @@ impl Code {
         (0..registry().definitions.len()).map(Self).collect()
     }
 
-    /// The code of that name.
+    /// The code with the given `name`.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|code| code.as_str() == name)
     }
@@ -83,7 +83,7 @@ impl Code {
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
-    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+    pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
         let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let mut registry = registry();
         if !registry.folders.contains_key(&place) {
@@ -147,22 +147,22 @@ impl Code {
     }
 
     /// Whether an earlier variant of its folder has the same contacts.
-    pub fn repeats_another(self) -> bool {
+    pub(crate) fn repeats_another(self) -> bool {
         self.earlier_variants()
             .any(|code| code.convention() == self.convention())
     }
 
-    /// What a contact is to this code, unless a case may choose (native).
+    /// The contact convention of the code; native, which accepts any, has the paper's as its default.
     pub fn convention(self) -> ContactConvention {
         self.definition().convention
     }
 
-    /// How it steps through time.
-    pub fn integration(self) -> Integration {
+    /// Properties of its time integration.
+    pub(crate) fn integration(self) -> Integration {
         self.definition().integration
     }
 
-    /// What its manifest declares.
+    /// The properties that its manifest declares.
     pub fn declaration(self) -> Declaration {
         Declaration {
             convention: self.convention(),
@@ -171,15 +171,12 @@ impl Code {
     }
 
     /// Whether the convention is part of the case rather than of the code.
-    pub fn accepts_any_convention(self) -> bool {
+    pub(crate) fn accepts_any_convention(self) -> bool {
         self == Self::NATIVE
     }
 
     /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
-    ///
-    /// # Errors
-    /// It names the key, the value and what the code can do.
-    pub fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+    pub(crate) fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
         }
@@ -198,10 +195,7 @@ impl Code {
     }
 
     /// Refuses a preparation for which the code has no deck.
-    ///
-    /// # Errors
-    /// It names the key, the value and what the code can do.
-    pub fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
+    pub(crate) fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
         self.check_task(TaskKind::of(asked))
     }
 
@@ -211,10 +205,7 @@ impl Code {
     }
 
     /// Refuses a kind of task for which the code has no deck.
-    ///
-    /// # Errors
-    /// It names the key, the value and what the code, or which code, can.
-    pub fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
+    pub(crate) fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
         if self.definition().runs(kind) {
             return Ok(());
         }
@@ -239,16 +230,13 @@ impl Code {
         })
     }
 
-    /// Whether it can make a run shorter.
-    pub fn takes_shortcuts(self) -> bool {
+    /// Whether it can shorten runs.
+    pub(crate) fn takes_shortcuts(self) -> bool {
         self == Self::NATIVE
     }
 
-    /// Refuses shortcuts, if they are `asked` for, where the code knows none.
-    ///
-    /// # Errors
-    /// It names the key, the value and what the code can do.
-    pub fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
+    /// Refuses shortcuts, if they are `asked` for, of a code that has none.
+    pub(crate) fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
         if !asked || self.takes_shortcuts() {
             return Ok(());
         }
@@ -268,12 +256,12 @@ impl Code {
     }
 
     /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
-    pub fn seconds_per_step(self) -> f64 {
+    pub(crate) fn seconds_per_step(self) -> f64 {
         self.definition().seconds.step
     }
 
-    /// How to install it.
-    pub fn installation_hint(self) -> &'static str {
+    /// Instructions for installing it.
+    pub(crate) fn installation_hint(self) -> &'static str {
         &self.definition().install
     }
 }

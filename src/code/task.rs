@@ -1,4 +1,4 @@
-//! Tasks: what a code turns into an outcome.
+//! Tasks: cases, micro-tests and pyramids, each with its inputs and its outcome.
 
 use super::format::pyramid_in_log;
 use super::manifest::{ResultFile, TaskKind};
@@ -10,27 +10,27 @@ use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use serde::Serialize;
 use std::path::Path;
 
-/// The dump is the last thing that a deck does, so that it is not of an earlier run if the code has succeeded.
+/// File with the centres of a pyramid. Decks write it last, so that it is of this run if the code succeeds.
 const CENTRES: &str = "centres.txt";
 
 /// A task of a code: a case becomes a series, a micro-test a motion.
 pub trait Task: Copy + std::fmt::Display + Sync {
-    /// What comes out.
+    /// The result.
     type Outcome;
 
-    /// Which deck carries it out.
+    /// The kind of the task, which decides the deck.
     fn kind(&self) -> TaskKind;
 
-    /// What a contact must be to the code.
+    /// The contact convention that the code must have.
     fn convention(&self) -> &ContactConvention;
 
-    /// Steps of a stack that take as long, at the most.
+    /// Upper bound of its run time, in steps of a stack.
     fn steps(&self) -> u64;
 
     /// Named numbers for the deck.
     fn parameters(&self) -> serde_json::Value;
 
-    /// Every value in its range, or the first one that is not.
+    /// Refuses values out of range.
     fn validate(&self) -> Result<(), InvalidValue> {
         Ok(())
     }
@@ -41,9 +41,6 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     }
 
     /// Reads the outcome that a program has written into `directory`.
-    ///
-    /// # Errors
-    /// If it is not there, or is not that of the task.
     fn read_outcome(
         &self,
         directory: &Path,
@@ -139,7 +136,7 @@ impl Task for Pyramid {
 }
 
 impl Code {
-    /// Hash of everything that this version of tristack would give the code for `task`: files, parameters, command
+    /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command
     /// and environment. For the native code its sources take the place of the files.
     pub fn deck_hash<T: Task>(self, task: &T) -> String {
         let definition = self.definition();

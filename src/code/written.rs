@@ -1,4 +1,4 @@
-//! What a program has written into its directory: read back, or kept to be looked into.
+//! Files that a program wrote into its run directory: reading results, keeping the files of failed runs.
 
 use crate::series::SeriesError;
 use std::fs::{self, File};
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 /// Two thousand times the longest recorded series.
 const LONGEST_READ: u64 = 256 << 20;
-/// Nobody looks further into the file of a run that failed, and there may be hundreds of them.
+/// Files of failed runs, of which there may be hundreds, are cut to this length.
 const LONGEST_KEPT: u64 = 4 << 20;
 
 /// The file `name` in `directory`.
@@ -28,8 +28,8 @@ pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError>
     Ok(content)
 }
 
-/// Keeps the directory of a run that failed, with the beginning of what is long in it.
-pub fn keep_evidence(directory: TempDir) {
+/// Keeps the directory of a failed run, with the beginning of every long file.
+pub(crate) fn keep_evidence(directory: TempDir) {
     let mut directories = vec![directory.keep()];
     while let Some(directory) = directories.pop() {
         let entries = fs::read_dir(directory).into_iter().flatten().flatten();
@@ -43,7 +43,7 @@ pub fn keep_evidence(directory: TempDir) {
     }
 }
 
-/// What cannot be shortened stays as it is.
+/// Cuts a long file; one that cannot be cut stays as it is.
 fn shorten(path: &Path) {
     if fs::metadata(path).is_ok_and(|data| data.len() > LONGEST_KEPT) {
         let file = File::options().write(true).open(path);

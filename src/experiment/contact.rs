@@ -1,4 +1,4 @@
-//! The one number that an experimenter cannot look up: k_n of the contact between two cylinders.
+//! Estimates of k_n, the stiffness of the contact between two cylinders, which no table lists.
 
 use super::Cylinder;
 use clap::ValueEnum;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// How k_n is estimated from the elasticity of a cylinder.
+/// An estimate of k_n from the elasticity of a cylinder.
 ///
 /// The paper leaves k_n open and only says that ε is of the order L ρ g/E. Contact mechanics says more, for
 /// two cylinders of radius r and length l side by side, with E* = E/(2(1 − ν²)) and a force P per length.
@@ -39,8 +39,7 @@ impl ContactEstimate {
         }
     }
 
-    /// Its formula.
-    pub fn formula(self) -> &'static str {
+    pub(crate) fn formula(self) -> &'static str {
         match self {
             Self::PaperScaling => "epsilon = L rho g/E, L = r (k_n = pi E l)",
             Self::LineContact => "k_n = (pi/4) E* l, E* = E/(2 (1 - nu^2))",
@@ -49,7 +48,7 @@ impl ContactEstimate {
     }
 
     /// k_n in N/m at the overlap G of the contact in r.
-    pub fn normal_stiffness(self, cylinder: &Cylinder, overlap: f64) -> f64 {
+    pub(crate) fn normal_stiffness(self, cylinder: &Cylinder, overlap: f64) -> f64 {
         let effective = cylinder.effective_modulus() * cylinder.length;
         match self {
             Self::PaperScaling => PI * cylinder.youngs_modulus * cylinder.length,
@@ -65,7 +64,7 @@ impl fmt::Display for ContactEstimate {
     }
 }
 
-/// Far beyond what the law is good for, and what a stack gets to.
+/// An overlap in r far beyond the range of the law and of any stack.
 const LARGEST_OVERLAP: f64 = 1.0;
 const ITERATIONS: usize = 200;
 

@@ -1,4 +1,4 @@
-//! What an experiment will show, for every estimate of the contact.
+//! Forecasts of an experiment, one for every estimate of the contact.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
 use crate::model::{Arms, CRITICAL_FRICTION, InvalidValue, Stack};
@@ -13,7 +13,7 @@ const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e12);
 /// Rounds at most: the secant of Hertz's law and the overlap at yield determine each other.
 const ROUNDS: usize = 60;
 
-/// On which side of the rigid critical friction μ_c the floor is.
+/// The side of the rigid critical friction μ_c on which the floor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionRegime {
@@ -55,7 +55,7 @@ pub struct Force {
     pub newton: f64,
 }
 
-/// What one estimate of the contact leads to.
+/// The forecast by one estimate of the contact.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Forecasted {
     /// The estimate.
@@ -66,12 +66,12 @@ pub struct Forecasted {
     pub epsilon: f64,
     /// 1/ε.
     pub stiffness: f64,
-    /// What comes first.
+    /// The first event.
     pub event: Event,
-    /// What that means, where it is no yield.
+    /// Why that event is no yield, if it is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Overlap of the contacts between the cylinders, in r, when it comes.
+    /// Overlap of the contacts between the cylinders at that event, in r.
     pub overlap: f64,
     /// The exact quasi-static yield force; absent when something else than floor slip comes first.
     pub yield_force: Option<Force>,
@@ -93,7 +93,7 @@ pub struct ForceRange {
     pub highest: Option<f64>,
 }
 
-/// What an experiment will show.
+/// The forecast of an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Forecast {
     /// The experiment.
@@ -103,9 +103,9 @@ pub struct Forecast {
     pub mass: f64,
     /// m g in N.
     pub weight: f64,
-    /// On which side of μ_c.
+    /// The side of μ_c.
     pub regime: FrictionRegime,
-    /// The estimate of the contact that counts.
+    /// The chosen estimate of the contact.
     pub contact: ContactEstimate,
     /// Its yield force; absent when something else than floor slip comes first.
     pub yield_force: Option<Force>,
@@ -116,7 +116,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// The forecast for `experiment`, in which `contact` is the estimate that counts.
+    /// The forecast for `experiment`, in which `contact` is the chosen estimate.
     ///
     /// ```
     /// use tristack::experiment::{ContactEstimate, Cylinder, Experiment, Forecast};
@@ -130,7 +130,7 @@ impl Forecast {
     /// ```
     ///
     /// # Errors
-    /// Names the first value that is out of its range.
+    /// The first value that is out of range.
     pub fn new(experiment: &Experiment, contact: ContactEstimate) -> Result<Self, InvalidValue> {
         experiment.validate()?;
         let at = |mu: f64| -> Result<Vec<Forecasted>, InvalidValue> {
@@ -235,8 +235,8 @@ fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
     }
 }
 
-/// F at which the stack gives way at last. Beyond the stiffnesses of the regime map only what the closed form
-/// knows: the yield, and the saturated force of slipping cylinders.
+/// The largest F that the stack carries. Beyond the stiffnesses of the regime map the closed form gives it alone: by
+/// the yield, and by the saturated force of slipping cylinders.
 fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
         && let Some(outcome) = LoadingOutcome::of(stack)
@@ -276,10 +276,26 @@ mod tests {
         assert_relative_eq!(scaling.paper_formula.newton, 100.0, max_relative = 1e-13);
     }
 
+    /// The paper's wood: m = 1 g. The values that the paper leaves out are E = 1 GPa, ρ = 500 kg/m³ and ν = 0.3, all
+    /// of the order of soft wood across its grain.
+    fn paper_wood() -> Cylinder {
+        Cylinder::paper(1e9, 0.3, 500.0)
+    }
+
+    /// The wooden cylinders of the paper's movies, r = 20 mm, l = 40 mm, m = 21.9 g (supplement III).
+    fn paper_movie() -> Cylinder {
+        let cylinder = Cylinder {
+            radius: 0.02,
+            length: 0.04,
+            ..paper_wood()
+        };
+        cylinder.weighing(0.0219)
+    }
+
     /// E of 1 GPa gives the printed 1e5 N; 10 GPa do not.
     #[test]
     fn wood_of_the_paper() {
-        let wood = Cylinder::paper_wood();
+        let wood = paper_wood();
         let formula = |cylinder| forecast(cylinder, 0.3).estimates[0].paper_formula.newton;
         assert_relative_eq!(forecast(wood, 0.3).mass, 1e-3, max_relative = 1e-14);
         assert_eq!(libm::log10(formula(wood)).round(), 5.0);
@@ -292,7 +308,7 @@ mod tests {
 
     #[test]
     fn wood_of_the_movies_has_the_density_of_wood() {
-        let cylinder = Cylinder::paper_movie();
+        let cylinder = paper_movie();
         assert_relative_eq!(cylinder.mass(), 0.0219, max_relative = 1e-14);
         assert_relative_eq!(cylinder.density, 435.69, max_relative = 1e-4);
     }

@@ -1,4 +1,4 @@
-//! Cylinders that one can hold: Young's modulus and size in, ε and the yield force in newton out.
+//! Real cylinders: Young's modulus and size in, ε and the yield force in newton out.
 //!
 //! The paper's own estimates ("Concluding remarks") follow from ε = L ρ g/E, m = ρ L³ and f = m g/ε, which
 //! together are f = E L². For an elastomer (1 MPa, 1000 kg/m³, L = 1 cm) that gives m = 1 g, ε = 1e-4 and
@@ -20,7 +20,7 @@ use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Standard gravity in m/s².
-pub const GRAVITY: f64 = 9.806_65;
+pub(crate) const GRAVITY: f64 = 9.806_65;
 
 /// L of the paper's estimates in m.
 const PAPER_LENGTH: f64 = 0.01;
@@ -49,7 +49,7 @@ impl Cylinder {
     }
 
     /// The same cylinder with the density that gives it `mass`, in kg.
-    pub fn weighing(self, mass: f64) -> Self {
+    pub(crate) fn weighing(self, mass: f64) -> Self {
         let volume = PI * self.radius * self.radius * self.length;
         Self {
             density: mass / volume,
@@ -65,23 +65,6 @@ impl Cylinder {
     /// The paper's elastomer: 1 MPa, 1000 kg/m³, L = 1 cm, m = ρ L³ = 1 g ("Concluding remarks"). ν = 1/2.
     pub fn paper_elastomer() -> Self {
         Self::paper(1e6, 0.5, PAPER_MASS / PAPER_LENGTH.powi(3))
-    }
-
-    /// The paper's wood: m = 1 g. What the paper leaves out is filled in with E = 1 GPa, ρ = 500 kg/m³ and
-    /// ν = 0.3, all of the order of soft wood across its grain.
-    pub fn paper_wood() -> Self {
-        Self::paper(1e9, 0.3, 500.0)
-    }
-
-    /// The wooden cylinders of the paper's movies, r = 20 mm, l = 40 mm, m = 21.9 g (supplement III), with E
-    /// and ν of [`Cylinder::paper_wood`].
-    pub fn paper_movie() -> Self {
-        let cylinder = Self {
-            radius: 0.02,
-            length: 0.04,
-            ..Self::paper_wood()
-        };
-        cylinder.weighing(0.0219)
     }
 
     /// r = L, and l = L/π makes the mass ρ L³.
@@ -124,12 +107,12 @@ impl Cylinder {
 /// Three equal cylinders on a floor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Experiment {
-    /// Each of them.
+    /// One of them.
     #[serde(flatten)]
     pub cylinder: Cylinder,
     /// Floor friction μ.
     pub mu: f64,
-    /// What μ is known to, as ±.
+    /// Uncertainty of μ, as ±.
     pub mu_uncertainty: f64,
     /// Cylinder friction μ_d.
     pub mu_d: f64,
@@ -160,7 +143,7 @@ impl Experiment {
         }
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Refuses values out of range.
     fn validate(&self) -> Result<(), InvalidValue> {
         self.cylinder.validate()?;
         let groups = Stack {

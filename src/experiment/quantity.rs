@@ -9,7 +9,7 @@ use uom::si::pressure::pascal;
 /// Reads a pressure or a modulus, in Pa.
 ///
 /// # Errors
-/// Says what would be accepted. The same holds for the other quantities here.
+/// The accepted units and an example, as for the other quantities.
 pub fn modulus(text: &str) -> Result<f64, String> {
     let accepted = "Pa, kPa, MPa, GPa, N/mm2 or psi, as in \"1 MPa\"";
     quantity(text, accepted, |text| {
@@ -47,7 +47,7 @@ fn quantity(text: &str, accepted: &str, read: impl Fn(&str) -> Option<f64>) -> R
     value.ok_or_else(|| format!("accepted is a number above 0 and its unit: {accepted}"))
 }
 
-/// `text` as the library of units wants it: one blank between number and unit, powers raised, µ for micro.
+/// `text` as `uom` parses it: one blank between number and unit, powers raised, µ for micro.
 fn spelled_out(text: &str) -> String {
     let text = text.trim();
     // The longest part that is a number: "1e" is none, so that the e of a unit stays with the unit.

@@ -5,21 +5,18 @@ use crate::model::sha256_hex;
 use std::path::Path;
 
 /// The file with the digests of all others of an entry.
-pub const CHECKSUMS: &str = "SHA256SUMS";
+pub(crate) const CHECKSUMS: &str = "SHA256SUMS";
 
 /// Content of the file with the digests of `files`.
-pub fn checksums(files: &[(&str, Vec<u8>)]) -> String {
+pub(crate) fn checksums(files: &[(&str, Vec<u8>)]) -> String {
     let lines = files
         .iter()
         .map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
     lines.collect()
 }
 
-/// Refuses `content` of the file `name` in `directory`, if it is not the one whose digest `checksums` holds.
-///
-/// # Errors
-/// It names the file and both digests.
-pub fn check(
+/// Refuses `content` of the file `name` in `directory` if its digest is not the one in `checksums`.
+pub(crate) fn check(
     checksums: &str,
     directory: &Path,
     name: &str,
@@ -48,7 +45,7 @@ pub fn seal(content: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// The content of what [`seal`] made, read from the file at `path`.
+/// The content of `sealed`, which [`seal`] made, read from the file at `path`.
 ///
 /// # Errors
 /// If a single bit has changed; the error names the file and both digests.

@@ -8,13 +8,14 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
-/// Writes `content` to `path` such that a reader sees the old file or the new one, never a part. What an
-/// earlier program left of the same file when it was killed is removed.
+/// Writes `content` to `path` such that a reader sees the old file or the new one, never a part. Drafts of the same
+/// file by killed programs are removed.
 ///
 /// # Errors
 /// If the file system refuses; `path` is then as it was.
-pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
+pub(crate) fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let directory = create_parent(path)?;
     let mut prefix = OsString::from(".");
     prefix.push(path.file_name().unwrap_or_default());
@@ -23,11 +24,15 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     write_by_draft(&directory, &prefix, path, content)
 }
 
-/// The same by way of a draft in the directory `drafts`, whose owner cleans up.
+/// The same by way of a draft in the directory `drafts`, which the caller cleans up.
 ///
 /// # Errors
 /// If the file system refuses; `path` is then as it was.
-pub fn write_atomically_via(drafts: &Path, path: &Path, content: &[u8]) -> Result<(), FileError> {
+pub(crate) fn write_atomically_via(
+    drafts: &Path,
+    path: &Path,
+    content: &[u8],
+) -> Result<(), FileError> {
     write_by_draft(drafts, OsStr::new("draft-"), path, content)
 }
 
@@ -54,7 +59,7 @@ fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> s
         .prefix(prefix)
         .permissions(fs::Permissions::from_mode(0o666))
         .tempfile_in(drafts)?;
-    // Says to other programs that somebody is at it; one that cannot be locked is only not cleaned up.
+    // The lock marks the draft as in use. Where files cannot be locked, drafts are only not cleaned up.
     let _ = draft.as_file().try_lock();
     draft.write_all(content)?;
     draft.as_file().sync_all()?;
@@ -62,8 +67,8 @@ fn try_to_write(drafts: &Path, prefix: &OsStr, path: &Path, content: &[u8]) -> s
     Ok(())
 }
 
-/// Removes the drafts with `prefix` in `directory` that nobody holds any more: a lock ends with its program.
-pub fn remove_abandoned(directory: &Path, prefix: &OsStr) {
+/// Removes the drafts with `prefix` in `directory` that are not locked: a lock ends with its program.
+pub(crate) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let drafts = entries.filter(|entry| {
         let name = entry.file_name();
@@ -73,14 +78,22 @@ pub fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     for draft in drafts {
         let abandoned = File::open(draft.path()).is_ok_and(|file| file.try_lock().is_ok());
         if abandoned {
-            // Somebody else may have been faster.
+            // Another program may have been faster.
             let _ = fs::remove_file(draft.path()).or_else(|_| fs::remove_dir_all(draft.path()));
         }
     }
 }
 
+/// Creates a directory in `parent`, locked as long as the file beside it is open, and removed when dropped.
+pub(crate) fn locked_directory(parent: &Path, prefix: &str) -> std::io::Result<(TempDir, File)> {
+    let directory = tempfile::Builder::new().prefix(prefix).tempdir_in(parent)?;
+    let lock = File::open(directory.path())?;
+    let _ = lock.try_lock();
+    Ok((directory, lock))
+}
+
 /// Writes a file that lasts through a power failure once its directory is synced.
-pub fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError> {
+pub(crate) fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let written = File::create(path).and_then(|mut file| {
         file.write_all(content)?;
         file.sync_all()
@@ -88,18 +101,15 @@ pub fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError> {
     written.map_err(FileError::writing(path))
 }
 
-/// Makes what was renamed into or out of `directory` last through a power failure.
-pub fn sync_directory(directory: &Path) -> Result<(), FileError> {
+/// Makes renames into and out of `directory` last through a power failure.
+pub(crate) fn sync_directory(directory: &Path) -> Result<(), FileError> {
     File::open(directory)
         .and_then(|directory| directory.sync_all())
         .map_err(FileError::writing(directory))
 }
 
 /// Creates the directory for `target`, if there is none, and makes it last.
-///
-/// # Errors
-/// If the file system refuses.
-pub fn create_parent(target: &Path) -> Result<PathBuf, FileError> {
+pub(crate) fn create_parent(target: &Path) -> Result<PathBuf, FileError> {
     let directory = parent(target);
     if !directory.is_dir() {
         fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;

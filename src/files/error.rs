@@ -1,11 +1,12 @@
-//! Why a file could not be read or written.
+//! Errors of reading and writing files.
 
 use crate::model::{CaseError, shown};
 use crate::series::SeriesError;
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why an entry could not be read or written.
+/// The reason why a file could not be read or written.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// A file or directory could not be read or written.
@@ -15,7 +16,7 @@ pub enum FileError {
         action: &'static str,
         /// The file or directory.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// A file is not the one that was written.
@@ -26,28 +27,28 @@ pub enum FileError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Digest of what is there.
+        /// Digest of its content.
         found: String,
-        /// Digest of what was written.
+        /// Digest when it was written.
         expected: String,
     },
-    /// `case.json` is not a case.
+    /// A file does not hold a case.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// `series.csv` is not the series of the case.
+    /// A file does not hold the series of its case.
     #[error("{}: {source}", shown(path))]
     Series {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The error.
         source: SeriesError,
     },
-    /// `provenance.json` cannot be understood.
+    /// A file cannot be understood.
     #[error("{}: {message}", shown(path))]
-    Provenance {
+    Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The error.
         message: String,
     },
 }
@@ -70,4 +71,12 @@ impl FileError {
             source,
         }
     }
+}
+
+/// The value in the JSON `text` of the file at `path`.
+pub(crate) fn parse_json<T: DeserializeOwned>(text: &[u8], path: &Path) -> Result<T, FileError> {
+    serde_json::from_slice(text).map_err(|error| FileError::Content {
+        path: path.to_owned(),
+        message: error.to_string(),
+    })
 }

@@ -51,7 +51,7 @@ impl ContactTest {
     }
 
     /// Height of the top wall at a step.
-    pub fn wall_height_at(&self, step: u64) -> f64 {
+    pub(crate) fn wall_height_at(&self, step: u64) -> f64 {
         self.wall_height - self.wall_speed * (step as f64 * self.time_step)
     }
 }

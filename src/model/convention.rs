@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub const PAPER_RESTITUTION: f64 = 0.7;
 
 /// Moment of inertia of a solid cylinder, m r²/2.
-pub const CYLINDER_INERTIA: f64 = 0.5;
+pub(crate) const CYLINDER_INERTIA: f64 = 0.5;
 
 /// The force that Coulomb's limit μ |f_n| is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -20,9 +20,10 @@ mod validity;
 pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
 pub use contact_test::{ContactTest, InitialMotion};
+pub(crate) use convention::CYLINDER_INERTIA;
 pub use convention::{
-    CYLINDER_INERTIA, ContactConvention, CoulombOperand, HistoryUpdate, PAPER_RESTITUTION,
-    SlidingSpring, TensileForce,
+    ContactConvention, CoulombOperand, HistoryUpdate, PAPER_RESTITUTION, SlidingSpring,
+    TensileForce,
 };
 pub use digest::sha256_hex;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
@@ -30,7 +31,6 @@ pub use pyramid::Pyramid;
 pub use shortcuts::Shortcuts;
 pub use shown::shown;
 pub use side_walls::{SideWallSteps, SideWalls};
-pub use stack::{
-    CRITICAL_FRICTION, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, STIFFNESS_RANGE, Stack,
-};
+pub(crate) use stack::PAPER_CYLINDER_FRICTION;
+pub use stack::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 pub use validity::InvalidValue;

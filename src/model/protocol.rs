@@ -1,4 +1,4 @@
-//! How the stack is prepared, compressed and sampled.
+//! Preparation, compression and sampling of a run.
 
 use super::shortcuts::Shortcuts;
 use super::side_walls::{SideWallSteps, SideWalls};
@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 const SMALLEST_TIME_STEP: f64 = 1e-6;
 /// Quasi-static loading ends far below the speed of sound, which is of order 1.
 const FASTEST_WALL: f64 = 0.01;
-/// The height of the stack, and a little more.
+/// A little more than the height of the stack.
 const LONGEST_TRAVEL: f64 = 4.0;
 const LONGEST_TIME: f64 = 1e9;
 const MOST_STEPS: f64 = 1e11;
 const MOST_ROWS: u64 = 1_000_000;
 
-/// How the stack is brought to rest under gravity.
+/// The way in which the stack is brought to rest under gravity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Preparation {
@@ -27,7 +27,7 @@ pub enum Preparation {
         rest_time: f64,
     },
     /// The paper's protocol (supplement I.B): side walls pushed in by A, the top cylinder lowered, the walls
-    /// withdrawn. A decides with which c, and with which tangential forces, it ends.
+    /// withdrawn. A determines the final c and the final tangential forces.
     SideWalls(SideWalls),
 }
 
@@ -35,19 +35,19 @@ pub enum Preparation {
 /// [`Schedule::fine_every`]: codes that average over windows need windows that fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PreparationSteps {
-    /// Of the gravity ramp.
+    /// Steps of the gravity ramp.
     GravityRamp {
         /// Steps during which gravity rises.
         ramp: u64,
         /// Steps at rest under full gravity.
         rest: u64,
     },
-    /// Of the preparation between side walls.
+    /// Steps of the preparation between side walls.
     SideWalls(SideWallSteps),
 }
 
 impl PreparationSteps {
-    /// All of them.
+    /// Number of steps.
     pub fn total(&self) -> u64 {
         match self {
             Self::GravityRamp { ramp, rest } => ramp + rest,
@@ -57,7 +57,7 @@ impl PreparationSteps {
 }
 
 impl Preparation {
-    /// The word for it on the command line and in case files.
+    /// The name on the command line and in case files.
     pub fn as_str(&self) -> &'static str {
         match self {
             Self::GravityRamp { .. } => "gravity-ramp",
@@ -93,7 +93,7 @@ impl Preparation {
     }
 }
 
-/// When rows of the time series are taken: coarsely at first, finely around the yield.
+/// Times at which rows of the time series are taken: coarsely at first, finely around the yield.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sampling {
@@ -109,17 +109,17 @@ pub struct Sampling {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Protocol {
-    /// How the stack is brought to rest.
+    /// The way in which the stack is brought to rest.
     pub preparation: Preparation,
     /// Time step of the integrator.
     pub time_step: f64,
     /// Speed of the top wall, downwards.
     pub wall_speed: f64,
-    /// How far the wall moves in all.
+    /// Total distance that the wall moves.
     pub wall_travel: f64,
-    /// When rows are taken.
+    /// Times at which rows are taken.
     pub sampling: Sampling,
-    /// How the run is made shorter, if it is.
+    /// Options that make the run shorter, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shortcuts: Option<Shortcuts>,
 }
@@ -154,7 +154,7 @@ impl Schedule {
     }
 
     /// The first step of the compression from `step` on at which a row is taken.
-    pub fn row_from(&self, step: u64) -> Option<u64> {
+    pub(crate) fn row_from(&self, step: u64) -> Option<u64> {
         if step < self.fine_from_step {
             return Some(
                 step.next_multiple_of(self.coarse_every)
@@ -165,7 +165,7 @@ impl Schedule {
         Some(self.fine_from_step + fine).filter(|&row| row <= self.compression_steps)
     }
 
-    /// How many they are.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         let fine = (self.compression_steps - self.fine_from_step) / self.fine_every;
         self.fine_from_step / self.coarse_every + fine + 1
@@ -215,7 +215,7 @@ impl Protocol {
     }
 
     /// Speed of the wall in the first [`Schedule::fast_steps`].
-    pub fn fast_speed(&self) -> f64 {
+    pub(crate) fn fast_speed(&self) -> f64 {
         let factor = self
             .shortcuts
             .map_or(1.0, |shortcuts| shortcuts.speed_factor);

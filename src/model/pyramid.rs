@@ -83,7 +83,7 @@ impl Pyramid {
     }
 
     /// Distance of either side wall from the middle, in r: the lowest row just touches them.
-    pub fn half_width(&self) -> f64 {
+    pub(crate) fn half_width(&self) -> f64 {
         1.0 + 0.5 * self.spacing * f64::from(self.rows - 1)
     }
 

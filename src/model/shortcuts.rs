@@ -1,4 +1,4 @@
-//! Options that make a run shorter. What they change has to be measured; literal runs have none.
+//! Options that make a run shorter. Their effect on the result has to be measured; literal runs have none.
 
 use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
@@ -10,22 +10,21 @@ const LARGEST_FACTOR: f64 = 1000.0;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shortcuts {
-    /// The wall is so many times faster at first, 1 or more …
+    /// Factor by which the wall is faster at first, 1 or more.
     pub speed_factor: f64,
-    /// … and has slowed down, as smoothly as gravity rises, when it has moved so far, in r.
+    /// Wall travel, in r, by which it has slowed down, as smoothly as gravity rises.
     pub fast_until_travel: f64,
-    /// The run ends with the fine row at which the wall force has fallen by this part of its largest value; 0
-    /// for never.
+    /// Drop of the wall force, relative to its largest value, that ends the run at a fine row; 0 for none.
     pub stop_at_drop: f64,
 }
 
 impl Shortcuts {
-    /// Time in which the wall slows down, in √(m/k_n): several times that in which the stack rings out, so that
+    /// Time in which the wall slows down, in √(m/k_n). It is several times the ringing time of the stack, so that
     /// the floor does not slide.
-    pub const SLOWING_TIME: f64 = 50.0;
+    pub(crate) const SLOWING_TIME: f64 = 50.0;
 
-    /// Up to ten times as fast, but not beyond `fastest_wall`, for four fifths of the way to the predicted yield,
-    /// half of which is for slowing down; then the given speed, and an end at the drop. `None` where that
+    /// A wall up to ten times as fast, but not beyond `fastest_wall`, for four fifths of the way to the predicted
+    /// yield, half of which is for slowing down; then the given speed, and an end at the drop. `None` where that
     /// saves nothing.
     pub fn towards(predicted_travel: f64, wall_speed: f64, fastest_wall: f64) -> Option<Self> {
         const LARGEST: f64 = 10.0;
@@ -42,7 +41,7 @@ impl Shortcuts {
 
     /// Every value in its range, or the first one that is not.
     ///
-    /// The wall slows down on a way of length `shortest`.
+    /// `shortest` is the distance in which the wall slows down.
     pub(super) fn validate(&self, shortest: f64, wall_travel: f64) -> Result<(), InvalidValue> {
         let key = |name: &str| format!("protocol.shortcuts.{name}");
         within(&key("speed_factor"), self.speed_factor, 1.0, LARGEST_FACTOR)?;

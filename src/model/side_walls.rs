@@ -35,7 +35,7 @@ pub struct SideWalls {
     pub landing_speed: f64,
     /// v_wall, speed of the walls, inwards and outwards, in r √(k_n/m).
     pub withdrawal_speed: f64,
-    /// How far each wall moves outwards, in r; more than A, so that it ends without contact.
+    /// Distance that each wall moves outwards, in r; more than A, so that it ends without contact.
     pub withdrawal: f64,
     /// Duration of the rest after the push and of the rest under the top cylinder, each, in √(m/k_n).
     pub settle_time: f64,
@@ -51,7 +51,7 @@ pub struct SideWallSteps {
     /// Speed at which the walls move inwards, so that they come to A in whole steps: the withdrawal speed
     /// but for that rounding; 0 where A = 0.
     pub push_speed: f64,
-    /// How far the top cylinder is lowered.
+    /// Distance by which the top cylinder is lowered.
     pub fall: f64,
     /// Steps during which the walls move inwards; 0 where A = 0.
     pub push_steps: u64,
@@ -75,7 +75,7 @@ impl SideWallSteps {
     }
 
     /// Height of the top cylinder where it just touches both others, which lie at ±(1 − A/3) and 1 − ε.
-    pub fn landing_height(&self, epsilon: f64) -> f64 {
+    pub(crate) fn landing_height(&self, epsilon: f64) -> f64 {
         let half_distance = 1.0 - self.walls.push / 3.0;
         (1.0 - epsilon) + (4.0 - half_distance * half_distance).sqrt()
     }
@@ -83,9 +83,9 @@ impl SideWallSteps {
 
 impl SideWalls {
     /// v_fall of the paper (supplement I.B).
-    pub const PAPER_FALL_SPEED: f64 = 0.1;
+    pub(crate) const PAPER_FALL_SPEED: f64 = 0.1;
     /// v_wall of the paper (supplement I.B).
-    pub const PAPER_WITHDRAWAL_SPEED: f64 = 1e-3;
+    pub(crate) const PAPER_WITHDRAWAL_SPEED: f64 = 1e-3;
 
     /// The paper's preparation with walls pushed in by A = `push`, for stacks of stiffness 1/ε.
     ///

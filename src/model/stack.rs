@@ -10,10 +10,10 @@ pub const CRITICAL_FRICTION: f64 = 0.267_949_192_431_122_7;
 pub const PAPER_STIFFNESS_RATIO: f64 = 2.5;
 
 /// Cylinder–cylinder friction μ_d of the paper (supplement I.A).
-pub const PAPER_CYLINDER_FRICTION: f64 = 0.7;
+pub(crate) const PAPER_CYLINDER_FRICTION: f64 = 0.7;
 
 /// Stiffnesses 1/ε that are accepted, lowest and highest.
-pub const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
+const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
 
 const HIGHEST_FRICTION: f64 = 1e3;
 const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;

@@ -1,9 +1,9 @@
-//! Reading and writing of entries; every write is a rename of something complete.
+//! Entries: runs on disk, each a directory that is written completely before it is renamed into place.
 
-use crate::code::{Provenance, Run};
+use crate::code::Run;
 use crate::files::{
-    CHECKSUMS, FileError, check, checksums, create_parent, remove_abandoned, sync_directory,
-    write_synced,
+    CHECKSUMS, FileError, check, checksums, create_parent, locked_directory, parse_json,
+    remove_abandoned, sync_directory, write_synced,
 };
 use crate::model::Case;
 use crate::series::Series;
@@ -32,12 +32,12 @@ impl Archive {
     }
 
     /// The same archive with its drafts in `drafts`, a directory in the same file system.
-    pub fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
+    pub(crate) fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
         let drafts = drafts.into();
         Self { drafts, ..self }
     }
 
-    /// Where the archive is.
+    /// The directory of the archive.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -60,7 +60,7 @@ impl Archive {
         };
         let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
         let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
-        let provenance = parse_provenance(&directory.join(PROVENANCE), &checked(PROVENANCE)?)?;
+        let provenance = parse_json(&checked(PROVENANCE)?, &directory.join(PROVENANCE))?;
         Ok(Some(Run {
             case,
             series,
@@ -71,32 +71,25 @@ impl Archive {
     /// Writes `run` as the entry `name`, in place of an older one.
     ///
     /// # Errors
-    /// If the file system refuses; what is under `name` is then what was there before.
+    /// If the file system refuses; an older entry is then unchanged.
     pub fn save(&self, name: &Path, run: &Run) -> Result<(), FileError> {
         let target = self.root.join(name);
         let parent = create_parent(&target)?;
         if self.drafts == self.root {
-            // Elsewhere, whoever owns the place cleans up.
+            // The owner of any other place cleans it up.
             remove_abandoned(&self.drafts, DRAFT.as_ref());
         }
-        let draft = tempfile::Builder::new()
-            .prefix(DRAFT)
-            .tempdir_in(&self.drafts)
-            .map_err(FileError::writing(&self.drafts))?;
-        let held = fs::File::open(draft.path()).map_err(FileError::writing(draft.path()))?;
-        let _ = held.try_lock();
+        let draft = locked_directory(&self.drafts, DRAFT);
+        let (draft, _lock) = draft.map_err(FileError::writing(&self.drafts))?;
         write_entry(draft.path(), run)?;
         put_in_place(draft.path(), &target)?;
-        // Removes what was there before, if anything was.
+        // Removes the older entry, if there was one.
         drop(draft);
         sync_directory(&parent)
     }
 
     /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
-    ///
-    /// # Errors
-    /// If the file system refuses.
-    pub fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
+    pub(crate) fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
         create_parent(target)?;
         match fs::rename(self.root.join(name), target) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
@@ -154,18 +147,12 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     fs::read(path).map_err(FileError::reading(path))
 }
 
-fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
+/// The series of `case` in the `content` of the file at `path`.
+pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
     let schedule = case.protocol.schedule();
     Series::read(content, &schedule, case.protocol.time_step).map_err(|source| FileError::Series {
         path: path.to_owned(),
         source,
-    })
-}
-
-fn parse_provenance(path: &Path, content: &[u8]) -> Result<Provenance, FileError> {
-    serde_json::from_slice(content).map_err(|error| FileError::Provenance {
-        path: path.to_owned(),
-        message: error.to_string(),
     })
 }
 

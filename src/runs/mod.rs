@@ -1,5 +1,5 @@
-//! Finished runs: their entries on disk, the store of a user, the recorded runs of the project, and the
-//! schedule that makes what is in neither.
+//! Finished runs: their entries on disk, the store of a user, the recorded runs of the project, and the schedule
+//! that carries out all other runs.
 
 mod entry;
 mod observations;
@@ -15,8 +15,10 @@ pub use entry::Archive;
 pub(crate) use observations::observe_all;
 pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
-pub use read_all::{Reading, read_all};
+pub use read_all::Reading;
+pub(crate) use read_all::read_all;
 pub use recorded::{Recorded, RecordedError, RecordedRun, Recording};
-pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
+pub(crate) use schedule::run_all;
+pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload};
 pub use store::{LockOwner, Store, StoreError};
 pub use summary::RunSummary;

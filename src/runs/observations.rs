@@ -3,40 +3,11 @@
 use super::parallel::in_parallel;
 use super::{Progress, Settings};
 use crate::dem::{EventRun, Observation};
-use crate::files::FileError;
 use crate::model::shown;
-use serde::{Deserialize, Serialize};
-use std::path::Path;
 use std::time::Instant;
 
-/// Time of a step, about.
+/// Estimated duration of a step in seconds.
 const SECONDS_PER_STEP: f64 = 5e-8;
-
-/// An event run in the store.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ObservedRun {
-    pub(super) run: EventRun,
-    pub(super) observation: Observation,
-}
-
-impl ObservedRun {
-    /// Reads the `text` of the file at `path`.
-    ///
-    /// # Errors
-    /// If the text is no observation of a run.
-    pub(super) fn parse(text: &[u8], path: &Path) -> Result<Self, FileError> {
-        serde_json::from_slice(text).map_err(|error| FileError::Provenance {
-            path: path.to_owned(),
-            message: error.to_string(),
-        })
-    }
-
-    /// JSON on one line.
-    pub(super) fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("plain data has a JSON form") + "\n"
-    }
-}
 
 /// The observations of `runs`, in their order: from the store, or made now and kept there. Runs that an interrupt or
 /// the time limit cuts short are incomplete.

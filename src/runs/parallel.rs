@@ -1,8 +1,8 @@
-//! One task for every item, on several threads.
+//! The same task for many items, on several threads.
 
 use rayon::prelude::*;
 
-/// The results of `task` for all `items`, in their order, on at most so many `threads`.
+/// The results of `task` for all `items`, in their order, on at most `threads` threads.
 pub(crate) fn in_parallel<I: Sync, T: Send>(
     items: &[I],
     threads: usize,

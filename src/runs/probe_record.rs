@@ -1,31 +1,31 @@
 //! Micro-tests with their outcomes, kept so that a code need not be probed twice.
 
 use crate::code::Provenance;
-use crate::files::FileError;
+use crate::files::{FileError, parse_json};
 use crate::model::ContactTest;
 use crate::series::Motion;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// What a code answered to micro-tests.
+/// The micro-tests of a code with their outcomes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProbeRecord {
-    /// Who answered, how and when.
+    /// The origin of the outcomes.
     pub provenance: Provenance,
     /// Each micro-test and its outcome.
     pub answers: Vec<Answer>,
 }
 
-/// What a code answered to one micro-test.
+/// A micro-test and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
-    /// The question.
+    /// The micro-test.
     pub test: ContactTest,
-    /// SHA-256 of all that the program was given with it.
+    /// SHA-256 of all inputs of the program.
     pub input_hash: String,
-    /// What came out.
+    /// The outcome.
     pub motion: Motion,
 }
 
@@ -35,31 +35,20 @@ const SAME_SPIN: f64 = 1.1e-11;
 
 /// Whether two micro-tests are the same but for the rounding of their spins.
 fn is_same(left: &ContactTest, right: &ContactTest) -> bool {
-    let spins = |test: &ContactTest| {
-        test.initial_motions
-            .map(|initial_motion| initial_motion.spin)
-    };
-    let pairs = spins(left).into_iter().zip(spins(right));
-    let alike = pairs
-        .into_iter()
-        .all(|(left, right)| (left - right).abs() <= SAME_SPIN * right.abs());
     let mut with_same_spins = *left;
-    for (initial_motion, spin) in with_same_spins.initial_motions.iter_mut().zip(spins(right)) {
-        initial_motion.spin = spin;
+    let mut alike = true;
+    let bodies = with_same_spins.initial_motions.iter_mut();
+    for (body, other) in bodies.zip(&right.initial_motions) {
+        alike &= (body.spin - other.spin).abs() <= SAME_SPIN * other.spin.abs();
+        body.spin = other.spin;
     }
     alike && with_same_spins == *right
 }
 
 impl ProbeRecord {
     /// Reads the record in the `text` of the file at `path`.
-    ///
-    /// # Errors
-    /// If it is damaged.
     pub fn parse(text: &[u8], path: &Path) -> Result<Self, FileError> {
-        let record: Self = serde_json::from_slice(text).map_err(|error| FileError::Provenance {
-            path: path.to_owned(),
-            message: error.to_string(),
-        })?;
+        let record: Self = parse_json(text, path)?;
         for Answer { test, motion, .. } in &record.answers {
             Motion::new(motion.rows().to_vec(), test.steps).map_err(|source| {
                 FileError::Series {
@@ -86,8 +75,8 @@ impl ProbeRecord {
         answers.collect()
     }
 
-    /// An answer to something else than `input_hash`, which is today's, says of its micro-test. The hash is that
-    /// of the recorded micro-test, whose spins may differ in their last digits from those asked here.
+    /// The first answer whose inputs are not those of today, of which `input_hash` gives the hash. It is called with
+    /// the recorded micro-test, whose spins may differ in their last digits from those of today.
     pub fn outdated(&self, input_hash: impl Fn(&ContactTest) -> String) -> Option<&Answer> {
         let mut answers = self.answers.iter();
         answers.find(|answer| answer.input_hash != input_hash(&answer.test))

@@ -1,16 +1,16 @@
-//! Runs carried out, and what is kept of each.
+//! Carries out runs and reads each at once.
 
 use super::schedule::{Progress, RunError, SelectedCode, Settings, Workload, run_all};
 use super::summary::RunSummary;
 use crate::code::{Identity, Run};
 
-/// What is kept of a run. Whole runs are not held longer than it takes to read them, so that memory does not
-/// grow with their number.
+/// The part of a run that a study keeps. Whole runs are dropped as soon as they are read, so that memory does not grow
+/// with their number.
 pub trait Reading: Clone + Send {
     /// Reads `run`.
     fn of_run(run: Run) -> Self;
 
-    /// The same from a recorded summary, where the series itself is not recorded; `None` if that does not do.
+    /// The same from a recorded summary, where the series itself is not recorded; `None` if it needs the series.
     fn of_summary(summary: RunSummary) -> Option<Self>;
 
     /// The program that made the run.
@@ -33,7 +33,7 @@ impl Reading for RunSummary {
 
 /// Carries out the cases of all workloads and reads every run. Where a code is not installed and the series of
 /// a run is not recorded, its recorded summary stands in.
-pub fn read_all<R: Reading>(
+pub(crate) fn read_all<R: Reading>(
     workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,

@@ -1,19 +1,19 @@
-//! What is kept of a run when its series is not.
+//! The summary of a run, kept where its series is not.
 
 use crate::code::{Provenance, Run};
 use crate::model::Case;
 use crate::series::YieldEstimates;
 use serde::{Deserialize, Serialize};
 
-/// A run, read: the yield force by both estimators, and where it comes from. A hundredth of its series in size.
+/// The yield force of a run by both estimators, and its provenance: a hundredth of its series in size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunSummary {
-    /// What was run.
+    /// The case.
     pub case: Case,
-    /// Who ran it, how, and when.
+    /// Its origin.
     pub provenance: Provenance,
-    /// What was read off the series.
+    /// The yield force by both estimators.
     pub estimates: YieldEstimates,
     /// Wall force at the end, in m g.
     pub last_force: f64,
@@ -23,7 +23,7 @@ pub struct RunSummary {
 }
 
 impl RunSummary {
-    /// What is to be read off `run`.
+    /// The summary of `run`.
     pub fn new(run: Run) -> Self {
         let stack = &run.case.stack;
         let samples = run.series.samples();

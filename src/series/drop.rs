@@ -1,6 +1,6 @@
 //! The drop of the wall force after its peak.
 
-/// Rows that the largest force must be back, so that it can be told from a wiggle and read.
+/// Least number of rows since the largest force, which distinguishes a peak from a wiggle.
 const ROWS_SINCE_PEAK: usize = 5;
 
 /// Watches the wall force row by row.
@@ -12,7 +12,7 @@ pub struct DropWatch {
 }
 
 impl DropWatch {
-    /// Waits for a drop by `part` of the largest force; for ever if that is 0.
+    /// A watch for a drop by `part` of the largest force; 0 for none.
     pub fn new(part: f64) -> Self {
         Self {
             part,
@@ -21,8 +21,8 @@ impl DropWatch {
         }
     }
 
-    /// Takes in the force of the next row; true once it has dropped.
-    pub fn has_dropped(&mut self, force: f64) -> bool {
+    /// Adds the force of the next row; true once it has dropped.
+    pub(crate) fn has_dropped(&mut self, force: f64) -> bool {
         if force > self.highest {
             self.highest = force;
             self.rows_since = 0;

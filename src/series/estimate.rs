@@ -15,7 +15,7 @@ pub struct Estimate {
     pub force: f64,
     /// Distance between the interpolations of two orders, in m g.
     pub sampling: f64,
-    /// By how much an error of the recorded forces is amplified in it.
+    /// Factor by which an error of the recorded forces is amplified in it.
     pub sensitivity: f64,
 }
 
@@ -68,8 +68,8 @@ fn floor_contacts(sample: &Sample) -> [(f64, f64); 2] {
 }
 
 /// Largest |t|/n of the floor contacts at the peak and in the rows after it, when they slide and their
-/// force is capped. What the code does counts, not what it was told: a wrong friction in the code must
-/// show in the yield force.
+/// force is capped. It is measured, not taken from the input of the code, so that a wrong friction
+/// in the code shows in the yield force.
 fn sliding_friction(samples: &[Sample], peak_row: usize) -> Option<f64> {
     let rows = &samples[peak_row..=peak_row + ROWS_AROUND_PEAK];
     let contacts = rows.iter().flat_map(floor_contacts);

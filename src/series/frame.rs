@@ -44,12 +44,12 @@ pub struct ContactPoint {
 
 impl ContactPoint {
     /// The normal part of the force on the cylinder.
-    pub fn normal_vector(&self) -> [f64; 2] {
+    pub(crate) fn normal_vector(&self) -> [f64; 2] {
         self.normal.map(|component| self.normal_force * component)
     }
 
     /// The tangential part of the force on the cylinder.
-    pub fn tangential_vector(&self) -> [f64; 2] {
+    pub(crate) fn tangential_vector(&self) -> [f64; 2] {
         let [x, y] = self.normal;
         [-y * self.tangential_force, x * self.tangential_force]
     }
@@ -90,7 +90,7 @@ pub struct Frames {
 impl Frames {
     /// Frames of a series: the forces of the walls, and none between the cylinders. The wall starts where it
     /// touches cylinder 1 at the first row, and moves down at `wall_speed`.
-    pub fn of_trace(series: &Series, wall_speed: f64) -> Self {
+    pub fn of_series(series: &Series, wall_speed: f64) -> Self {
         let samples = series.samples();
         let start = samples.first().map_or(0.0, |first| first.y1 + 1.0);
         let frame = |sample: &Sample| Frame::of_sample(sample, start - wall_speed * sample.time);

@@ -12,7 +12,7 @@ pub use drop::DropWatch;
 pub use estimate::{Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};
-pub use polynomial::{value_at_zero, weights_at_zero};
+pub(crate) use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;
 pub(crate) use samples::COLUMNS;
 pub use samples::{Sample, Series, SeriesError};

@@ -155,7 +155,7 @@ impl Motion {
                 message: error.to_string(),
             })
         });
-        // One row too many is refused; what comes after it need not be kept for that.
+        // One row too many is enough to refuse the motion.
         let rows = rows.take(planned_rows(steps).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, steps)
     }

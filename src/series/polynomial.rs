@@ -1,7 +1,7 @@
 //! Extrapolation of a few values to argument 0 by the polynomial through them.
 
 /// Weights with which the values at `arguments` enter the value of their polynomial at 0 (Lagrange).
-pub fn weights_at_zero(arguments: &[f64]) -> Vec<f64> {
+pub(crate) fn weights_at_zero(arguments: &[f64]) -> Vec<f64> {
     let weight = |i: usize| {
         let others = arguments.iter().enumerate().filter(|&(j, _)| j != i);
         others
@@ -12,7 +12,7 @@ pub fn weights_at_zero(arguments: &[f64]) -> Vec<f64> {
 }
 
 /// Value at 0 of the polynomial through the given points.
-pub fn value_at_zero(arguments: &[f64], values: &[f64]) -> f64 {
+pub(crate) fn value_at_zero(arguments: &[f64], values: &[f64]) -> f64 {
     let weights = weights_at_zero(arguments);
     weights
         .iter()

@@ -2,7 +2,7 @@
 
 use super::SeriesError;
 
-/// Where the cylinders of a pyramid are in the end, and how long the timed steps took.
+/// Final positions of the cylinders of a pyramid, and the time that the timed steps took.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PyramidRun {
     centres: Vec<[f64; 2]>,

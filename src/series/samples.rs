@@ -6,27 +6,59 @@ use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
 
-/// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // [`COLUMNS`] gives the meaning of each.
-pub struct Sample {
-    pub step: u64,
-    pub time: f64,
-    pub wall_force: f64,
-    pub x1: f64,
-    pub y1: f64,
-    pub theta1: f64,
-    pub x2: f64,
-    pub y2: f64,
-    pub theta2: f64,
-    pub x3: f64,
-    pub y3: f64,
-    pub theta3: f64,
-    pub floor_n2: f64,
-    pub floor_t2: f64,
-    pub floor_n3: f64,
-    pub floor_t3: f64,
+/// One column of `series.csv`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeriesColumn {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: &'static str,
+    pub(crate) value: fn(&Sample) -> f64,
+}
+
+/// Declares the columns of `series.csv`, in order, by name, type, unit and meaning.
+macro_rules! columns {
+    ($count:literal: $($name:ident: $kind:ty, $unit:literal, $meaning:literal;)*) => {
+        /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
+        #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct Sample {
+            $(#[doc = $meaning] pub $name: $kind,)*
+        }
+
+        /// The columns of `series.csv`, in order.
+        #[allow(clippy::unnecessary_cast)] // All values but the step are floating-point numbers already.
+        pub(crate) const COLUMNS: [SeriesColumn; $count] = [$(SeriesColumn {
+            name: stringify!($name),
+            unit: $unit,
+            meaning: $meaning,
+            value: |row| row.$name as f64,
+        }),*];
+
+        impl Series {
+            /// Names of the columns, in order.
+            pub const COLUMNS: [&'static str; $count] = [$(stringify!($name)),*];
+        }
+    };
+}
+
+columns! {
+    16:
+    step: u64, "1", "steps since the wall began to move";
+    time: f64, "√(m/k_n)", "time since the wall began to move";
+    wall_force: f64, "k_n r", "force of the top wall on cylinder 1, positive in compression";
+    x1: f64, "r", "horizontal position of cylinder 1 (top)";
+    y1: f64, "r", "height of its centre above the floor";
+    theta1: f64, "rad", "its rotation, counter-clockwise";
+    x2: f64, "r", "horizontal position of cylinder 2 (right)";
+    y2: f64, "r", "height of its centre above the floor";
+    theta2: f64, "rad", "its rotation, counter-clockwise";
+    x3: f64, "r", "horizontal position of cylinder 3 (left)";
+    y3: f64, "r", "height of its centre above the floor";
+    theta3: f64, "rad", "its rotation, counter-clockwise";
+    floor_n2: f64, "k_n r", "normal force of the floor on cylinder 2";
+    floor_t2: f64, "k_n r", "tangential force of the floor on cylinder 2, along +x";
+    floor_n3: f64, "k_n r", "normal force of the floor on cylinder 3";
+    floor_t3: f64, "k_n r", "tangential force of the floor on cylinder 3, along +x";
 }
 
 impl Sample {
@@ -47,112 +79,6 @@ impl Sample {
     }
 }
 
-/// One column of `series.csv`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SeriesColumn {
-    pub(crate) name: &'static str,
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: &'static str,
-    pub(crate) value: fn(&Sample) -> f64,
-}
-
-const fn column(
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-    value: fn(&Sample) -> f64,
-) -> SeriesColumn {
-    SeriesColumn {
-        name,
-        unit,
-        meaning,
-        value,
-    }
-}
-
-/// The columns of `series.csv`, in order.
-pub(crate) const COLUMNS: [SeriesColumn; 16] = [
-    column("step", "1", "steps since the wall began to move", |row| {
-        row.step as f64
-    }),
-    column(
-        "time",
-        "√(m/k_n)",
-        "time since the wall began to move",
-        |row| row.time,
-    ),
-    column(
-        "wall_force",
-        "k_n r",
-        "force of the top wall on cylinder 1, positive in compression",
-        |row| row.wall_force,
-    ),
-    column(
-        "x1",
-        "r",
-        "horizontal position of cylinder 1 (top)",
-        |row| row.x1,
-    ),
-    column("y1", "r", "height of its centre above the floor", |row| {
-        row.y1
-    }),
-    column("theta1", "rad", "its rotation, counter-clockwise", |row| {
-        row.theta1
-    }),
-    column(
-        "x2",
-        "r",
-        "horizontal position of cylinder 2 (right)",
-        |row| row.x2,
-    ),
-    column("y2", "r", "height of its centre above the floor", |row| {
-        row.y2
-    }),
-    column("theta2", "rad", "its rotation, counter-clockwise", |row| {
-        row.theta2
-    }),
-    column(
-        "x3",
-        "r",
-        "horizontal position of cylinder 3 (left)",
-        |row| row.x3,
-    ),
-    column("y3", "r", "height of its centre above the floor", |row| {
-        row.y3
-    }),
-    column("theta3", "rad", "its rotation, counter-clockwise", |row| {
-        row.theta3
-    }),
-    column(
-        "floor_n2",
-        "k_n r",
-        "normal force of the floor on cylinder 2",
-        |row| row.floor_n2,
-    ),
-    column(
-        "floor_t2",
-        "k_n r",
-        "tangential force of the floor on cylinder 2, along +x",
-        |row| row.floor_t2,
-    ),
-    column(
-        "floor_n3",
-        "k_n r",
-        "normal force of the floor on cylinder 3",
-        |row| row.floor_n3,
-    ),
-    column(
-        "floor_t3",
-        "k_n r",
-        "tangential force of the floor on cylinder 3, along +x",
-        |row| row.floor_t3,
-    ),
-];
-
-fn names() -> [&'static str; 16] {
-    COLUMNS.map(|column| column.name)
-}
-
 /// Why a series is not the one that was asked for.
 #[derive(Debug, Error)]
 pub enum SeriesError {
@@ -171,7 +97,7 @@ pub enum SeriesError {
         message: String,
     },
     /// The columns are not the shared ones.
-    #[error("the columns are `{found}`, but must be `{}`", names().join(","))]
+    #[error("the columns are `{found}`, but must be `{}`", Series::COLUMNS.join(","))]
     Columns {
         /// The header as found.
         found: String,
@@ -246,17 +172,6 @@ pub struct Series {
 }
 
 impl Series {
-    /// Names of its columns, in order.
-    pub const COLUMNS: [&'static str; 16] = {
-        let mut names = [""; 16];
-        let mut column = 0;
-        while column < names.len() {
-            names[column] = COLUMNS[column].name;
-            column += 1;
-        }
-        names
-    };
-
     /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
     pub fn new(
         samples: Vec<Sample>,
@@ -297,7 +212,7 @@ impl Series {
             message: error.to_string(),
         };
         let header = reader.headers().map_err(|error| garbled(0, error))?;
-        if !header.iter().eq(names()) {
+        if !header.iter().eq(Series::COLUMNS) {
             return Err(SeriesError::Columns {
                 found: header.iter().collect::<Vec<_>>().join(","),
             });
@@ -310,7 +225,7 @@ impl Series {
             Err(error) => Some(Err(error)),
         };
         let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
-        // One row too many is refused; what comes after it need not be kept for that.
+        // One row too many is enough to refuse the series.
         let rows = rows.take(planned_rows(schedule).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)
     }

@@ -1,17 +1,19 @@
 //! Studies: each names the runs that it needs and evaluates them.
 //!
 //! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
-//! all cores, contradicted conventions. [`Grounds`] collects what speaks for and against a row and derives its
-//! verdict.
+//! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
 
 pub mod convention;
 pub mod cost;
 mod pipeline;
 pub mod preparation;
 pub mod regimes;
+mod tolerance;
 pub mod trajectory;
 mod verdict;
 pub mod yield_force;
 
-pub use pipeline::{Campaign, Evaluation, Judged, Study};
-pub use verdict::{Ground, Grounds, MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict, tolerance};
+pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
+pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
+pub(crate) use verdict::Ground;
+pub use verdict::{Grounds, Verdict};

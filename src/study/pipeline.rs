@@ -1,18 +1,19 @@
-//! The way of every study: which runs it needs, where they come from, what follows from them.
+//! The pipeline of every study: planned runs, carried out or recorded, evaluation, verdict.
 
 use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
-use super::verdict::{Ground, Grounds, Source, Verdict};
-use crate::code::{Code, Identity};
+use super::verdict::{Ground, Grounds, Verdict};
+use crate::code::{Code, Identity, InstalledCode};
 use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
+use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
-/// A study of one subject: the runs that it needs, and what follows from them.
+/// A study: the runs that it needs, and their evaluation.
 pub trait Study {
-    /// What is kept of each run.
+    /// The part of each run that is kept.
     type Reading: Reading;
-    /// What the runs say.
+    /// The result of the runs.
     type Finding;
 
     /// The code that is judged.
@@ -21,22 +22,42 @@ pub trait Study {
     /// The runs that the study needs; those of the judged code come first.
     fn workloads(&self) -> Vec<Workload>;
 
-    /// What follows from the runs, in the order of the workloads and their cases. Every run is there.
+    /// Evaluates `runs`, which are complete and in the order of the workloads and their cases.
     fn evaluate(&self, runs: Vec<Vec<Self::Reading>>) -> Evaluation<Self::Finding>;
 }
 
-/// What follows from the runs of a study.
+/// The evaluation of a study.
 pub struct Evaluation<F> {
-    /// What the runs say.
+    /// The result of the runs.
     pub finding: F,
-    /// What speaks for and against it.
+    /// The grounds for a verdict on it.
     pub grounds: Grounds,
+}
+
+/// Whether the numbers of a row were computed now or read from a recorded run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Run on this machine, now or earlier (from the store).
+    Live,
+    /// Read from the recorded runs, because the code is not installed.
+    Recorded,
+}
+
+impl Source {
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Live => "live",
+            Self::Recorded => "recorded",
+        }
+    }
 }
 
 /// A study that has been carried out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged<S, F> {
-    /// What was asked.
+    /// The study.
     pub study: S,
     /// The code that is judged.
     pub code: Code,
@@ -44,26 +65,26 @@ pub struct Judged<S, F> {
     pub version: String,
     /// Whether its runs are live or recorded.
     pub source: Source,
-    /// Whether the probe has measured its torque arms, and they are as declared.
+    /// Whether the probe has measured its torque arms and found them as declared.
     pub arms_are_measured: bool,
-    /// What the runs say; `None` if one of them is not there.
+    /// The result of the runs; `None` if one of them is missing.
     pub finding: Option<F>,
-    /// What speaks for and against it.
+    /// The grounds for a verdict on it.
     pub grounds: Grounds,
 }
 
 impl<S, F> Judged<S, F> {
-    /// The verdict.
+    /// The verdict that follows from the grounds.
     pub fn verdict(&self) -> Verdict {
         self.grounds.verdict()
     }
 
-    /// Whether recorded runs stand behind it.
-    pub fn is_recorded(&self) -> bool {
+    /// Whether it is based on recorded runs.
+    pub(crate) fn is_recorded(&self) -> bool {
         self.source == Source::Recorded && self.verdict() != Verdict::Missing
     }
 
-    /// What explains it.
+    /// Notes that explain the verdict.
     pub fn notes(&self) -> Vec<&str> {
         self.grounds.notes()
     }
@@ -97,41 +118,43 @@ impl<'a> Campaign<'a> {
         self.codes
     }
 
-    /// Their names.
+    /// The names of the codes.
     pub fn names(&self) -> Vec<Code> {
         self.codes.iter().map(|selected| selected.name).collect()
     }
 
-    /// Where runs come from and go to.
+    /// How runs are carried out.
     pub fn settings(&self) -> &'a Settings<'a> {
         self.settings
     }
 
-    /// What the probe found out about each code, in their order; measured once.
+    /// The result of the probe of each code, in their order; measured once.
     pub fn probes(&self) -> &[Probed] {
         self.probes
             .get_or_init(|| probe_all(self.codes, self.settings, self.progress))
     }
 
-    /// The same, for a caller that has no further use of the campaign.
-    pub fn into_probes(self) -> Vec<Probed> {
+    /// The same by value.
+    pub(crate) fn into_probes(self) -> Vec<Probed> {
         self.probes();
         self.probes.into_inner().unwrap_or_default()
     }
 
-    /// What is kept of each run of `workloads`.
+    /// Carries out `workloads` and reads each run.
     pub fn read<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
         read_all(workloads, self.codes, self.settings, self.progress)
     }
 
     /// The same for workloads of the native code, which need not take part in the campaign.
-    pub fn read_native<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
+    pub(crate) fn read_native<R: Reading>(
+        &self,
+        workloads: &[Workload],
+    ) -> Vec<Vec<Result<R, RunError>>> {
         let native = [SelectedCode::find(Code::NATIVE)];
         read_all(workloads, &native, self.settings, self.progress)
     }
 
-    /// Carries out `studies` and judges each. The order is kept; those that an interrupt has cut short are left
-    /// out.
+    /// Carries out `studies` and judges each, in order; those that an interrupt has cut short are left out.
     pub fn carry_out<S: Study>(&self, studies: Vec<S>) -> Vec<Judged<S, S::Finding>> {
         self.probes();
         let workloads: Vec<Vec<Workload>> = studies.iter().map(S::workloads).collect();
@@ -152,18 +175,15 @@ impl<'a> Campaign<'a> {
         let place = self.codes.iter().position(|own| own.name == code);
         let probed = place.and_then(|place| self.probes().get(place));
         let unprobed = probed.and_then(|probed| probed.as_ref().err());
-        let mut errors = results
-            .iter()
-            .flatten()
-            .filter_map(|run| run.as_ref().err());
-        if errors.any(RunError::is_interrupted)
+        if errors(&results).any(RunError::is_interrupted)
             || unprobed.is_some_and(|error| error.is_interrupted())
         {
             return None;
         }
         let installed = place.and_then(|place| self.codes[place].code.as_deref());
+        let identities = identities(results.first());
         let mut judged = Judged {
-            version: installed.map_or_else(String::new, |one| one.identity().version.clone()),
+            version: versions(&identities, installed),
             source: installed.map_or(Source::Recorded, |_| Source::Live),
             arms_are_measured: probed.is_some_and(arms_are_measured),
             study,
@@ -171,14 +191,12 @@ impl<'a> Campaign<'a> {
             finding: None,
             grounds: Grounds::new(),
         };
-        let identities: Vec<Identity> = identities(results.first());
-        judged.name_version(&identities);
         match complete(results) {
             Ok(runs) => {
                 let evaluation = judged.study.evaluate(runs);
                 judged.finding = Some(evaluation.finding);
                 judged.grounds = evaluation.grounds;
-                // Where nothing yields in theory nothing has been run, and there is nothing to take back.
+                // Where nothing yields in theory nothing is run, and there is no judgement to withdraw.
                 if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
                     judged.grounds.hold_to_probe(probed, &identities);
                 }
@@ -187,6 +205,11 @@ impl<'a> Campaign<'a> {
         }
         Some(judged)
     }
+}
+
+fn errors<R>(results: &[Vec<Result<R, RunError>>]) -> impl Iterator<Item = &RunError> {
+    let runs = results.iter().flatten();
+    runs.filter_map(|run| run.as_ref().err())
 }
 
 /// The programs that made the runs of the judged code.
@@ -198,14 +221,20 @@ fn identities<R: Reading>(own: Option<&Vec<Result<R, RunError>>>) -> Vec<Identit
     runs.map(|run| run.identity().clone()).collect()
 }
 
-/// All runs, or why some of them are not there.
+/// The version of the runs, all versions if there are several, or that of the `installed` code if there are no runs.
+fn versions(identities: &[Identity], installed: Option<&dyn InstalledCode>) -> String {
+    let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
+    versions.dedup();
+    if let Some(code) = installed.filter(|_| versions.is_empty()) {
+        versions.push(&code.identity().version);
+    }
+    versions.join(", ")
+}
+
+/// All runs, or the reasons why some of them are missing.
 fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Grounds> {
     let mut grounds = Grounds::new();
-    for error in results
-        .iter()
-        .flatten()
-        .filter_map(|run| run.as_ref().err())
-    {
+    for error in errors(&results) {
         let note = error.to_string();
         grounds.add(match error {
             RunError::Failed(_) => Ground::Failed(note),
@@ -217,20 +246,9 @@ fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Gr
     complete.map_err(|_| grounds)
 }
 
-impl<S, F> Judged<S, F> {
-    /// The version of the runs, or all versions if there are several.
-    fn name_version(&mut self, identities: &[Identity]) {
-        let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
-        versions.dedup();
-        if !versions.is_empty() {
-            self.version = versions.join(", ");
-        }
-    }
-}
-
 impl Grounds {
-    /// Takes a judgement back whose reference belongs to a convention that the code does not have, or is not
-    /// known to have: `probed` says what was measured, `identities` are the programs that made the runs.
+    /// Withdraws a judgement whose reference belongs to a convention that the code does not have, or is not known to
+    /// have, according to `probed`. `identities` are the programs that made the runs.
     fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity]) {
         let mut contradictions = contradictions(probed);
         contradictions.extend(other_program(probed, identities.iter()));

@@ -1,4 +1,4 @@
-//! What is said of a comparison.
+//! Verdicts, and the grounds they are derived from.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Within the tolerance of what it should be.
+    /// Within the tolerance.
     Agrees,
     /// The uncertainty is larger than the tolerance, or something else speaks against an agreement.
     Inconclusive,
-    /// Further from what it should be than both tolerance and uncertainty.
+    /// Off by more than both tolerance and uncertainty.
     Differs,
     /// The series, or the theory, shows no yield.
     NoYield,
     /// The code is not installed, and no recorded run stands in for it.
     Missing,
-    /// The code did not deliver.
+    /// The code failed.
     Failed,
 }
 
@@ -51,44 +51,10 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
-/// torque arms (tests/golden_theory.rs).
-pub const MIN_TOLERANCE: f64 = 1e-7;
-
-/// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
-/// An uncertainty above it decides nothing.
-pub const MAX_TOLERANCE: f64 = 1e-5;
-
-/// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
-/// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
-pub fn tolerance(uncertainty: f64) -> f64 {
-    uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
-}
-
-/// Whether the numbers of a row were computed now or read from a recorded run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Source {
-    /// Run on this machine, now or earlier (from the store).
-    Live,
-    /// Read from the recorded runs, because the code is not installed.
-    Recorded,
-}
-
-impl Source {
-    /// The word in tables.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Live => "live",
-            Self::Recorded => "recorded",
-        }
-    }
-}
-
-/// One thing that speaks for or against a row.
+/// A ground for or against a row.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Ground {
-    /// A number was held against what it should be.
+pub(crate) enum Ground {
+    /// A number was compared with its expected value.
     Deviation {
         /// Measured minus expected.
         error: f64,
@@ -96,14 +62,14 @@ pub enum Ground {
         uncertainty: f64,
         /// Largest error that agrees.
         tolerance: f64,
-        /// What to say if it does not agree.
+        /// Note for the case that it does not agree.
         note: Option<String>,
     },
     /// A condition that must hold does.
     Held,
     /// A condition that must hold does not.
     Violation(String),
-    /// Speaks against an agreement, but decides nothing.
+    /// A reason against an agreement that decides nothing.
     Doubt(String),
     /// Deviations up to `up_to` decide nothing.
     Blur {
@@ -114,13 +80,13 @@ pub enum Ground {
     },
     /// The numbers are there, but nothing can be decided by them.
     Undecidable(String),
-    /// Explains the numbers and has no say in the verdict.
+    /// An explanation without influence on the verdict.
     Remark(String),
-    /// Nothing yields, with the reason if there is one to give.
+    /// Nothing yields, with the reason if it is known.
     NoYield(Option<String>),
     /// The code failed.
     Failed(String),
-    /// A run, or a number, is not there.
+    /// A run, or a number, is missing.
     Missing(String),
     /// The reference belongs to a convention that the code does not have, or is not known to have.
     NotJudged {
@@ -177,7 +143,7 @@ impl Ground {
     }
 }
 
-/// Everything that speaks for or against a row, and the one place where its verdict is derived.
+/// The grounds for and against a row, and the one place where its verdict is derived.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grounds(Vec<Ground>);
 
@@ -188,11 +154,11 @@ impl Grounds {
     }
 
     /// Adds a ground.
-    pub fn add(&mut self, ground: Ground) {
+    pub(crate) fn add(&mut self, ground: Ground) {
         self.0.push(ground);
     }
 
-    /// Adds a condition that must hold; `violation` is said if it does not.
+    /// Adds a condition that must hold; `violation` is the note if it does not.
     pub fn hold(&mut self, holds: bool, violation: &str) {
         self.add(match holds {
             true => Ground::Held,
@@ -200,7 +166,7 @@ impl Grounds {
         });
     }
 
-    /// Adds a measured number with what it should be; `note` is said if the two do not agree.
+    /// Adds the comparison of a number with its expected value; `note` explains a disagreement.
     pub fn compare(&mut self, error: f64, uncertainty: f64, tolerance: f64, note: Option<String>) {
         self.add(Ground::Deviation {
             error,
@@ -210,7 +176,7 @@ impl Grounds {
         });
     }
 
-    /// The verdict.
+    /// Derives the verdict.
     ///
     /// 1. A failed or missing run leaves nothing to judge.
     /// 2. Without the right reference, or where nothing can be decided, the row is inconclusive.
@@ -233,7 +199,7 @@ impl Grounds {
         }
     }
 
-    /// What explains the verdict, in the order in which it was found.
+    /// Notes that explain the verdict, in the order in which they were added.
     pub fn notes(&self) -> Vec<&str> {
         self.0.iter().filter_map(Ground::note).collect()
     }
@@ -252,36 +218,24 @@ impl Grounds {
     }
 
     /// Whether the reference is the right one.
-    pub fn is_judged(&self) -> bool {
+    pub(crate) fn is_judged(&self) -> bool {
         let not_judged = |ground: &Ground| matches!(ground, Ground::NotJudged { .. });
         !self.0.iter().any(not_judged)
     }
 
     /// Whether the row is not judged because the code is known to have another convention than it declares.
     pub fn is_contradicted(&self) -> bool {
-        let contradicted = |ground: &Ground| {
-            matches!(
-                ground,
-                Ground::NotJudged {
-                    contradicted: true,
-                    ..
-                }
-            )
+        let is_contradicted = |ground: &Ground| match ground {
+            Ground::NotJudged { contradicted, .. } => *contradicted,
+            _ => false,
         };
-        self.0.iter().any(contradicted)
+        self.0.iter().any(is_contradicted)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The verdict on an error with its uncertainty, both relative to F + 3.
-    fn judge(error: f64, uncertainty: f64) -> Verdict {
-        let mut grounds = Grounds::new();
-        grounds.compare(error, uncertainty, tolerance(uncertainty), None);
-        grounds.verdict()
-    }
 
     fn grounds(grounds: &[Ground]) -> Grounds {
         Grounds(grounds.to_vec())
@@ -402,35 +356,5 @@ mod tests {
             assert_eq!(verdict.to_string(), word);
             assert_eq!(serde_json::to_value(verdict).unwrap(), word);
         }
-    }
-
-    #[test]
-    fn a_small_error_agrees_and_a_large_one_differs() {
-        assert_eq!(judge(9e-8, 1e-8), Verdict::Agrees);
-        assert_eq!(judge(-1.1e-7, 1e-8), Verdict::Differs);
-    }
-
-    #[test]
-    fn tolerance_follows_the_uncertainty_between_floor_and_bar() {
-        assert_eq!(judge(4e-6, 5e-6), Verdict::Agrees);
-        assert_eq!(judge(6e-6, 5e-6), Verdict::Differs);
-    }
-
-    #[test]
-    fn an_uncertainty_above_the_bar_decides_only_against_large_errors() {
-        assert_eq!(judge(1e-7, 2e-5), Verdict::Inconclusive);
-        assert_eq!(judge(1e-3, 2e-5), Verdict::Differs);
-    }
-
-    #[test]
-    fn not_a_number_is_never_a_pass() {
-        assert_eq!(judge(f64::NAN, 1e-8), Verdict::Inconclusive);
-        assert_eq!(judge(1e-8, f64::NAN), Verdict::Inconclusive);
-    }
-
-    #[test]
-    fn a_row_says_where_it_comes_from() {
-        assert_eq!(Source::Live.as_str(), "live");
-        assert_eq!(Source::Recorded.as_str(), "recorded");
     }
 }

@@ -63,7 +63,7 @@ impl PathPoint {
         2.0 - self.floor_overlap + self.rise() - self.wall_force
     }
 
-    /// How far `event` still is, in its own units; negative once it has happened.
+    /// Distance to `event`, in its own units; negative once it has happened.
     fn margin(&self, event: Event, stack: &Stack) -> f64 {
         match event {
             Event::FloorSlip => stack.floor_friction - self.floor_ratio,
@@ -87,7 +87,7 @@ pub trait Path {
 }
 
 /// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
-pub fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
+pub(crate) fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
     let margin = |parameter: f64| path.point(parameter).margin(event, stack);
     let stations = path.stations();
     let index = stations
@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(with(1.5), Some(3.0));
         assert_eq!(with(2.5), None);
         assert_eq!(with(0.4), Some(0.0));
-        // What is only just reached at the first station has not happened from the start.
+        // An event that is just reached at the first station has not happened from the start.
         assert_eq!(with(0.5), Some(1.0));
     }
 

@@ -23,7 +23,7 @@ pub struct Limit {
     pub y: Option<f64>,
     /// z, how far cylinder 2 has sunk into the floor, in r, where the floor slips.
     pub z: Option<f64>,
-    /// How far the top wall has moved, in r, when the floor slips (docs/theory.md, Eq. 34).
+    /// Wall travel, in r, when the floor slips (docs/theory.md, Eq. 34).
     pub wall_travel: Option<f64>,
     /// Why there is no yield force.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -52,16 +52,15 @@ struct State {
 }
 
 impl State {
-    fn from_array(
-        [
+    fn from_array(state: [f64; 6]) -> Self {
+        let [
             turned,
             load,
             pair_overlap,
             rotation,
             pair_shear,
             floor_shear,
-        ]: [f64; 6],
-    ) -> Self {
+        ] = state;
         Self {
             turned,
             load,
@@ -86,10 +85,6 @@ impl State {
     /// y = x₂ − r.
     fn outward(&self) -> f64 {
         outward_displacement(self.turned, self.pair_overlap)
-    }
-
-    fn scaled(self, factor: f64) -> [f64; 6] {
-        self.to_array().map(|component| component * factor)
     }
 }
 
@@ -127,7 +122,7 @@ pub enum BottomContact {
     Followed,
 }
 
-/// Everything about the contacts that does not change along the path. Their springs are the paper's, k_n = 1: a
+/// Constants of the contacts along a path. Their springs are the paper's, k_n = 1: a
 /// normal force is the overlap.
 #[derive(Debug, Clone, Copy)]
 struct Contacts {
@@ -220,10 +215,10 @@ impl ODE<f64, [f64; 6]> for LegEquation<'_> {
             Leg::GravityRamp => self.first_turn,
             Leg::Wall => state.turned,
         };
-        *slope = self
-            .contacts
-            .derivative(&state, self.leg, self.closed)
-            .scaled(angle_per_parameter);
+        let derivative = self.contacts.derivative(&state, self.leg, self.closed);
+        *slope = derivative
+            .to_array()
+            .map(|component| component * angle_per_parameter);
     }
 }
 
@@ -235,7 +230,7 @@ struct Knot {
     closed: bool,
 }
 
-/// The followed path: states at the stations, and the means to go on from any of them.
+/// The followed path: states at the stations, from each of which it can be continued.
 pub(super) struct FollowedPath {
     contacts: Contacts,
     /// The angle turned under gravity, to first order in ε.
@@ -340,7 +335,7 @@ impl FollowedPath {
             let reached = self.advance(last, parameter);
             reached.map_or(f64::NAN, |state| state.outward())
         };
-        // Where it has only just changed, y = 0 up to round-off; the path has to go on all the same.
+        // Just after a change y = 0 up to round-off, and no root lies ahead: the path goes on to the station.
         let change = bracketed_root(outward, last.parameter, to);
         let change = change.filter(|&change| change > last.parameter);
         let change = change.unwrap_or(to);
@@ -416,7 +411,7 @@ pub fn followed_limit(stack: &Stack, arms: &Arms) -> Limit {
     Limit::of(&path, slip, stack, arms)
 }
 
-/// The path of equilibria of a stack like this one; its frictions play no part in it.
+/// The path of equilibria of `stack`, which does not depend on its frictions.
 pub(super) fn followed_path(stack: &Stack, arms: &Arms, bottom: BottomContact) -> FollowedPath {
     FollowedPath::new(Contacts {
         tangential_stiffness: stack.tangential_stiffness(),

@@ -1,4 +1,4 @@
-//! What the tests of the command line share.
+//! Shared parts of the tests of the command line.
 #![allow(dead_code)] // Every test binary uses a part of it.
 
 pub mod network;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use tristack::code::Code;
 use tristack::runs::{Recorded, Recording};
 
-/// What was built for the tests.
+/// The program built for the tests.
 pub const OWN_PROGRAM: &str = env!("CARGO_BIN_EXE_tristack");
 
 /// The program that was released, if TRISTACK_RELEASE names it.
@@ -135,7 +135,7 @@ pub fn save_recording(directory: &Path, code: Code, change: impl FnOnce(&mut Rec
     recording.save(directory, code).expect("a copy");
 }
 
-/// What is recorded of `code` in the program.
+/// The recording of `code` that is embedded in the program.
 pub fn recording(code: Code) -> Recording {
     let recorded = Recorded::embedded().recording(code);
     recorded.expect("it is not damaged")
@@ -147,7 +147,7 @@ pub fn json_rows(text: &str) -> Vec<serde_json::Value> {
     rows.expect("an object with rows")
 }
 
-/// What `condition` gives, as soon as it gives something; `None` after a minute, which is enough on a busy machine.
+/// Waits until `condition` returns something; `None` after a minute, which is enough on a busy machine.
 pub fn wait_a_minute_for<T>(mut condition: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     while start.elapsed() < Duration::from_secs(60) {

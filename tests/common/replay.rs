@@ -15,7 +15,7 @@ fn yade() -> Code {
     Code::named("yade").expect("it is built in")
 }
 
-/// What happens to the series of one case.
+/// A change of the series of one case.
 pub enum Disturbance {
     /// It is delivered as it is.
     None,

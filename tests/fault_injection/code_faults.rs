@@ -37,7 +37,7 @@ pub fn strike(fault: E, round: &mut Round) -> Result<Aftermath, String> {
     })
 }
 
-/// What the code executes before it would deliver the series.
+/// The command that the code executes before it would deliver the series.
 fn command(fault: E) -> Option<&'static str> {
     let command = match fault {
         E::Crashes => "kill -SEGV $$",
@@ -55,7 +55,7 @@ fn command(fault: E) -> Option<&'static str> {
     Some(command)
 }
 
-/// What the code delivers instead of the series of `victim`.
+/// The bytes that the code delivers instead of the series of `victim`.
 fn series(fault: E, victim: &Case, round: &mut Round) -> Vec<u8> {
     let right = round.workloads.series(victim);
     let text = String::from_utf8(right).expect("text");

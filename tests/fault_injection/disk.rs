@@ -1,4 +1,4 @@
-//! Faults of the file system, on small ones in memory that nobody else sees.
+//! Faults of the file system, on small private file systems in memory.
 
 use super::fault::DiskFault;
 use super::round::{Aftermath, Round};
@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 /// Root may be refused a name space of users, and needs none.
 const WAYS: [&[&str]; 2] = [&["--map-root-user", "--mount"], &["--mount"]];
 
-/// Options with which `unshare` lets this user mount something where nobody else sees it, if there are any.
+/// Options with which `unshare` lets this user mount private file systems, if there are any.
 static WAY: LazyLock<Option<&[&str]>> = LazyLock::new(|| {
     WAYS.into_iter().find(|way| {
         let mut command = private_mounts(way, "mount -t tmpfs none /mnt");
@@ -21,10 +21,10 @@ static WAY: LazyLock<Option<&[&str]>> = LazyLock::new(|| {
 /// With which a script ends that cannot set up its disk, or not copy what is on it: tristack never does.
 const NO_DISK: i32 = 99;
 
-/// What tristack says where something cannot be written.
+/// Parts of the messages that tristack prints when it cannot write.
 const SIGNS: [&str; 3] = ["No space left", "could not be kept", " failed on "];
 
-/// Whether this user may mount something where nobody else sees it.
+/// Whether this user may mount private file systems.
 pub fn can_mount() -> bool {
     WAY.is_some()
 }

@@ -1,4 +1,4 @@
-//! What may happen.
+//! The faults.
 
 use super::disk;
 use std::path::Path;
@@ -12,7 +12,7 @@ pub enum Fault {
     Disk(DiskFault),
 }
 
-/// What happens to a running tristack or to the processes it has started, at a random moment.
+/// A fault of a running tristack or of the processes it has started, at a random moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProcessFault {
     Killed,
@@ -31,7 +31,7 @@ pub enum ProcessFault {
     TwoAtOnceOneKilled,
 }
 
-/// What a code does instead of delivering one of its series.
+/// A fault of a code in place of one of its series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EngineFault {
     Crashes,
@@ -57,7 +57,7 @@ pub enum EngineFault {
     SeriesWithoutRows,
 }
 
-/// What is found in the store by the next program.
+/// A defect of the store that the next program finds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StoreFault {
     BitFlipped,
@@ -68,7 +68,7 @@ pub enum StoreFault {
     OtherFormat,
 }
 
-/// What the file system does.
+/// A fault of the file system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DiskFault {
     Full,

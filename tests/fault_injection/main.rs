@@ -26,7 +26,7 @@ use workload::Workloads;
 /// Each fault once.
 const ROUNDS: usize = 44;
 const TRIES: u64 = 5;
-/// What a round does most of the time is waiting.
+/// Number of rounds at once; a round mostly waits.
 const AT_ONCE: usize = 3;
 
 /// Plays a round again that came to nothing because its moment was too early or too late.

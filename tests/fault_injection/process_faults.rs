@@ -102,7 +102,7 @@ fn interrupt(how: Signal, round: &mut Round) -> Result<Aftermath, String> {
     match output.status.code() {
         Some(130) if message.contains("interrupted") => {}
         Some(0) => {}
-        // So early that nobody listened yet.
+        // The signal came before its handler was installed.
         None if output.status.signal() == Some(how as i32) => {}
         code => return Err(format!("it ended with {code:?}\n{message}")),
     }
@@ -152,7 +152,7 @@ fn interrupt_twice(round: &mut Round) -> Result<Aftermath, String> {
     })
 }
 
-/// In about every fourth round for longer than a run may take: time in which nobody looks does not count.
+/// In about every fourth round the pause is longer than the time limit of a run: time while stopped does not count.
 fn stop_for_a_while(round: &mut Round) -> Aftermath {
     // On a busy machine a real code may need as much by itself; 0.6 of the rounds are replayed.
     let long = round.is_replayed() && round.random.f64() < 0.4;

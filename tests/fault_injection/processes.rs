@@ -30,7 +30,7 @@ impl Process {
     }
 }
 
-/// Everything that runs and was told of `place`.
+/// All running processes with `place` in their environment.
 pub fn of(place: &Path) -> Vec<Process> {
     let place = place.as_os_str().as_encoded_bytes();
     let processes = fs::read_dir("/proc")
@@ -39,10 +39,10 @@ pub fn of(place: &Path) -> Vec<Process> {
     let found = processes.filter_map(|entry| {
         let number = entry.file_name().to_str()?.parse().ok()?;
         let environment = fs::read(entry.path().join("environ")).ok()?;
-        let told = environment.windows(place.len()).any(|part| part == place);
+        let mentioned = environment.windows(place.len()).any(|part| part == place);
         let command = fs::read(entry.path().join("cmdline")).ok()?;
         let command = String::from_utf8_lossy(&command).replace('\0', " ");
-        (told && !command.is_empty()).then_some(Process { number, command })
+        (mentioned && !command.is_empty()).then_some(Process { number, command })
     });
     found.collect()
 }

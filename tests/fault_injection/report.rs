@@ -1,4 +1,4 @@
-//! What was done, for docs/reliability.md.
+//! Summary of the rounds, for docs/reliability.md.
 
 use super::fault::Fault;
 use super::round::Story;

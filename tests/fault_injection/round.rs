@@ -21,12 +21,12 @@ pub struct Round<'a> {
     pub random: fastrand::Rng,
 }
 
-/// What a fault has done, and what may be expected after it.
+/// Effects of a fault, and the outcomes that it allows.
 #[derive(Default)]
 pub struct Aftermath {
-    /// What the disturbed programs said.
+    /// Output of the disturbed programs.
     pub outputs: Vec<Output>,
-    /// What programs said until they were killed beside them.
+    /// Output of the programs that ran beside them until they were killed.
     pub killed: Vec<Output>,
     /// Whether the fault came in time to disturb anything.
     pub struck: bool,
@@ -50,7 +50,7 @@ impl Aftermath {
     }
 }
 
-/// What a round came to.
+/// Result of a round.
 #[derive(Debug, Clone, Copy)]
 pub struct Story {
     /// Whether the fault came in time.
@@ -164,7 +164,7 @@ impl<'a> Round<'a> {
         groups.iter().flat_map(|group| below(group)).collect()
     }
 
-    /// No program may have told anything wrong, and those that were not killed have come to what the fault allows.
+    /// No program may have printed anything wrong, and those that were not killed ended as the fault allows.
     fn look_at_outputs(&self, aftermath: &Aftermath) -> Result<(), String> {
         for output in aftermath.all_outputs() {
             self.look_for_mistakes(output)?;
@@ -200,7 +200,7 @@ impl<'a> Round<'a> {
         Ok(())
     }
 
-    /// What was said to be finished is in the store, and whole; nothing was finished twice without need.
+    /// Every run reported as finished is in the store, and whole; none was run twice without need.
     fn look_at_finished(&self, aftermath: &Aftermath) -> Result<usize, String> {
         let finished: usize = aftermath.all_outputs().map(finished_runs).sum();
         let entries = self.entries();
@@ -252,7 +252,7 @@ impl<'a> Round<'a> {
         Ok(made)
     }
 
-    /// What tells an entry from another one in its place.
+    /// Stamps that distinguish an entry from another one in its place.
     fn stamps(&self) -> BTreeMap<PathBuf, u64> {
         let entries = self.entries().into_iter();
         let stamps = entries.filter_map(|entry| {
@@ -279,7 +279,7 @@ impl<'a> Round<'a> {
                 if directory.ends_with("store/sessions") {
                     left.push(path.clone());
                 }
-                // Evidence of failures is kept, whoever is to look at it.
+                // Evidence of failures is kept for inspection.
                 let kept = directory.ends_with("store/work") && may_leave_evidence(aftermath);
                 if directory.ends_with("store/work") && !kept {
                     left.push(path.clone());
@@ -327,7 +327,7 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
     let often_real = random.f64() < 0.4;
     match fault {
         Fault::InstalledCode(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
-        // What hangs without an end of its own in sight must not be waited for.
+        // A code that hangs without a time limit must not be waited for.
         Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs | P::InterruptedTwice) => {
             &all.replayed
         }

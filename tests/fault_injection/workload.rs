@@ -1,4 +1,4 @@
-//! What is computed while things go wrong.
+//! The computations that faults disturb.
 
 use super::common::Bench;
 use super::common::replay::{self, Disturbance};
@@ -13,7 +13,7 @@ pub struct Workload {
     /// The arguments of tristack.
     pub line: String,
     pub cases: Vec<Case>,
-    /// What is printed.
+    /// Expected output.
     pub expected: String,
     /// How long it takes.
     pub duration: Duration,
@@ -69,14 +69,14 @@ impl Workloads {
         install(bench, &self.shared.path("replay"));
     }
 
-    /// What the replayed code delivers for `case`.
+    /// The series that the replayed code delivers for `case`.
     pub fn series(&self, case: &Case) -> Vec<u8> {
         let path = self.shared.path("replay");
         std::fs::read(path.join(format!("{}.csv", address(case)))).expect("a series")
     }
 }
 
-/// What the replayed code calls a case.
+/// The replayed code's name of a case.
 pub fn address(case: &Case) -> String {
     sha256_hex(ParameterFormat::Json.content(&case.parameters()).as_bytes())
 }

@@ -1,4 +1,4 @@
-//! What was wrong in the handling of input and has been mended, one test a finding
+//! Mended defects in the handling of input, one test a finding
 //! (reference/reliability/fuzz.json tells which).
 
 use super::common::{Bench, installed, recording, standard_error};
@@ -42,7 +42,7 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
     assert_eq!((found, expected), (rows + 1, rows));
 }
 
-/// What was out of its range was taken for recorded.
+/// A summary with values out of their range was accepted as recorded.
 #[test]
 fn a_summary_of_an_impossible_case_is_refused_with_its_table() {
     let mut recording = recording(Code::named("liggghts").expect("it is built in"));
@@ -97,7 +97,7 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
             &case.protocol.schedule(),
             case.protocol.time_step,
         );
-        let frames = Frames::of_trace(&series.expect("finite"), case.protocol.wall_speed);
+        let frames = Frames::of_series(&series.expect("finite"), case.protocol.wall_speed);
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }
 }

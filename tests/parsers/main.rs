@@ -1,6 +1,6 @@
 //! Parsers of everything that comes from outside, under arbitrary and under slightly damaged input: they never
-//! panic, and what they accept is sound. What that means stands in tests/soundness/, one file a family, where the
-//! long runs of tests/fuzz/run start from as well.
+//! panic, and everything that they accept is sound. tests/soundness/ defines soundness, one file a family, also for
+//! the long runs of tests/fuzz/run.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -12,7 +12,7 @@ mod soundness;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// What becomes of a valid input.
+/// A change of a valid input.
 #[derive(Debug, Clone)]
 enum Change {
     Flip(Index, u8),
@@ -24,7 +24,7 @@ enum Change {
     Number(Index, &'static str),
 }
 
-/// Numbers that nobody means, and what means something to a parser.
+/// Extreme numbers, and tokens with a meaning for a parser.
 const TOKENS: [&str; 20] = [
     "1e308",
     "-1e308",

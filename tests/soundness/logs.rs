@@ -1,5 +1,4 @@
-//! What LAMMPS and LIGGGHTS leave behind: tables in logs, dumps, and what programs answer when asked for
-//! their version.
+//! Output of LAMMPS and LIGGGHTS: tables in logs, dumps, and the versions that the programs print.
 
 use super::scenes::{short_case, short_test};
 use super::{Seed, marked, series};
@@ -8,7 +7,7 @@ use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::{ContactConvention, Pyramid};
 use tristack::series::Motion;
 
-/// What separates log and dump in an input.
+/// Separator of log and dump in an input.
 const BETWEEN: u8 = 0;
 const LIGGGHTS: &str = "LIGGGHTS (Version LIGGGHTS-PUBLIC ";
 

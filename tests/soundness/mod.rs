@@ -1,4 +1,4 @@
-//! What must hold of every parser, whatever it is given: it returns, and what it accepts is sound.
+//! Properties that every parser has for any input: it returns, and everything that it accepts is sound.
 //!
 //! Each module has a `check` of some bytes, which panics if something does not hold, and `seeds`, valid inputs
 //! to start from. `tests/fuzz/` hands them to libFuzzer, `tests/parsers.rs` to proptest.
@@ -22,7 +22,7 @@ use std::path::PathBuf;
 /// An input by its name.
 pub type Seed = (String, Vec<u8>);
 
-/// What is done with some bytes.
+/// A test of arbitrary bytes.
 pub type Check = fn(&[u8]);
 
 /// Inputs to start from.

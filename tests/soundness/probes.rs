@@ -1,4 +1,4 @@
-//! Micro-tests whose recorded motions say anything: the law read off them must not panic, and may be unknown.
+//! Micro-tests with arbitrary recorded motions: reading the contact law off them must not panic, and may fail.
 
 use super::Seed;
 use std::sync::LazyLock;

@@ -1,4 +1,4 @@
-//! What is kept of runs: provenance, answers to micro-tests, tables of recorded runs.
+//! Records of runs: provenance, answers to micro-tests, tables of recorded runs.
 
 use super::scenes::short_test;
 use super::{Seed, marked};

@@ -28,7 +28,7 @@ pub fn short_case() -> Case {
     }
 }
 
-/// One whose run ends when the force drops.
+/// A case whose run ends when the force drops.
 pub fn case_with_shortcuts() -> Case {
     let mut case = short_case();
     case.protocol.wall_speed = 5e-3;

@@ -38,7 +38,7 @@ fn check_series(text: &[u8], case: &Case) {
     }
 }
 
-/// What is accepted is finite, lies at the planned steps, and can be read.
+/// An accepted series is finite, lies at the planned steps, and can be read.
 pub fn is_sound(series: &Series, case: &Case) {
     let planned = case.protocol.schedule();
     let rows = series.samples();
@@ -62,7 +62,7 @@ pub fn is_sound(series: &Series, case: &Case) {
 }
 
 fn can_be_drawn(series: &Series, case: &Case) {
-    let frames = Frames::of_trace(series, case.protocol.wall_speed);
+    let frames = Frames::of_series(series, case.protocol.wall_speed);
     assert!(run_svg("yade", case, &frames).len() < LARGEST_PICTURE);
     assert_eq!(
         vtk_series(&frames, case.stack.epsilon()).len(),

@@ -1,4 +1,4 @@
-//! Native runs that are under way, on disk, so that an interruption loses little.
+//! Checkpoints of unfinished native runs on disk, so that an interruption loses little.
 
 use crate::dem::Checkpoint;
 use crate::files::{seal, unseal, write_atomically_via};
@@ -9,37 +9,37 @@ use std::time::Duration;
 /// Time between two checkpoints of a run.
 pub(super) const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(20);
 
-/// A run that is under way.
+/// An unfinished run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Unfinished {
-    /// What it has taken so far.
+    /// Its run time so far.
     pub(super) seconds: f64,
-    /// How far it is.
+    /// Its state.
     pub(super) checkpoint: Checkpoint,
 }
 
 /// The unfinished runs below a directory, by the address that each will have when it is finished.
 ///
-/// Whoever keeps the finished run removes them.
+/// The store removes a checkpoint when it keeps the finished run.
 pub(super) struct Checkpoints<'a> {
     directory: &'a Path,
     drafts: &'a Path,
 }
 
 impl<'a> Checkpoints<'a> {
-    /// In `directory`, with drafts in another of the same file system.
+    /// Checkpoints in `directory`; `drafts` is a directory on the same file system.
     pub(super) fn new(directory: &'a Path, drafts: &'a Path) -> Self {
         Self { directory, drafts }
     }
 
-    /// A run that cannot be kept goes on all the same: it only has more to lose.
+    /// Writes a checkpoint. If that fails, the run goes on without it.
     pub(super) fn keep(&self, address: &str, run: &Unfinished) {
         let content = serde_json::to_vec(run).expect("plain data has a JSON form");
         let _ = write_atomically_via(self.drafts, &self.path(address), &seal(&content));
     }
 
-    /// The run under `address`, if it was kept; one that cannot be read starts anew.
+    /// The checkpoint under `address`, if there is a readable one.
     pub(super) fn take_up(&self, address: &str) -> Option<Unfinished> {
         let path = self.path(address);
         let sealed = std::fs::read(&path).ok()?;

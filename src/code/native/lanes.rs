@@ -1,16 +1,15 @@
-//! Native runs that share a vector: longest first, timed, and kept while they are under way.
+//! Native runs that share vector instructions: longest first, timed, with checkpoints.
 
 use super::checkpoints::{CHECKPOINT_INTERVAL, Checkpoints, Unfinished};
-use super::{Native, failure, why};
-use crate::code::Run;
-use crate::code::{Code, FailureKind, Finished, RunContext};
+use super::{Native, cause, failure};
+use crate::code::{Code, FailureKind, Finished, Run, RunContext};
 use crate::dem::{Checkpoint, OpenRun, OpenRuns, RunQueue};
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
 use std::collections::{BTreeMap, VecDeque};
 use std::time::{Duration, Instant};
 
-/// The runs for one vector.
+/// The runs that share one vector.
 pub(super) struct Lanes<'a, 'f> {
     native: &'a Native,
     cases: &'a [Case],
@@ -19,16 +18,16 @@ pub(super) struct Lanes<'a, 'f> {
     context: &'a RunContext<'a>,
     finished: Finished<'f, Run>,
     checkpoints: Option<Checkpoints<'a>>,
-    /// Its share of the time that the vector took, for each run in a lane.
+    /// Run time of each run in a lane: its share of the time of the vector.
     open: BTreeMap<usize, Duration>,
-    /// Until when that time is shared out.
+    /// End of the time that is shared out.
     shared: Instant,
     last_finished: Instant,
     last_kept: Instant,
 }
 
 impl<'a, 'f> Lanes<'a, 'f> {
-    /// For the cases with these `indices`.
+    /// Runs of the `cases` with these `indices`.
     pub(super) fn new(
         native: &'a Native,
         cases: &'a [Case],
@@ -54,7 +53,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
         }
     }
 
-    /// Reports what nobody wanted to begin any more.
+    /// Reports the runs that an interrupt or the time limit kept from starting.
     pub(super) fn give_up_waiting(&mut self) {
         while let Some(index) = self.waiting.pop_front() {
             let late = self.late().map(FailureKind::TimedOut);
@@ -100,7 +99,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
     }
 }
 
-/// A duration that was read from a file, which may say anything.
+/// The duration `seconds` from a file, limited to a range that `Duration` can hold.
 fn duration(seconds: f64) -> Duration {
     const LONGEST: f64 = 1e10;
     Duration::try_from_secs_f64(seconds.min(LONGEST)).unwrap_or_default()
@@ -143,7 +142,7 @@ impl RunQueue for Lanes<'_, '_> {
         let late = self.late();
         let complete = series.is_ok();
         let run = series.map(|series| self.native.run_of(case, series, duration));
-        let run = run.map_err(|error| failure(case, why(error, self.context, late)));
+        let run = run.map_err(|error| failure(case, cause(error, self.context, late)));
         (self.finished)(index, run);
         if complete {
             self.last_finished = Instant::now();

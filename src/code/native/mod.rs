@@ -1,4 +1,4 @@
-//! The native DEM behind the same interface as the external codes.
+//! The native DEM behind the interface of the external codes.
 
 mod checkpoints;
 mod lanes;
@@ -30,7 +30,7 @@ impl Native {
         Self::computing(env!("CARGO_PKG_VERSION"), Arithmetic::Double)
     }
 
-    /// In double-double arithmetic.
+    /// The native DEM in double-double arithmetic.
     pub(super) fn precise() -> Self {
         let version = concat!(env!("CARGO_PKG_VERSION"), " double-double");
         Self::computing(version, Arithmetic::DoubleDouble)
@@ -82,15 +82,8 @@ impl Native {
     }
 
     fn run_of(&self, case: &Case, series: Series, duration: Duration) -> Run {
-        let command = [
-            "tristack",
-            "simulate",
-            "--code",
-            "native",
-            "--case",
-            "case.json",
-        ];
-        let command = command.map(str::to_owned).to_vec();
+        let command = "tristack simulate --code native --case case.json";
+        let command = command.split(' ').map(str::to_owned).collect();
         let (identity, deck_hash) = (self.identity.clone(), Code::NATIVE.deck_hash(case));
         let (steps, seconds) = (case.total_steps(), duration.as_secs_f64());
         Run {
@@ -112,7 +105,7 @@ fn kinds(cases: &[Case]) -> Vec<LaneKind> {
     kinds
 }
 
-/// Hands `run` the question whether it is still wanted, and says why if it was not.
+/// Calls `run` with a test whether to go on; if it was stopped, the error is the interrupt or the time limit.
 fn while_wanted<T>(
     context: &RunContext,
     run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
@@ -123,11 +116,11 @@ fn while_wanted<T>(
         limit.filter(|&limit| start.elapsed() > limit)
     };
     let wanted = || !context.interrupt.requested() && late().is_none();
-    run(&wanted).map_err(|error| why(error, context, late()))
+    run(&wanted).map_err(|error| cause(error, context, late()))
 }
 
-/// Why a series is not what it should be: `late` if a run took longer than that.
-fn why(error: SeriesError, context: &RunContext, late: Option<Duration>) -> FailureKind {
+/// The cause of an unusable series; `late` is the time limit, if that was exceeded.
+fn cause(error: SeriesError, context: &RunContext, late: Option<Duration>) -> FailureKind {
     match late {
         _ if context.interrupt.requested() => FailureKind::Interrupted,
         Some(limit) => FailureKind::TimedOut(limit),
@@ -136,13 +129,7 @@ fn why(error: SeriesError, context: &RunContext, late: Option<Duration>) -> Fail
 }
 
 fn failure(subject: &impl ToString, kind: FailureKind) -> Failure {
-    Failure {
-        code: Code::NATIVE,
-        subject: subject.to_string(),
-        kind,
-        run_directory: None,
-        last_lines: Vec::new(),
-    }
+    Failure::new(Code::NATIVE, subject, kind)
 }
 
 impl InstalledCode for Native {

@@ -1,18 +1,18 @@
-//! What a check finds, and the one rule that makes a verdict of it.
+//! The finding of a check, and the one rule that derives a verdict from it.
 
 use serde::Serialize;
 
-/// Deviation below which formulas that should be the same are the same: they are evaluated at states
-/// known to some 1e-11.
-pub const ROUND_OFF: f64 = 1e-8;
+/// Deviation below which two formulas count as the same. The states at which they are evaluated are known to
+/// some 1e-11.
+pub(crate) const ROUND_OFF: f64 = 1e-8;
 
 /// The verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ClaimVerdict {
-    /// It holds as stated.
+    /// The claim holds as stated.
     Holds,
-    /// It holds within what its own words allow.
+    /// It holds within the deviation that its own words allow.
     Approximately,
     /// It does not hold as stated.
     Fails,
@@ -38,20 +38,20 @@ impl std::fmt::Display for ClaimVerdict {
     }
 }
 
-/// What a check has measured.
+/// The result of a check.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
-    /// How far the claim is from the truth.
-    pub deviation: f64,
-    /// What it may be off for the claim to hold as stated.
-    pub bound: f64,
-    /// What was compared, and the numbers.
-    pub evidence: String,
+pub(crate) struct Finding {
+    /// Distance of the claim from the truth.
+    pub(crate) deviation: f64,
+    /// Largest deviation with which the claim holds as stated.
+    pub(crate) bound: f64,
+    /// The quantities compared, and their values.
+    pub(crate) evidence: String,
 }
 
 impl Finding {
     /// A deviation held to `bound`.
-    pub fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
+    pub(crate) fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
         Self {
             deviation,
             bound,
@@ -59,38 +59,38 @@ impl Finding {
         }
     }
 
-    /// Two sides of an identity, compared at several points by their relative deviations: the evidence says
-    /// how many, and what they are.
-    pub fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
-        let mut count = 0;
-        let mut largest = 0.0;
-        for deviation in deviations {
-            count += 1;
-            largest = worse(largest, deviation);
-        }
-        if count == 0 {
-            return Self::new(
-                f64::NAN,
-                ROUND_OFF,
-                format!("{compared}: nothing to compare"),
-            );
-        }
+    /// A statement that is true or false.
+    pub(crate) fn statement(holds: bool, evidence: impl Into<String>) -> Self {
+        Self::new(violation(holds), 0.0, evidence)
+    }
+
+    /// A statement without exceptions, and the number of them that were found.
+    pub(crate) fn exceptions(count: usize, evidence: impl Into<String>) -> Self {
+        Self::new(count as f64, 0.0, evidence)
+    }
+
+    /// An identity: relative deviations of its two sides at several points.
+    pub(crate) fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
+        let deviations: Vec<f64> = deviations.into_iter().collect();
+        let count = deviations.len();
+        let largest = worst(deviations);
         let found = size(largest, ROUND_OFF);
         let evidence = match count {
+            0 => format!("{compared}: nothing to compare"),
             1 => format!("{compared}; the relative deviation is {found}"),
             _ => format!("{compared}; at {count} points the largest relative deviation is {found}"),
         };
         Self::new(largest, ROUND_OFF, evidence)
     }
 
-    /// A number of the text, held to half a unit of its last digit.
-    pub fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
+    /// A number of the text, which may be off by half a unit of its last digit.
+    pub(crate) fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
         let evidence = format!("{of} is {truth:.5}, printed is {printed}");
         Self::new((printed - truth).abs(), 0.5 * unit * (1.0 + 1e-9), evidence)
     }
 
     /// The verdict, where the words of the claim allow a deviation up to `allowed`.
-    pub fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
+    pub(crate) fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
         if self.deviation <= self.bound {
             ClaimVerdict::Holds
         } else if allowed.is_some_and(|allowed| self.deviation <= allowed) {
@@ -102,7 +102,7 @@ impl Finding {
 }
 
 /// The larger of two deviations; one that is not a number is the largest of all.
-pub fn worse(left: f64, right: f64) -> f64 {
+fn worse(left: f64, right: f64) -> f64 {
     if left.is_nan() || right.is_nan() {
         f64::NAN
     } else {
@@ -111,13 +111,23 @@ pub fn worse(left: f64, right: f64) -> f64 {
 }
 
 /// The largest of all deviations; not a number if there are none.
-pub fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
     let largest = deviations.into_iter().reduce(worse);
     largest.unwrap_or(f64::NAN)
 }
 
-/// A deviation in words; round-off is not spelled out, because its digits are another machine's.
-pub fn size(deviation: f64, bound: f64) -> String {
+/// 0 where a condition holds, 1 where it does not.
+pub(crate) fn violation(holds: bool) -> f64 {
+    if holds { 0.0 } else { 1.0 }
+}
+
+/// The items, separated by commas.
+pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
+    items.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// A deviation in words. Round-off is not spelled out, because its digits differ between machines.
+pub(crate) fn size(deviation: f64, bound: f64) -> String {
     if deviation <= bound {
         format!("below {bound:.0e}")
     } else {
@@ -125,8 +135,8 @@ pub fn size(deviation: f64, bound: f64) -> String {
     }
 }
 
-/// How far a sum is from zero, relative to its largest term.
-pub fn imbalance(terms: &[f64]) -> f64 {
+/// Distance of a sum from zero, relative to its largest term.
+pub(crate) fn imbalance(terms: &[f64]) -> f64 {
     let largest = terms
         .iter()
         .fold(0.0, |largest: f64, term| largest.max(term.abs()));
@@ -134,7 +144,7 @@ pub fn imbalance(terms: &[f64]) -> f64 {
 }
 
 /// |left/right − 1|.
-pub fn relative(left: f64, right: f64) -> f64 {
+pub(crate) fn relative(left: f64, right: f64) -> f64 {
     (left / right - 1.0).abs()
 }
 

@@ -12,21 +12,21 @@ use serde::Serialize;
 pub struct ClaimJudgement {
     /// Name of the claim.
     pub id: String,
-    /// Where it stands in the paper.
+    /// Place in the paper.
     pub place: String,
-    /// What it says.
+    /// Statement, in words or as a formula.
     pub statement: String,
-    /// What kind of thing it is.
+    /// Kind of the statement.
     pub kind: ClaimKind,
-    /// What is to be said of it.
+    /// Verdict by the finding of the check.
     pub verdict: ClaimVerdict,
-    /// What was compared, and the numbers.
+    /// The quantities compared and their values, or the reason why there are none.
     pub evidence: String,
-    /// What should stand there instead; only where that has been checked to hold.
+    /// Correction; only where it has been checked to hold.
     pub erratum: Option<String>,
 }
 
-/// Judges every claim of `register` by what `paper` says and what was run for `reproduction`.
+/// Judges every claim of `register` by the formulas of `paper` and the runs of `reproduction`.
 pub fn judge(
     register: &Register,
     paper: &PaperTheory,
@@ -35,7 +35,7 @@ pub fn judge(
     judge_with(register, paper, Some(reproduction))
 }
 
-/// The same by theory alone: claims on DEM runs cannot be tested then.
+/// Judges every claim by theory alone, which leaves claims on DEM runs untestable.
 pub fn judge_theory(register: &Register, paper: &PaperTheory) -> Vec<ClaimJudgement> {
     judge_with(register, paper, None)
 }
@@ -67,7 +67,7 @@ fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) 
     }
 }
 
-/// What the check of `claim` finds, or why it finds nothing.
+/// The finding of the claim's check, or the reason why there is none.
 fn examine(
     claim: &Claim,
     paper: &PaperTheory,

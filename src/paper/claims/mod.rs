@@ -1,10 +1,10 @@
 //! Every checkable statement of the paper, and a verdict on each that is derived by running code.
 //!
-//! `reference/claims.toml` says what is claimed, where, and which check tests it (`register`). `printed` is
-//! the paper as it stands, misprints included: its formulas with every constant changeable. `truth` works
-//! the same things out anew, `checks` compare the two (and, where the paper speaks of simulations, runs), and
-//! `finding` makes a verdict of the deviation. A misprint becomes an erratum only if the same check holds
-//! with the constants of the corrected form.
+//! `register` reads `reference/claims.toml`: the claims, their places, and the checks that test them. `printed` is
+//! the paper as it stands, misprints included: its formulas, with constants that can be changed. `truth` derives
+//! the same quantities anew, `checks` compare the two (and runs, for the paper's simulations), and `finding`
+//! derives a verdict from the deviation. A misprint becomes an erratum only if the same check holds with the
+//! constants of the corrected form.
 
 mod checks;
 mod finding;
@@ -13,12 +13,8 @@ mod printed;
 mod register;
 mod truth;
 
+pub use checks::check_names;
 pub use finding::ClaimVerdict;
 pub use judgement::{ClaimJudgement, judge, judge_theory};
 pub use printed::PaperTheory;
 pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};
-
-/// The names of all checks that a register may use.
-pub fn check_names() -> Vec<&'static str> {
-    checks::all().map(|check| check.name).collect()
-}

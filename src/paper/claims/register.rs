@@ -1,17 +1,17 @@
-//! The register of claims, `reference/claims.toml`: what the paper says, where, and which check tests it.
-//! It holds no verdicts.
+//! The register of claims, `reference/claims.toml`: the paper's statements, their places, and the checks that
+//! test them. It holds no verdicts.
 
 use super::checks;
 use super::printed::PaperTheory;
+use crate::model::InvalidValue;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
-/// The register of this program.
 const TEXT: &str = include_str!("../../../reference/claims.toml");
 const FILE: &str = "reference/claims.toml";
 
-/// What kind of thing is claimed.
+/// The kind of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ClaimKind {
@@ -34,18 +34,18 @@ impl ClaimKind {
     }
 }
 
-/// What should stand in place of a claim that does not hold.
+/// The correction of a claim that does not hold.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Erratum {
     /// The corrected form.
     pub text: String,
-    /// The same for the program: constants of [`PaperTheory`] with which the check must hold.
+    /// The constants of [`PaperTheory`] with which the check must hold.
     pub set: BTreeMap<String, f64>,
 }
 
 impl Erratum {
-    /// The paper with the correction.
+    /// The corrected paper; `None` if it has no constant of a name.
     pub fn apply(&self, paper: &PaperTheory) -> Option<PaperTheory> {
         let mut corrected = paper.clone();
         for (name, &value) in &self.set {
@@ -59,24 +59,24 @@ impl Erratum {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
-    /// Its name.
+    /// Unique name.
     pub id: String,
-    /// Where it stands.
+    /// Place in the paper.
     pub place: String,
     /// The numbers, as printed, of the displayed equations that it covers.
     #[serde(default)]
     pub equations: Vec<String>,
-    /// What it says.
+    /// Statement, in words or as a formula.
     pub statement: String,
-    /// What kind of thing it is.
+    /// Kind of the statement.
     pub kind: ClaimKind,
     /// The check that tests it.
     pub check: Option<String>,
     /// The deviation that the words of the claim allow, in the check's own measure.
     pub allowed: Option<f64>,
-    /// Why it cannot be tested.
+    /// The reason why it cannot be tested.
     pub untestable: Option<String>,
-    /// What should stand there.
+    /// Correction, if the claim does not hold as printed.
     pub erratum: Option<Erratum>,
 }
 
@@ -92,28 +92,32 @@ pub struct Register {
 /// A register that cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RegisterError {
-    /// No TOML, or a key or value that it may not have.
+    /// No TOML, or an unknown key, or a value of the wrong type.
     #[error("{file}: {message}")]
     Syntax {
         /// The file.
         file: String,
-        /// What is wrong, with the place.
+        /// The defect and its place.
         message: String,
     },
     /// A value that is not accepted.
-    #[error("{file}: claim `{id}`: `{key}` is {value}, but must be {accepted}")]
+    #[error("{file}: claim `{id}`: {invalid}")]
     Value {
         /// The file.
         file: String,
         /// The claim.
         id: String,
-        /// The key.
-        key: String,
-        /// What it is.
-        value: String,
-        /// What it may be.
-        accepted: String,
+        /// Key, value, and the values accepted.
+        invalid: InvalidValue,
     },
+}
+
+fn invalid(key: &str, value: impl ToString, accepted: impl Into<String>) -> InvalidValue {
+    InvalidValue {
+        key: key.to_owned(),
+        value: value.to_string(),
+        accepted: accepted.into(),
+    }
 }
 
 impl Register {
@@ -122,7 +126,7 @@ impl Register {
         Self::from_toml(TEXT, FILE)
     }
 
-    /// Claims from the `text` of a `file`.
+    /// Reads and validates claims from the `text` of a `file`.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, RegisterError> {
         let register: Self = toml::from_str(text).map_err(|error| RegisterError::Syntax {
             file: file.to_owned(),
@@ -132,88 +136,68 @@ impl Register {
         for claim in &register.claims {
             claim
                 .validate(&mut seen)
-                .map_err(|wrong| RegisterError::Value {
+                .map_err(|invalid| RegisterError::Value {
                     file: file.to_owned(),
                     id: claim.id.clone(),
-                    key: wrong.key,
-                    value: wrong.value,
-                    accepted: wrong.accepted,
+                    invalid,
                 })?;
         }
         Ok(register)
     }
 }
 
-struct Wrong {
-    key: String,
-    value: String,
-    accepted: String,
-}
-
-impl Wrong {
-    fn new(key: &str, value: impl ToString, accepted: impl Into<String>) -> Self {
-        Self {
-            key: key.to_owned(),
-            value: value.to_string(),
-            accepted: accepted.into(),
-        }
-    }
-}
-
 impl Claim {
-    fn validate<'a>(&'a self, seen: &mut BTreeSet<&'a str>) -> Result<(), Wrong> {
+    fn validate<'a>(&'a self, seen: &mut BTreeSet<&'a str>) -> Result<(), InvalidValue> {
         if !seen.insert(&self.id) {
-            return Err(Wrong::new("id", &self.id, "different for every claim"));
+            return Err(invalid("id", &self.id, "different for every claim"));
         }
         match (&self.check, &self.untestable) {
-            (Some(check), None) => self.validate_check(check)?,
+            (Some(check), None) => validate_check(check)?,
             (None, Some(_)) => {}
             _ => {
                 let accepted = "given where there is no `untestable`, and only there";
                 let value = self.check.as_deref().unwrap_or("absent");
-                return Err(Wrong::new("check", value, accepted));
+                return Err(invalid("check", value, accepted));
             }
         }
-        if let Some(allowed) = self
-            .allowed
-            .filter(|allowed| !(allowed.is_finite() && *allowed > 0.0))
-        {
-            return Err(Wrong::new("allowed", allowed, "a number above 0"));
+        let allowed = self.allowed.unwrap_or(1.0);
+        if !(allowed.is_finite() && allowed > 0.0) {
+            return Err(invalid("allowed", allowed, "a number above 0"));
         }
         self.validate_erratum()
     }
 
-    fn validate_check(&self, name: &str) -> Result<(), Wrong> {
-        if checks::find(name).is_some() {
-            return Ok(());
-        }
-        let names: Vec<&str> = checks::all().map(|check| check.name).collect();
-        let accepted = format!("one of {}", names.join(", "));
-        Err(Wrong::new("check", name, accepted))
-    }
-
-    fn validate_erratum(&self) -> Result<(), Wrong> {
+    fn validate_erratum(&self) -> Result<(), InvalidValue> {
         let Some(erratum) = &self.erratum else {
             return Ok(());
         };
         if erratum.set.is_empty() || self.check.is_none() {
             let accepted = "given, with a check that tests it";
-            return Err(Wrong::new("erratum.set", "absent", accepted));
+            return Err(invalid("erratum.set", "absent", accepted));
         }
-        let infinite = erratum.set.iter().find(|(_, value)| !value.is_finite());
-        if let Some((name, value)) = infinite {
+        let mut set = erratum.set.iter();
+        if let Some((name, value)) = set.find(|(_, value)| !value.is_finite()) {
             let key = format!("erratum.set.{name}");
-            return Err(Wrong::new(&key, value, "a finite number"));
+            return Err(invalid(&key, value, "a finite number"));
         }
-        let unknown = erratum
-            .set
-            .keys()
-            .find(|name| !PaperTheory::NAMES.contains(&name.as_str()));
-        unknown.map_or(Ok(()), |name| {
-            let accepted = format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "));
-            Err(Wrong::new("erratum.set", name, accepted))
-        })
+        let mut names = erratum.set.keys();
+        match names.find(|name| !PaperTheory::NAMES.contains(&name.as_str())) {
+            None => Ok(()),
+            Some(name) => {
+                let accepted =
+                    format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "));
+                Err(invalid("erratum.set", name, accepted))
+            }
+        }
     }
+}
+
+fn validate_check(name: &str) -> Result<(), InvalidValue> {
+    if checks::find(name).is_some() {
+        return Ok(());
+    }
+    let accepted = format!("one of {}", checks::check_names().join(", "));
+    Err(invalid("check", name, accepted))
 }
 
 #[cfg(test)]

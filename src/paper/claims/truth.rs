@@ -1,6 +1,6 @@
-//! What the printed formulas are held against, worked out anew from Newton's laws and the two springs.
+//! Reference for the printed formulas, derived anew from Newton's laws and the two springs.
 //!
-//! Lengths, stiffnesses and weights keep their dimensions here: a formula that lacks a factor r must show.
+//! Lengths, stiffnesses and weights keep their dimensions here, so that a missing factor r shows.
 
 use crate::model::{CRITICAL_FRICTION, Stack};
 use crate::theory::{closed_form_limit, elastic_root};
@@ -8,35 +8,44 @@ use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
 use std::sync::LazyLock;
 
 /// A radius that is not 1.
-pub const RADIUS: f64 = 1.7;
+pub(crate) const RADIUS: f64 = 1.7;
 /// A normal stiffness that is not 1.
-pub const NORMAL_STIFFNESS: f64 = 2.3;
+pub(crate) const NORMAL_STIFFNESS: f64 = 2.3;
+/// Stiffness ratios κ: the paper's, a smaller and a larger one.
+pub(crate) const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
 
 const NEWTON_STEPS: usize = 12;
-/// What is left of the equilibrium, relative to the floor force, when Newton's method has converged.
+/// Residual of the equilibrium, relative to the floor force, at which Newton's method has converged.
 const CONVERGED: f64 = 1e-11;
 
 /// z-component of the cross product in the plane.
-pub fn cross(left: Vector2<f64>, right: Vector2<f64>) -> f64 {
+fn cross(left: Vector2<f64>, right: Vector2<f64>) -> f64 {
     left.x * right.y - left.y * right.x
 }
 
 /// `normal` turned by −90°.
-pub fn turned(normal: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn turned(normal: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(normal.y, -normal.x)
 }
 
 /// Contact forces of the right half of the stack.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Forces {
+pub(crate) struct Forces {
     /// Normal force between 1 and 2.
-    pub a: f64,
+    pub(crate) a: f64,
     /// Tangential force between 1 and 2.
-    pub b: f64,
+    pub(crate) b: f64,
     /// Normal force of the floor.
-    pub d: f64,
+    pub(crate) d: f64,
     /// Tangential force of the floor.
-    pub e: f64,
+    pub(crate) e: f64,
+}
+
+impl From<Vector4<f64>> for Forces {
+    fn from(forces: Vector4<f64>) -> Self {
+        let [a, b, d, e] = forces.into();
+        Self { a, b, d, e }
+    }
 }
 
 /// Force and torque on cylinder 2, and the vertical force on 1, for c = 0 and torque arms r.
@@ -57,84 +66,64 @@ fn imbalance(
 
 /// The forces that keep the stack in equilibrium under `f` when cylinder 1 lies in the direction `normal`
 /// from cylinder 2; `None` if there are none.
-pub fn equilibrium(normal: Vector2<f64>, radius: f64, f: f64, weight: f64) -> Option<Forces> {
-    let unit = |index: usize| {
-        let part = |which| if which == index { 1.0 } else { 0.0 };
-        Forces {
-            a: part(0),
-            b: part(1),
-            d: part(2),
-            e: part(3),
-        }
-    };
-    let nothing = imbalance(
-        &Forces {
-            a: 0.0,
-            b: 0.0,
-            d: 0.0,
-            e: 0.0,
-        },
-        normal,
-        radius,
-        f,
-        weight,
-    );
-    let columns =
-        [0, 1, 2, 3].map(|index| imbalance(&unit(index), normal, radius, f, weight) - nothing);
-    let solution = Matrix4::from_columns(&columns).lu().solve(&-nothing)?;
-    Some(Forces {
-        a: solution[0],
-        b: solution[1],
-        d: solution[2],
-        e: solution[3],
-    })
+pub(crate) fn equilibrium(
+    normal: Vector2<f64>,
+    radius: f64,
+    f: f64,
+    weight: f64,
+) -> Option<Forces> {
+    let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, radius, f, weight);
+    let loads = under(Vector4::zeros());
+    let columns = [0, 1, 2, 3].map(|index| under(Vector4::ith(index, 1.0)) - loads);
+    let solution = Matrix4::from_columns(&columns).lu().solve(&-loads)?;
+    Some(solution.into())
 }
 
 /// Displacements of the stack.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Displacements {
-    /// How far 1 has sunk.
-    pub delta_11: f64,
-    /// How far 2 has sunk.
-    pub delta_21: f64,
-    /// How far 2 has moved outwards.
-    pub delta_22: f64,
-    /// How far 2 has turned, counter-clockwise.
-    pub theta: f64,
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Displacements {
+    /// δ₁₁, by which 1 has sunk.
+    pub(crate) delta_11: f64,
+    /// δ₂₁, by which 2 has sunk.
+    pub(crate) delta_21: f64,
+    /// δ₂₂, by which 2 has moved outwards.
+    pub(crate) delta_22: f64,
+    /// θ, by which 2 has turned counter-clockwise.
+    pub(crate) theta: f64,
 }
 
 impl Displacements {
-    /// Centre of cylinder 1, cylinders just touching before.
-    pub fn upper(&self, radius: f64) -> Vector2<f64> {
+    /// Centre of cylinder 1; without displacements the cylinders just touch.
+    pub(crate) fn upper(&self, radius: f64) -> Vector2<f64> {
         let rise = (4.0 * radius * radius - radius * radius).sqrt();
         Vector2::new(0.0, radius + rise - self.delta_11)
     }
 
     /// Centre of cylinder 2.
-    pub fn lower(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn lower(&self, radius: f64) -> Vector2<f64> {
         Vector2::new(radius + self.delta_22, radius - self.delta_21)
     }
 
     /// Direction from 2 to 1.
-    pub fn normal(&self, radius: f64) -> Vector2<f64> {
+    pub(crate) fn normal(&self, radius: f64) -> Vector2<f64> {
         (self.upper(radius) - self.lower(radius)).normalize()
     }
 
-    /// How the surface of 1 has moved against that of 2 at their contact.
-    pub fn surface_gap(&self, radius: f64) -> Vector2<f64> {
+    /// Motion of the surface of 1 relative to that of 2 at their contact.
+    pub(crate) fn surface_gap(&self, radius: f64) -> Vector2<f64> {
         let arm = self.normal(radius) * radius;
         let upper = Vector2::new(0.0, -self.delta_11);
         upper - self.lower_surface(arm)
     }
 
-    /// How the point of 2 at `arm` from its centre has moved.
-    pub fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
+    /// Motion of the point of 2 at `arm` from its centre.
+    pub(crate) fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
         let centre = Vector2::new(self.delta_22, -self.delta_21);
         centre + Vector2::new(-arm.y, arm.x) * self.theta
     }
 
     /// The forces of linear springs on these displacements.
-    pub fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
+    pub(crate) fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
         let normal = self.normal(radius);
         let gap = self.surface_gap(radius);
         let floor = self.lower_surface(Vector2::new(0.0, -radius));
@@ -148,30 +137,25 @@ impl Displacements {
     }
 }
 
-/// The stack at the moment the floor slips, for springs on the total displacements: the paper's five
-/// equations, solved without eliminating anything.
+/// The stack when the floor slips, for springs on the total displacements: a solution of the paper's five
+/// equations, found without eliminating anything.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct YieldState {
+pub(crate) struct YieldState {
     /// μ.
-    pub friction: f64,
+    pub(crate) friction: f64,
     /// κ.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// ε.
-    pub epsilon: f64,
-    /// Displacements.
-    pub displacements: Displacements,
+    pub(crate) epsilon: f64,
+    pub(crate) displacements: Displacements,
     /// Force of the wall.
-    pub force: f64,
+    pub(crate) force: f64,
 }
 
 impl YieldState {
-    /// By Newton's method on the five equations; `None` without a solution.
-    pub fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
-        let stack = Stack {
-            stiffness_ratio: ratio,
-            ..Stack::paper(friction, 1.0 / epsilon)
-        };
-        let guess = elastic_root(&stack)?;
+    /// Solves the five equations by Newton's method; `None` without a solution.
+    pub(crate) fn solve(friction: f64, ratio: f64, epsilon: f64) -> Option<Self> {
+        let guess = elastic_root(&stack(friction, ratio, epsilon))?;
         let scale = RADIUS * NORMAL_STIFFNESS;
         let mut unknowns = SVector::<f64, 5>::from([
             (guess.x + guess.z) * RADIUS,
@@ -216,45 +200,45 @@ impl YieldState {
     }
 
     /// Weight of a cylinder.
-    pub fn weight(&self) -> f64 {
+    pub(crate) fn weight(&self) -> f64 {
         self.epsilon * RADIUS * NORMAL_STIFFNESS
     }
 
-    /// The contact forces.
-    pub fn forces(&self) -> Forces {
+    pub(crate) fn forces(&self) -> Forces {
         self.displacements
             .spring_forces(RADIUS, NORMAL_STIFFNESS, self.ratio)
     }
 
     /// x = δ₁₁ − δ₂₁.
-    pub fn x(&self) -> f64 {
+    pub(crate) fn x(&self) -> f64 {
         self.displacements.delta_11 - self.displacements.delta_21
     }
 
     /// y = δ₂₂.
-    pub fn y(&self) -> f64 {
+    pub(crate) fn y(&self) -> f64 {
         self.displacements.delta_22
     }
 
     /// z = δ₂₁.
-    pub fn z(&self) -> f64 {
+    pub(crate) fn z(&self) -> f64 {
         self.displacements.delta_21
     }
 
     /// α = ε r/z.
-    pub fn alpha(&self) -> f64 {
+    pub(crate) fn alpha(&self) -> f64 {
         self.epsilon * RADIUS / self.z()
     }
 
     /// T, the tangent of half the angle between the line 2–1 and the vertical.
-    pub fn half_angle_tangent(&self) -> f64 {
+    pub(crate) fn half_angle_tangent(&self) -> f64 {
         let normal = self.displacements.normal(RADIUS);
         -normal.x / (1.0 + normal.y)
     }
 }
 
-/// States over all that the paper speaks of, and beyond in κ. They do not depend on what is printed.
-pub fn yield_states() -> &'static [YieldState] {
+/// Yield states over the paper's range of μ and ε, and beyond it in κ. They do not depend on the printed
+/// constants.
+pub(crate) fn yield_states() -> &'static [YieldState] {
     static STATES: LazyLock<Vec<YieldState>> = LazyLock::new(solve_everywhere);
     &STATES
 }
@@ -264,17 +248,37 @@ fn solve_everywhere() -> Vec<YieldState> {
     let above = [0.28, 0.3, 0.4, 0.5, 0.7];
     let mut states = Vec::new();
     for friction in below.into_iter().chain([CRITICAL_FRICTION]).chain(above) {
-        for epsilon in [1e-2, 1e-3, 1e-4] {
-            for ratio in [1.0, 2.5, 10.0] {
-                states.extend(YieldState::solve(friction, ratio, epsilon));
-            }
+        for (epsilon, ratio) in pairs([1e-2, 1e-3, 1e-4], RATIOS) {
+            states.extend(YieldState::solve(friction, ratio, epsilon));
         }
     }
     states
 }
 
+/// Every value of `left` with every one of `right`.
+pub(crate) fn pairs<const M: usize, const N: usize>(
+    left: [f64; M],
+    right: [f64; N],
+) -> impl Iterator<Item = (f64, f64)> {
+    left.into_iter()
+        .flat_map(move |left| right.into_iter().map(move |right| (left, right)))
+}
+
+/// A stack of any stiffness ratio κ.
+pub(crate) fn stack(friction: f64, ratio: f64, epsilon: f64) -> Stack {
+    Stack {
+        stiffness_ratio: ratio,
+        ..Stack::paper(friction, 1.0 / epsilon)
+    }
+}
+
+/// z of the elastic equation, in r; not a number without a solution.
+pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
+    elastic_root(stack).map_or(f64::NAN, |root| root.z)
+}
+
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
-pub fn figure_loads() -> &'static [(Stack, f64)] {
+pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
         let stacks = [1e2, 1e3, 1e4].into_iter().flat_map(|stiffness| {
             (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
@@ -285,8 +289,8 @@ pub fn figure_loads() -> &'static [(Stack, f64)] {
     &LOADS
 }
 
-/// Displacements that are no equilibrium: what is said of springs must hold for them too.
-pub fn arbitrary_displacements() -> Vec<Displacements> {
+/// Displacements out of equilibrium, for which statements on springs must hold too.
+pub(crate) fn arbitrary_displacements() -> Vec<Displacements> {
     (1..=12)
         .map(|index| {
             let wave = |frequency: f64| (f64::from(index) * frequency).sin();
@@ -300,11 +304,11 @@ pub fn arbitrary_displacements() -> Vec<Displacements> {
         .collect()
 }
 
-/// The elastic equation multiplied out, in r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.
+/// The elastic equation multiplied out, with r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.
 ///
-/// From T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
+/// Follows from T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
 /// G = (T² + 2√3 T − 1)/(T (1 + T²)(1 + κ(1 + T²))) (docs/theory.md, Eqs. 12, 14 and 67).
-pub fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
+pub(crate) fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
     let rest: Polynomial = vec![(1, 0, 1.0), (0, 1, -1.0)];
     let slip: Polynomial = vec![(1, 0, friction)];
     let square = product(&rest, &rest);
@@ -324,7 +328,7 @@ pub fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
     table.map(|row| row.map(|coefficient| coefficient / leading))
 }
 
-/// Terms ε^j z^k as (k, j, coefficient).
+/// Terms ε^j z^k as tuples of k, j and coefficient.
 type Polynomial = Vec<(usize, usize, f64)>;
 
 fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
@@ -354,10 +358,7 @@ mod tests {
         let states = yield_states();
         assert!(states.len() > 80, "{}", states.len());
         for state in states {
-            let stack = Stack {
-                stiffness_ratio: state.ratio,
-                ..Stack::paper(state.friction, 1.0 / state.epsilon)
-            };
+            let stack = stack(state.friction, state.ratio, state.epsilon);
             let root = elastic_root(&stack).unwrap();
             assert!((state.z() / RADIUS - root.z).abs() < 1e-10 * root.z);
             assert!((state.y() / RADIUS - root.y).abs() < 1e-9);
@@ -374,10 +375,7 @@ mod tests {
                 .flat_map(|k| (0..6).map(move |j| (k, j)))
                 .map(|(k, j)| table[k][j] * z.powi(k as i32) * epsilon.powi(j as i32))
                 .collect();
-            let largest = terms
-                .iter()
-                .fold(0.0, |largest: f64, term| largest.max(term.abs()));
-            assert!(terms.iter().sum::<f64>().abs() < 1e-11 * largest);
+            assert!(crate::paper::claims::finding::imbalance(&terms) < 1e-11);
         }
     }
 }

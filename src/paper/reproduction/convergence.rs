@@ -8,24 +8,24 @@ use crate::study::yield_force::{PAPER_TIME_STEP, protocol_at_speed};
 use crate::theory::quasistatic_limit;
 use serde::Serialize;
 
-/// Wall speeds at the paper's time step. The slowest is for the native DEM alone.
+/// Wall speeds at the paper's time step. The native DEM alone runs the slowest.
 const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
-/// Time steps at [`FAST_WALL`]. The smallest is for the native DEM alone.
+/// Time steps at [`FAST_WALL`]. The native DEM alone runs the smallest.
 const TIME_STEPS: [f64; 6] = [1e-1, 5e-2, 1e-2, 5e-3, 1e-3, 1e-4];
 /// Wall speed at which the paper varies the time step.
-pub const FAST_WALL: f64 = 1e-3;
-/// A fast wall passes the yield within a few time units: rows must be close.
+pub(crate) const FAST_WALL: f64 = 1e-3;
+/// Interval of the rows, small because a fast wall passes the yield within a few time units.
 const FINE_INTERVAL: f64 = 0.1;
 
 /// The stack of the paper's convergence study.
-pub fn convergence_stack() -> Stack {
+pub(crate) fn convergence_stack() -> Stack {
     Stack::paper(0.2, 1e4)
 }
 
 /// One run of the study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ConvergencePoint {
-    /// Who ran it.
+    /// The code that ran it.
     pub code: Code,
     /// Wall speed in r √(k_n/m).
     pub wall_speed: f64,
@@ -37,21 +37,24 @@ pub struct ConvergencePoint {
     pub peak_force: Option<f64>,
     /// Exact limit under the code's convention, in m g.
     pub limit: Option<f64>,
-    /// Why there is no number.
+    /// The reason why there is no number.
     pub remark: Option<String>,
 }
 
 impl ConvergencePoint {
     /// (peak − limit)/limit.
-    pub fn excess_of_peak(&self) -> Option<f64> {
-        let (peak, limit) = self.peak_force.zip(self.limit)?;
-        Some((peak - limit) / limit)
+    pub(crate) fn excess_of_peak(&self) -> Option<f64> {
+        self.excess(self.peak_force)
     }
 
     /// (slip onset − limit)/limit.
-    pub fn excess_of_slip(&self) -> Option<f64> {
-        let (slip, limit) = self.slip_force.zip(self.limit)?;
-        Some((slip - limit) / limit)
+    pub(crate) fn excess_of_slip(&self) -> Option<f64> {
+        self.excess(self.slip_force)
+    }
+
+    fn excess(&self, force: Option<f64>) -> Option<f64> {
+        let (force, limit) = force.zip(self.limit)?;
+        Some((force - limit) / limit)
     }
 }
 
@@ -60,25 +63,19 @@ impl ConvergencePoint {
 pub struct Convergence {
     /// Over the wall speed, at the paper's time step.
     pub wall_speeds: Vec<ConvergencePoint>,
-    /// Over the time step, at [`FAST_WALL`].
+    /// Over the time step, at a wall speed of 1e-3.
     pub time_steps: Vec<ConvergencePoint>,
 }
 
 /// The runs of one code: those over the wall speed first.
 fn workload(code: Code) -> Workload {
-    let own = |count: usize| match code {
-        Code::NATIVE => count,
-        _ => count - 1,
-    };
-    let speeds = WALL_SPEEDS[..own(WALL_SPEEDS.len())]
-        .iter()
-        .map(|&speed| (speed, PAPER_TIME_STEP));
-    let steps = TIME_STEPS[..own(TIME_STEPS.len())]
-        .iter()
-        .map(|&step| (FAST_WALL, step));
-    let cases = speeds
-        .chain(steps)
-        .filter_map(|(speed, step)| case(code, speed, step));
+    let left_out = usize::from(code != Code::NATIVE);
+    let speeds = WALL_SPEEDS.map(|speed| (speed, PAPER_TIME_STEP));
+    let steps = TIME_STEPS.map(|step| (FAST_WALL, step));
+    let speeds = &speeds[..speeds.len() - left_out];
+    let steps = &steps[..steps.len() - left_out];
+    let runs = speeds.iter().chain(steps);
+    let cases = runs.filter_map(|&(speed, step)| case(code, speed, step));
     Workload {
         code,
         cases: cases.collect(),
@@ -105,11 +102,11 @@ fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
 }
 
 /// The runs of the study, code by code.
-pub fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
+pub(crate) fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
     codes.iter().map(|&code| workload(code)).collect()
 }
 
-/// Carries out the study; also returns every summary.
+/// Runs the study; also returns every summary.
 pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
     let workloads = convergence_workloads(&campaign.names());
     let results: Vec<Vec<Result<RunSummary, RunError>>> = campaign.read(&workloads);
@@ -139,13 +136,12 @@ fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> Conv
     let convention = &case.convention;
     let limit = quasistatic_limit(&case.stack, &convention.arms);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
-    let force = |estimate: Option<crate::series::Estimate>| estimate.map(|estimate| estimate.force);
     ConvergencePoint {
         code,
         wall_speed: case.protocol.wall_speed,
         time_step: case.protocol.time_step,
-        slip_force: estimates.and_then(|read| force(read.slip)),
-        peak_force: estimates.and_then(|read| force(read.peak)),
+        slip_force: estimates.and_then(|read| Some(read.slip?.force)),
+        peak_force: estimates.and_then(|read| Some(read.peak?.force)),
         limit: limit.yield_force,
         remark: result.as_ref().err().map(ToString::to_string),
     }

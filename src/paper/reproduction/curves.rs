@@ -1,4 +1,4 @@
-//! What theory says over the whole range of the figures, without a run.
+//! Curves of theory over the whole range of the figures.
 
 use crate::code::Code;
 use crate::model::{Arms, CRITICAL_FRICTION, Stack};
@@ -6,11 +6,11 @@ use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 use serde::Serialize;
 
-/// Frictions of the curves: lowest, highest, and how many.
+/// Frictions of the curves: lowest, highest, and their number.
 const FRICTIONS: (f64, f64, usize) = (0.09, 0.54, 91);
-/// Stiffnesses 1/ε of the curves over the stiffness: from 10¹ to 10⁶ …
+/// Exponents of the stiffnesses 1/ε of the curves over the stiffness: from 10¹ to 10⁶.
 const DECADES: (f64, f64) = (1.0, 6.0);
-/// … and how many.
+/// Number of stiffnesses of these curves.
 const STIFFNESSES: usize = 41;
 
 /// Every theory for one stack.
@@ -28,7 +28,7 @@ pub struct TheoryPoint {
     pub perturbation: Option<f64>,
     /// F by the elastic equation.
     pub elastic: Option<f64>,
-    /// Exact quasi-static limit; absent where something else than floor slip comes first.
+    /// Exact quasi-static limit; absent where another event than floor slip comes first.
     pub exact: Option<f64>,
 }
 
@@ -47,16 +47,16 @@ impl TheoryPoint {
     }
 
     /// Distance of `theory` from the exact limit, relative to F + 3.
-    pub fn error(&self, theory: Option<f64>) -> Option<f64> {
+    pub(crate) fn error(&self, theory: Option<f64>) -> Option<f64> {
         let (theory, exact) = theory.zip(self.exact)?;
         Some((theory - exact) / (exact + 3.0))
     }
 }
 
-/// The limit under the convention of one code beside the one under the paper's.
+/// Difference of the limits under the convention of a code and under the paper's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelFormPoint {
-    /// Whose convention.
+    /// The code whose convention differs.
     pub code: Code,
     /// Floor friction μ.
     pub mu: f64,
@@ -107,8 +107,8 @@ pub fn curves() -> Curves {
     }
 }
 
-/// The codes whose arms are not the paper's, those with the same arms together.
-pub fn codes_by_arms() -> Vec<Vec<Code>> {
+/// The codes whose arms are not the paper's, grouped by their arms.
+pub(crate) fn codes_by_arms() -> Vec<Vec<Code>> {
     let arms = |code: Code| code.convention().arms;
     let mut groups: Vec<Vec<Code>> = Vec::new();
     for code in Code::all() {
@@ -122,7 +122,7 @@ pub fn codes_by_arms() -> Vec<Vec<Code>> {
     groups
 }
 
-/// One code for every pair of arms that is not the paper's.
+/// Differences of one code for every group of [`codes_by_arms`].
 fn model_form() -> Vec<ModelFormPoint> {
     let mut points = Vec::new();
     for code in codes_by_arms().into_iter().map(|group| group[0]) {

@@ -26,7 +26,7 @@ pub struct ForceSeries {
 }
 
 /// The stack of the paper's figure.
-pub fn force_series_stack() -> Stack {
+fn force_series_stack() -> Stack {
     Stack::paper(0.2, 100.0)
 }
 
@@ -48,7 +48,7 @@ impl Reading for ForceRows {
         }
     }
 
-    /// A summary has no rows.
+    /// `None`, because a summary has no rows.
     fn of_summary(_: RunSummary) -> Option<Self> {
         None
     }

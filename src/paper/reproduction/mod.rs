@@ -1,4 +1,4 @@
-//! What the paper did, done again: the runs behind each of its figures, and some that it lacks.
+//! Reproduction of the paper: the runs behind each of its figures, and some that it lacks.
 
 mod convergence;
 mod curves;
@@ -6,22 +6,18 @@ mod force_series;
 mod scaling;
 mod snapshots;
 
-pub use convergence::{
-    Convergence, ConvergencePoint, FAST_WALL, converge, convergence_stack, convergence_workloads,
-};
-pub use curves::{Curves, ModelFormPoint, TheoryPoint, codes_by_arms, curves};
-pub use force_series::{ForceSeries, force_series, force_series_stack};
-pub use scaling::{
-    Exponent, FITTED_FROM, SCALING_FRICTIONS, SCALING_STIFFNESSES, asymptotic_exponent, exponents,
-    scaling_measurements,
-};
+pub use convergence::{Convergence, ConvergencePoint, converge};
+pub(crate) use convergence::{FAST_WALL, convergence_stack, convergence_workloads};
+pub(crate) use curves::codes_by_arms;
+pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub use force_series::{ForceSeries, force_series};
+pub use scaling::{Exponent, exponents, scaling_measurements};
+pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS};
 pub use snapshots::{Snapshots, snapshots};
 
-use crate::code::Code;
-use crate::code::Provenance;
+use crate::code::{Code, Provenance};
 use crate::model::PAPER_STIFFNESS_RATIO;
-use crate::runs::RunSummary;
-use crate::runs::{Progress, RunError, SelectedCode, Settings};
+use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings};
 use crate::series::SeriesError;
 use crate::study::Campaign;
 use crate::study::convention::Probed;
@@ -34,12 +30,12 @@ use crate::study::yield_force::{Judgement, Measurement, Profile};
 use crate::theory::{BoundaryPoint, RegimeMap};
 use thiserror::Error;
 
-/// Points looked at on every boundary of the regime maps.
+/// Number of points examined on every boundary of the regime maps.
 const BOUNDARY_POINTS: usize = 13;
 
 /// Everything that was computed and measured for the paper.
 pub struct Reproduction {
-    /// What every code means by a contact.
+    /// The contact convention of every code, as probed.
     pub probes: Vec<(Code, Probed)>,
     /// Fig. 2(a): every stack of the standard profile with every code.
     pub yield_curves: Vec<Judgement>,
@@ -53,26 +49,26 @@ pub struct Reproduction {
     pub convergence: Convergence,
     /// The supplement's figure of f(t).
     pub force_series: ForceSeries,
-    /// What the paper's preparation does to c and F, which all else leaves to the gravity ramp.
+    /// Effect of the paper's preparation on c and F. All other runs are prepared by the gravity ramp.
     pub preparation: Vec<PreparationStudy>,
     /// The stack from rest into collapse.
     pub snapshots: Snapshots,
-    /// Whole series beside native twins.
+    /// Whole series, compared with native twins.
     pub trajectories: Vec<TrajectoryJudgement>,
-    /// The regime maps …
+    /// The regime maps.
     pub maps: [RegimeMap; 3],
-    /// … and what the native DEM says of them.
+    /// The native DEM's confirmation of the maps.
     pub survey: Survey,
     /// The theories over the ranges of the figures.
     pub curves: Curves,
-    /// Where the runs come from, in the order of their use.
+    /// The origins of the runs, in the order of their use.
     pub provenances: Vec<Provenance>,
 }
 
-/// Why the paper could not be reproduced.
+/// A failure without which the paper cannot be reproduced.
 #[derive(Debug, Error)]
 pub enum ReproductionError {
-    /// A native run that everything else needs is not there.
+    /// A native run that everything else needs has failed.
     #[error(transparent)]
     Run(#[from] RunError),
     /// The native run that is drawn left the finite numbers.
@@ -80,21 +76,21 @@ pub enum ReproductionError {
     Series(#[from] SeriesError),
 }
 
-/// How the paper is reproduced.
-pub struct Scope<'a> {
+/// Extent and settings of a reproduction.
+pub(crate) struct Scope<'a> {
     /// The codes that take part. The native one must be among them.
     pub codes: &'a [SelectedCode],
-    /// Where runs come from and go to.
+    /// Stores of the runs, and how new ones are made.
     pub settings: &'a Settings<'a>,
     /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
     pub literal: bool,
 }
 
-/// Carries out everything; `None` after an interrupt.
+/// Reproduces the paper; `None` after an interrupt.
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
-pub fn reproduce(
+pub(crate) fn reproduce(
     scope: &Scope,
     progress: &dyn Progress,
 ) -> Result<Option<Reproduction>, ReproductionError> {
@@ -179,7 +175,7 @@ struct Plan {
 
 impl Plan {
     fn new(scope: &Scope) -> Self {
-        let codes: Vec<Code> = scope.codes.iter().map(|who| who.name).collect();
+        let codes: Vec<Code> = scope.codes.iter().map(|code| code.name).collect();
         let mut literal = Profile::Paper.measurements(&codes);
         if !scope.literal {
             literal.retain(|row| row.stack == convergence_stack());
@@ -191,7 +187,7 @@ impl Plan {
         }
     }
 
-    /// Every measurement once: figures share stacks.
+    /// Every measurement once, since figures share stacks.
     fn all(&self) -> Vec<Measurement> {
         let parts = [&self.yield_curves, &self.scaling, &self.literal];
         let mut all: Vec<Measurement> = Vec::new();
@@ -208,7 +204,7 @@ fn is_same(left: &Measurement, right: &Measurement) -> bool {
     (left.code, left.stack, left.method) == (right.code, right.stack, right.method)
 }
 
-/// Those of `judgements` that are on `part`, in its order.
+/// The `judgements` of the measurements in `part`, in the order of `part`.
 fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     let found = part.iter().filter_map(|wanted| {
         let mut all = judgements.iter();
@@ -217,11 +213,11 @@ fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     found.cloned().collect()
 }
 
-/// What is read off every run of an external code that the report needs, for `tristack record`.
+/// The summaries of all runs of an external code that the report needs, for `tristack record`.
 ///
 /// # Errors
 /// The first run that fails.
-pub fn summaries_to_record(
+pub(crate) fn summaries_to_record(
     selected: &SelectedCode,
     settings: &Settings,
     progress: &dyn Progress,

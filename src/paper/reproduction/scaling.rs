@@ -1,4 +1,4 @@
-//! Fig. 2(b): how the yield force scales with the stiffness below, at and above the critical friction.
+//! Fig. 2(b): scaling of the yield force with the stiffness, below, at and above the critical friction.
 
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, Stack};
@@ -8,36 +8,36 @@ use crate::study::yield_force::{Judgement, Measurement, plan};
 use serde::Serialize;
 
 /// Frictions of Fig. 2(b).
-pub const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
+pub(crate) const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
 
 /// Stiffnesses 1/ε of Fig. 2(b), one a decade.
-pub const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// Stiffnesses from here on are stiff enough to speak of scaling: ε is three decades below 1.
-pub const FITTED_FROM: f64 = 1e3;
+/// Lowest stiffness of the fits: ε is three decades below 1 from here on.
+pub(crate) const FITTED_FROM: f64 = 1e3;
 
-/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from [`FITTED_FROM`] on.
+/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from 10³ on.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Exponent {
-    /// Whose yield forces were fitted.
+    /// The code that measured the yield forces.
     pub code: Code,
     /// Floor friction μ.
     pub mu: f64,
     /// Least-squares slope of ln(F + 3) over ln(1/ε).
     pub exponent: f64,
-    /// What the uncertainties of the forces can do to it, if they all conspire.
+    /// Largest change of the exponent within the uncertainties of the forces.
     pub uncertainty: f64,
     /// The same fit to the exact limits under the code's convention: the exponent of this finite range.
     pub exact: f64,
     /// The exponent for ε → 0 (paper, Eq. for the scaling): 0, 1/2, 1.
     pub asymptotic: f64,
-    /// How many stiffnesses were fitted.
+    /// Number of stiffnesses fitted.
     pub points: usize,
-    /// Whether `exponent` is `exact`.
+    /// Verdict on the difference of `exponent` and `exact`.
     pub verdict: Verdict,
 }
 
-/// What is measured for Fig. 2(b): every stack that yields, by each of the `codes`.
+/// The measurements for Fig. 2(b): every stack that yields, by each of the `codes`.
 pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
     let stacks = SCALING_FRICTIONS
         .iter()
@@ -56,10 +56,9 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
     let mut fitted = Vec::new();
     for mu in SCALING_FRICTIONS {
         for code in Code::all() {
-            let own = judgements.iter().filter(|judgement| {
-                let row = judgement;
-                row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM
-            });
+            let own = judgements
+                .iter()
+                .filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
             let points: Vec<Point> = own.filter_map(Point::of).collect();
             if points.len() >= 2 {
                 fitted.push(fit(code, mu, &points));
@@ -69,7 +68,7 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
     fitted
 }
 
-/// Logarithms of one measured force, its limit and its stiffness.
+/// Logarithms of one measured load F + 3, its limit and its stiffness, and the uncertainty of the first.
 struct Point {
     stiffness: f64,
     load: f64,
@@ -78,8 +77,7 @@ struct Point {
 }
 
 impl Point {
-    fn of(judgement: &Judgement) -> Option<Self> {
-        let row = judgement;
+    fn of(row: &Judgement) -> Option<Self> {
         let load = row.yield_force()? + 3.0;
         Some(Self {
             stiffness: libm::log(row.stiffness()),
@@ -92,20 +90,14 @@ impl Point {
 
 fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
     let weights = slope_weights(points);
-    let weighted = |value: &dyn Fn(&Point) -> f64| -> f64 {
+    let sum = |term: &dyn Fn(f64, &Point) -> f64| -> f64 {
         let terms = weights.iter().zip(points);
-        terms.map(|(weight, point)| weight * value(point)).sum()
+        terms.map(|(&weight, point)| term(weight, point)).sum()
     };
-    let exponent = weighted(&|point| point.load);
-    let exact = weighted(&|point| point.limit);
-    let amplified = |error: &dyn Fn(&Point) -> f64| -> f64 {
-        let terms = weights.iter().zip(points);
-        terms
-            .map(|(weight, point)| weight.abs() * error(point))
-            .sum()
-    };
-    let uncertainty = amplified(&|point| point.uncertainty);
-    let tolerance = amplified(&|_| MAX_TOLERANCE);
+    let exponent = sum(&|weight, point| weight * point.load);
+    let exact = sum(&|weight, point| weight * point.limit);
+    let uncertainty = sum(&|weight, point| weight.abs() * point.uncertainty);
+    let tolerance = sum(&|weight, _| weight.abs() * MAX_TOLERANCE);
     Exponent {
         code,
         mu,
@@ -133,7 +125,7 @@ fn slope_weights(points: &[Point]) -> Vec<f64> {
 }
 
 /// The exponent for ε → 0 (paper, scaling of f + 3 m g below, at and above μ_c).
-pub fn asymptotic_exponent(mu: f64) -> f64 {
+fn asymptotic_exponent(mu: f64) -> f64 {
     match mu.total_cmp(&CRITICAL_FRICTION) {
         std::cmp::Ordering::Less => 0.0,
         std::cmp::Ordering::Equal => 0.5,

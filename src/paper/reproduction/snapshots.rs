@@ -15,9 +15,9 @@ const TIME_STEP: f64 = 0.1;
 /// A native run, frame by frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshots {
-    /// What was run.
+    /// The case of the run.
     pub case: Case,
-    /// Its frames.
+    /// The sampled moments.
     pub frames: Frames,
 }
 
@@ -25,7 +25,7 @@ pub struct Snapshots {
 /// large enough to be seen; `None` after an interrupt.
 ///
 /// # Errors
-/// If the series is no series, which would be an error of the native DEM.
+/// If the series is invalid, which would be an error of the native DEM.
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
     let limit = quasistatic_limit(&stack, &Arms::PAPER);

@@ -1,4 +1,4 @@
-//! A compressed archive of named files with their digests: what `tar xzf` and `sha256sum --check` read.
+//! A compressed archive of named files with their digests, readable by `tar xzf` and `sha256sum --check`.
 
 use crate::files::{CHECKSUMS, FileError, check, checksums};
 use flate2::Compression;

@@ -1,4 +1,4 @@
-//! The recorded runs inside the program: those that stood in the checkout when it was built.
+//! The recorded runs inside the program: those of the checkout it was built from.
 
 /// The files of every code by their names.
 macro_rules! files_of {

@@ -7,7 +7,7 @@ mod table;
 
 pub use recording::{RecordedRun, Recording};
 
-use crate::code::{Code, Provenance, Run};
+use crate::code::{Code, Run};
 use crate::files::FileError;
 use crate::model::{Case, shown};
 use crate::runs::{ProbeRecord, RunSummary};
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use thiserror::Error;
 
-/// Where the embedded files stand in messages.
+/// The place of the embedded files in messages.
 const IN_THE_PROGRAM: &str = "tristack:recorded";
 /// Largest file of recorded runs that is read, in bytes.
 const MAX_FILE: u64 = 1 << 24;
@@ -29,12 +29,12 @@ const MAX_FILE: u64 = 1 << 24;
 /// something of it is asked for, and once.
 #[derive(Debug, Clone)]
 pub struct Recorded {
-    /// Where they are; in the program if absent.
+    /// Their directory; they are in the program if absent.
     directory: Option<PathBuf>,
     codes: Arc<Mutex<BTreeMap<Code, Arc<Files>>>>,
 }
 
-/// What the files of one code hold, or why it is not known.
+/// The content of the files of one code, or why they cannot be read.
 #[derive(Debug, Default)]
 struct Files {
     table: OnceLock<Result<Table, Arc<FileError>>>,
@@ -44,15 +44,15 @@ struct Files {
 /// Rows by the content hash of their cases.
 type Table = HashMap<String, Row>;
 
-/// Why a recorded run cannot stand in.
+/// The reason why a recorded run cannot stand in.
 #[derive(Debug, Error)]
 pub enum RecordedError {
-    /// Nobody recorded it.
+    /// There is none.
     #[error("{code} is not installed, and there is no recorded {what} in {}; install it ({}), record it where it is installed (tristack record --codes {code}), or let TRISTACK_REFERENCE name the directory of recorded runs", shown(path), code.installation_hint())]
     Absent {
         /// The code.
         code: Code,
-        /// What was looked for.
+        /// The kind of record that is missing.
         what: &'static str,
         /// The file that lacks it.
         path: PathBuf,
@@ -122,7 +122,7 @@ impl Recorded {
         })
     }
 
-    /// What was read off the recorded run of `case` by `code`.
+    /// The summary of the recorded run of `case` by `code`.
     ///
     /// # Errors
     /// If there is none, or the table is damaged, or the run was made with another deck.
@@ -134,7 +134,7 @@ impl Recorded {
     /// The recorded probe of `code`.
     ///
     /// # Errors
-    /// If there is none, or it is damaged, or a micro-test was put with another deck, other parameters or
+    /// If there is none, or it is damaged, or a micro-test was made with another deck, other parameters or
     /// arguments.
     pub fn probe(&self, code: Code) -> Result<ProbeRecord, RecordedError> {
         let files = self.files(code);
@@ -156,10 +156,7 @@ impl Recorded {
         Ok(record)
     }
 
-    /// Everything that is recorded of `code`, made with whichever deck.
-    ///
-    /// # Errors
-    /// If it is damaged.
+    /// The recorded runs of `code`, made with any deck.
     pub fn recording(&self, code: Code) -> Result<Recording, FileError> {
         let directory = self.directory();
         let table = self.read(&table_path(directory, code))?;
@@ -182,8 +179,17 @@ impl Recorded {
             let what = "run of this case";
             return Err(RecordedError::Absent { code, what, path });
         };
-        up_to_date(code, case, path, &row.summary.provenance)?;
-        Ok(row)
+        let recorded = row.summary.provenance.deck_hash.clone();
+        let current = code.deck_hash(case);
+        if recorded == current {
+            return Ok(row);
+        }
+        Err(RecordedError::OtherDeck {
+            code,
+            path,
+            recorded,
+            current,
+        })
     }
 
     fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
@@ -237,23 +243,4 @@ impl Recorded {
         let directory = self.directory.as_deref();
         directory.unwrap_or(Path::new(IN_THE_PROGRAM))
     }
-}
-
-/// Refuses what was made with another deck than today's.
-fn up_to_date(
-    code: Code,
-    case: &Case,
-    path: PathBuf,
-    provenance: &Provenance,
-) -> Result<(), RecordedError> {
-    let (recorded, current) = (provenance.deck_hash.clone(), code.deck_hash(case));
-    if recorded == current {
-        return Ok(());
-    }
-    Err(RecordedError::OtherDeck {
-        code,
-        path,
-        recorded,
-        current,
-    })
 }

@@ -1,10 +1,11 @@
-//! What is recorded of one code: a table of its runs, and an archive of the series and answers that are kept.
+//! The recorded runs of one code: a table of all runs, and an archive of the series and micro-tests that are kept.
 
 use super::archive::{Members, pack, unpack};
 use super::table::{from_csv, to_csv};
 use crate::code::{Code, Run};
 use crate::files::{FileError, write_atomically};
 use crate::model::Case;
+use crate::runs::entry::parse_series;
 use crate::runs::{ProbeRecord, RunSummary};
 use crate::series::Series;
 use serde_json::Value;
@@ -12,11 +13,11 @@ use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The file in the archive with the answers to the micro-tests.
+/// The file in the archive with the micro-tests.
 pub(super) const PROBE: &str = "probe.json";
 /// The column with the name of a series in the archive.
 const SERIES: &str = "series";
-/// The columns of the table that stand first.
+/// The first columns of the table.
 const FIRST_COLUMNS: [&str; 6] = [
     "case.stack",
     "case.protocol",
@@ -37,7 +38,7 @@ pub(super) struct Row {
 /// A run as it is recorded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedRun {
-    /// What was read off it.
+    /// Its summary.
     pub summary: RunSummary,
     /// Its series, if that is kept.
     pub series: Option<Series>,
@@ -51,19 +52,19 @@ impl RecordedRun {
         Self { summary, series }
     }
 
-    /// A run of which nothing is kept but what was read off it.
-    pub fn without_series(summary: RunSummary) -> Self {
+    /// A run of which only the summary is kept.
+    pub(crate) fn without_series(summary: RunSummary) -> Self {
         let series = None;
         Self { summary, series }
     }
 }
 
-/// All that is recorded of one code.
+/// The recorded runs of one code.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recording {
     /// The runs, each case once.
     pub runs: Vec<RecordedRun>,
-    /// The answers to `tristack probe`.
+    /// The micro-tests of `tristack probe`.
     pub probe: Option<ProbeRecord>,
 }
 
@@ -78,9 +79,6 @@ impl Recording {
     }
 
     /// Writes the table and the archive of `code` in `directory`, in place of older ones.
-    ///
-    /// # Errors
-    /// If the file system refuses.
     pub fn save(&self, directory: &Path, code: Code) -> Result<(), FileError> {
         let (table, archive) = self.to_files(code);
         write_atomically(&archive_path(directory, code), &archive)?;
@@ -111,10 +109,7 @@ impl Recording {
         (to_csv(&rows, &title, &FIRST_COLUMNS), pack(&members))
     }
 
-    /// What the table and the archive of `code`, read from `directory`, hold.
-    ///
-    /// # Errors
-    /// If one of them is damaged.
+    /// The content of the table and the archive of `code`, read from `directory`.
     pub fn from_files(
         table: &str,
         archive: &[u8],
@@ -186,7 +181,7 @@ pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row
         Some(case) => Err(format!("{case} is there twice")),
         None => Ok(rows),
     });
-    rows.map_err(|message| FileError::Provenance {
+    rows.map_err(|message| FileError::Content {
         path: path.to_owned(),
         message,
     })
@@ -218,7 +213,7 @@ fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
 /// The series of `row`, if it is kept among `members` of the archive at `path`.
 ///
 /// # Errors
-/// If it should be there and is not, or is not the series of the case.
+/// If it is missing, or is not the series of the case.
 pub(super) fn series_of(
     row: &Row,
     members: &Members,
@@ -232,17 +227,10 @@ pub(super) fn series_of(
         let absent = std::io::Error::other("the table names it, but the archive lacks it");
         return Err(FileError::reading(&path)(absent));
     };
-    let protocol = &row.summary.case.protocol;
-    let series = Series::read(content.as_slice(), &protocol.schedule(), protocol.time_step);
-    series
-        .map(Some)
-        .map_err(|source| FileError::Series { path, source })
+    parse_series(&path, content, &row.summary.case).map(Some)
 }
 
-/// The answers among `members` of the archive at `path`.
-///
-/// # Errors
-/// If they are damaged.
+/// The micro-tests among `members` of the archive at `path`.
 pub(super) fn probe_in(members: &Members, path: &Path) -> Result<Option<ProbeRecord>, FileError> {
     let probe = members.get(PROBE);
     let probe = probe.map(|text| ProbeRecord::parse(text, &path.join(PROBE)));

@@ -76,7 +76,7 @@ fn body(rows: &[Row], columns: &[&str]) -> String {
 /// The objects of the table in `text`.
 ///
 /// # Errors
-/// It says what is wrong, and in which line.
+/// The first error, with its line.
 pub(super) fn from_csv(text: &str) -> Result<Vec<Value>, String> {
     let (digest, text) = text.split_once('\n').unwrap_or((text, ""));
     let (digest, found) = (digest.trim_end(), sha256_hex(text.as_bytes()));
@@ -138,7 +138,7 @@ fn value(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|_| Value::from(text))
 }
 
-/// The values of an object by their joined keys; what is null is absent.
+/// The values of an object by their joined keys, without nulls.
 fn flattened(object: &Value) -> Row {
     let mut row = Row::new();
     flatten(object, "", &mut row);

@@ -1,37 +1,39 @@
-//! Where requests are worked off: from the store, from recordings, by codes on all cores, or by waiting for another
-//! program that is at it.
+//! Carries out requests: from the store, from recordings, by codes on all cores, or by waiting for another program
+//! that is making the same run.
 
 use super::requests::RunRequest;
 use super::store_writer::{Claim, FinishedRun, StoreWriter, keep, with_store_writer};
 use super::{Progress, RunError, SelectedCode, Settings};
-use crate::code::Run;
-use crate::code::{Batching, Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
+use crate::code::{
+    Batching, Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence,
+};
 use crate::files::FileError;
 use crate::model::{Case, shown};
 use crate::runs::{LockOwner, in_parallel};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use tempfile::TempDir;
 
-/// Time between two looks at what other programs have finished.
+/// Interval at which runs of other programs are looked for.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
 type Slot<T> = Mutex<Option<Result<T, RunError>>>;
 
-/// Orders for one call of one code.
+/// The requests for one call of a code.
 struct Job<'a> {
     code: &'a dyn InstalledCode,
     requests: Vec<usize>,
 }
 
-/// Everything the workers share.
+/// The state that workers share.
 pub(super) struct Executor<'a, T, Keep> {
     requests: Vec<RunRequest<'a>>,
     settings: &'a Settings<'a>,
     progress: &'a dyn Progress,
     keep: Keep,
     slots: Vec<Slot<T>>,
-    /// Orders that other programs are working on.
+    /// Requests that other programs are working on.
     elsewhere: Mutex<Vec<(usize, LockOwner)>>,
 }
 
@@ -76,7 +78,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         *slot = Some(result.map(&self.keep));
     }
 
-    /// Fills the slots of what is there already, and packs the rest into jobs.
+    /// Fills the slots of runs that exist, and packs the other requests into jobs.
     fn jobs<'b>(&self, codes: &'b [SelectedCode]) -> Vec<Job<'b>> {
         let mut open = Vec::new();
         let mut total = 0;
@@ -129,7 +131,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         own.map(|(index, _)| index).collect()
     }
 
-    /// What an request takes, about.
+    /// Estimated duration of a request in seconds.
     fn total_seconds(&self, request: usize) -> f64 {
         let request = &self.requests[request];
         request.seconds(request.case.total_steps())
@@ -160,7 +162,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             .collect()
     }
 
-    /// Fills the slot of `request` if its run is in the store; one that is damaged is `damaged`.
+    /// Fills the slot of `request` if its run is in the store; calls `damaged` if that is damaged.
     fn fill_from_store(
         &self,
         code: &dyn InstalledCode,
@@ -212,17 +214,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         if requests.is_empty() {
             return;
         }
-        let cases: Vec<Case> = requests
-            .iter()
-            .map(|&request| *self.case(request))
-            .collect();
-        let root = self.settings.store.work_directory();
-        let prefix = format!("{}-", job.code.name());
-        let directory = match tempfile::Builder::new().prefix(&prefix).tempdir_in(root) {
+        let cases = requests.iter().map(|&request| *self.case(request));
+        let cases: Vec<Case> = cases.collect();
+        let directory = match self.run_directory(job.code.name()) {
             Ok(directory) => directory,
             Err(error) => {
-                let message = error.to_string();
-                let start = || FailureKind::Start(std::io::Error::other(message.clone()));
+                let start = || FailureKind::Start(std::io::Error::other(error.to_string()));
                 return self.fail_all(job.code, &requests, start);
             }
         };
@@ -250,6 +247,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         }
     }
 
+    fn run_directory(&self, code: Code) -> std::io::Result<TempDir> {
+        let prefix = format!("{code}-");
+        let root = self.settings.store.work_directory();
+        tempfile::Builder::new().prefix(&prefix).tempdir_in(root)
+    }
+
     /// Claims the requests of `job`, and returns those that are still to be made, by this program.
     fn take_on(&self, job: &Job) -> (Arc<Claim<'a>>, Vec<usize>) {
         let addresses = job
@@ -271,9 +274,9 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         let mut own = Vec::new();
         for ((&request, address), owner) in job.requests.iter().zip(addresses).zip(owners) {
             match owner {
-                // By a program that is still at others.
+                // Finished by a program that is still working on other runs of its claim.
                 Some(_) if self.is_made(job.code, request, |_| ()) => {}
-                Some(owner) => self.wait_later(request, owner),
+                Some(owner) => self.elsewhere().push((request, owner)),
                 None => {
                     let damaged = |error| self.put_aside(&address, &error);
                     if !self.is_made(job.code, request, damaged) {
@@ -306,7 +309,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         made
     }
 
-    /// Puts the damaged run under `address` aside, and tells why and where.
+    /// Puts the damaged run under `address` into quarantine, with a warning.
     fn put_aside(&self, address: &str, error: &FileError) {
         let place = match self.settings.store.put_aside(address) {
             Ok(place) => format!("it is now {}", shown(&place)),
@@ -362,20 +365,9 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         kind: impl Fn() -> FailureKind,
     ) {
         for &request in requests {
-            let failure = Failure {
-                code: code.name(),
-                subject: self.case(request).to_string(),
-                kind: kind(),
-                run_directory: None,
-                last_lines: Vec::new(),
-            };
+            let failure = Failure::new(code.name(), self.case(request), kind());
             self.report(code.name(), request, Err(failure));
         }
-    }
-
-    fn wait_later(&self, request: usize, owner: LockOwner) {
-        let mut elsewhere = self.elsewhere();
-        elsewhere.push((request, owner));
     }
 
     fn elsewhere(&self) -> std::sync::MutexGuard<'_, Vec<(usize, LockOwner)>> {
@@ -384,7 +376,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes what other programs finish, and makes what they leave.
+    /// Takes the runs that other programs finish, and makes those that they abandon.
     fn wait_for_others(&self, codes: &[SelectedCode]) {
         let mut announced = BTreeMap::new();
         loop {
@@ -401,7 +393,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         }
     }
 
-    /// Says once of every program how many runs are waited for.
+    /// Warns once, for each other program, how many of its runs are waited for.
     fn announce(&self, waiting: &[(usize, LockOwner)], announced: &mut BTreeMap<String, usize>) {
         let mut counts = BTreeMap::new();
         for (_, owner) in waiting {

@@ -1,12 +1,11 @@
-//! Runs the cases of all workloads on all cores, keeping each result the moment it is there.
+//! Runs the cases of all workloads on all cores and keeps each result at once.
 
 mod executor;
 mod requests;
 mod store_writer;
 
 use super::recorded::{Recorded, RecordedError};
-use crate::code::Run;
-use crate::code::{Code, Failure, InstalledCode, Interrupt};
+use crate::code::{Code, Failure, InstalledCode, Interrupt, Run};
 use crate::model::Case;
 use crate::runs::Store;
 use executor::Executor;
@@ -17,30 +16,30 @@ use thiserror::Error;
 
 /// How runs are carried out.
 pub struct Settings<'a> {
-    /// Where finished runs are kept.
+    /// The store of finished runs.
     pub store: Store,
     /// The runs that stand in for codes that are not installed.
     pub recorded: Recorded,
-    /// Whether to ignore what is in the store.
+    /// Whether to ignore stored runs.
     pub fresh: bool,
     /// Runs at the same time.
     pub threads: usize,
     /// Longest time without a finished case; the codes' own estimate if absent.
     pub time_limit: Option<Duration>,
-    /// Set when the user wants to stop.
+    /// Stops all runs when requested.
     pub interrupt: &'a Interrupt,
 }
 
-/// An code that takes part, installed or not.
+/// A code selected for a study, installed or not.
 pub struct SelectedCode {
-    /// Which one.
+    /// Its name.
     pub name: Code,
-    /// The code itself, if it is installed.
+    /// The installed code; recorded runs stand in where it is absent.
     pub code: Option<Box<dyn InstalledCode>>,
 }
 
 impl SelectedCode {
-    /// `name`, as it is installed here.
+    /// The code `name` as it is installed here.
     pub fn find(name: Code) -> Self {
         Self {
             name,
@@ -49,7 +48,7 @@ impl SelectedCode {
     }
 }
 
-/// Why a run is not there.
+/// The reason why a run is not available.
 #[derive(Debug, Clone, Error)]
 pub enum RunError {
     /// The code failed.
@@ -84,16 +83,15 @@ impl From<RecordedError> for RunError {
     }
 }
 
-/// Somebody who wants to know how far it is.
+/// Receives progress.
 pub trait Progress: Sync {
-    /// `total` runs are needed, `reused` of which were there already; the others will take `seconds` of all
-    /// cores together, about.
+    /// `total` runs are needed, `reused` of which exist; the others will take about `seconds` of all cores together.
     fn planned(&self, total: usize, reused: usize, seconds: f64);
-    /// What was to take so many of these seconds is done.
+    /// Work of so many of these seconds is done.
     fn advanced(&self, seconds: f64);
     /// One run has ended.
     fn finished(&self, code: Code, case: &Case, result: Result<&Run, &Failure>);
-    /// Something went wrong that does not touch the results.
+    /// A problem that does not affect the results.
     fn warn(&self, message: &str);
 }
 
@@ -106,9 +104,9 @@ pub struct Workload {
     pub cases: Vec<Case>,
 }
 
-/// What `keep` makes of each run, case by case, of every workload. Runs themselves are not held longer
-/// than that, so that memory does not grow with their number.
-pub fn run_all<T: Clone + Send>(
+/// Carries out `workloads` and returns, case by case, the result of `keep` for each run. The runs themselves are
+/// dropped at once, so that memory does not grow with their number.
+pub(crate) fn run_all<T: Clone + Send>(
     workloads: &[Workload],
     codes: &[SelectedCode],
     settings: &Settings,

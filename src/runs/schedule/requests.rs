@@ -1,4 +1,4 @@
-//! Who wants which run: however many workloads want the same, it is one request.
+//! Requests: a run that several workloads need is requested once.
 
 use super::{Progress, Workload};
 use crate::code::Code;
@@ -6,12 +6,12 @@ use crate::model::Case;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// One run: however many workloads want it, it is made once.
+/// A run that at least one workload needs.
 pub(super) struct RunRequest<'a> {
     pub(super) code: Code,
     pub(super) case: &'a Case,
-    /// Steps of which [`Progress`] has been told.
-    told: AtomicU64,
+    /// Steps reported to [`Progress`].
+    reported: AtomicU64,
 }
 
 impl<'a> RunRequest<'a> {
@@ -19,23 +19,23 @@ impl<'a> RunRequest<'a> {
         Self {
             code,
             case,
-            told: AtomicU64::new(0),
+            reported: AtomicU64::new(0),
         }
     }
 
-    /// What so many steps take, about.
+    /// Estimated duration of `steps` in seconds.
     pub(super) fn seconds(&self, steps: u64) -> f64 {
         steps as f64 * self.code.seconds_per_step()
     }
 
-    /// Tells `progress` that so many steps are done in all.
+    /// Reports to `progress` that `steps` are done in all.
     pub(super) fn advance(&self, steps: u64, progress: &dyn Progress) {
-        let told = self.told.fetch_max(steps, Ordering::Relaxed);
-        progress.advanced(self.seconds(steps.saturating_sub(told)));
+        let reported = self.reported.fetch_max(steps, Ordering::Relaxed);
+        progress.advanced(self.seconds(steps.saturating_sub(reported)));
     }
 }
 
-/// Every run that `workloads` want, once, and which of them every case of every workload is.
+/// The distinct runs of `workloads`, and the position of the run of each case of each workload among them.
 pub(super) fn requests(workloads: &[Workload]) -> (Vec<RunRequest<'_>>, Vec<Vec<usize>>) {
     let mut requests = Vec::new();
     let mut known: HashMap<(Code, String), usize> = HashMap::new();
@@ -54,7 +54,7 @@ pub(super) fn requests(workloads: &[Workload]) -> (Vec<RunRequest<'_>>, Vec<Vec<
     (requests, wanted)
 }
 
-/// The results of the requests that every workload wanted; copies only where several wanted the same.
+/// The results of each workload; only those that several cases share are cloned.
 pub(super) fn hand_out<R: Clone>(
     mut results: Vec<Option<R>>,
     wanted: Vec<Vec<usize>>,
@@ -69,7 +69,7 @@ pub(super) fn hand_out<R: Clone>(
             0 => results[request].take(),
             _ => results[request].clone(),
         };
-        result.expect("nobody takes a result that somebody else still wants")
+        result.expect("the last use takes the result")
     };
     let mut of_workload = |wanted: Vec<usize>| wanted.into_iter().map(&mut result).collect();
     wanted.into_iter().map(&mut of_workload).collect()

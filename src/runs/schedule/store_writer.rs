@@ -1,18 +1,17 @@
-//! Keeps finished runs in the store while others are still being made: writing waits for the disk, not for a core.
+//! Writes finished runs to the store while others are being computed.
 
 use super::Progress;
-use crate::code::Code;
-use crate::code::Run;
+use crate::code::{Code, Run};
 use crate::runs::Store;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Several, because the disk syncs many files in hardly more time than one.
+/// Threads that write: the disk syncs many files in hardly more time than one.
 const WRITERS: usize = 8;
-/// More finished runs than this are not held in memory.
+/// Most finished runs held in memory.
 const CAPACITY: usize = 64;
 
-/// Runs that this program has said it will make; it takes that back when the last of them is settled.
+/// The claim of this program to the runs of a job, released when the last of them is settled.
 pub(super) struct Claim<'a> {
     pub(super) store: &'a Store,
     pub(super) progress: &'a dyn Progress,
@@ -39,16 +38,16 @@ pub(super) struct FinishedRun<'a> {
     pub(super) claim: Arc<Claim<'a>>,
 }
 
-/// Where finished runs are handed in.
+/// The queue of finished runs.
 pub(super) type StoreWriter<'a> = SyncSender<FinishedRun<'a>>;
 
-/// Calls `work` with an store_writer. Every run handed in is kept and then given to `kept`, before this returns.
+/// Calls `work` with a store writer. Every run sent to it is written and then passed to `kept` before this returns.
 pub(super) fn with_store_writer<'a>(
     kept: impl Fn(FinishedRun<'a>) + Sync,
     work: impl FnOnce(&StoreWriter<'a>) + Send,
 ) {
     let (store_writer, inbox) = sync_channel(CAPACITY);
-    // The writers alone own it: if they are gone, the store_writer says so instead of waiting for them.
+    // Owned by the writing threads alone: if they are gone, sending fails instead of blocking.
     let inbox = Arc::new(Mutex::new(inbox));
     let kept = &kept;
     std::thread::scope(|threads| {

@@ -1,4 +1,4 @@
-//! Which version of the store's layout is on disk.
+//! The format version of a store.
 
 use super::StoreError;
 use crate::files::{FileError, create_parent, write_atomically};
@@ -9,13 +9,13 @@ const FILE: &str = "format";
 /// Version 2 has digests and sessions. Version 1 had neither, and no file that said so.
 const CURRENT: &str = "tristack store, format 2\n";
 
-/// Makes sure that the store at `root` has today's format; a new one gets it.
+/// Refuses a store at `root` with another format; a new one gets the current format.
 ///
 /// # Errors
 /// If it has another one, or cannot be read or written.
 pub(super) fn check(root: &Path) -> Result<(), StoreError> {
     create_parent(&root.join(FILE))?;
-    // In this order: the format is written before the first run.
+    // Looked for first, because the format is written before the first run.
     let has_runs = root.join("runs").exists();
     let path = root.join(FILE);
     let found = match std::fs::read(&path) {

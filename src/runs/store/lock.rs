@@ -1,5 +1,5 @@
-//! The lock under which a store's sessions are looked at and changed. It is held for less than a millisecond, and
-//! the system frees it when its owner dies.
+//! The lock that guards the session files of a store. It is held for less than a millisecond, and the system frees
+//! it when its owner dies.
 
 use super::{LockOwner, StoreError};
 use crate::files::FileError;
@@ -8,7 +8,7 @@ use std::io::{Seek, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Somebody who holds it longer is not working on it, but stopped.
+/// Longest wait for the lock: an owner that keeps it longer is suspended.
 const PATIENCE: Duration = Duration::from_secs(20);
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
 
@@ -18,7 +18,7 @@ pub(super) struct Lock {
 }
 
 impl Lock {
-    /// Waits for the lock in the file at `path`, and writes there who has it.
+    /// Waits for the lock in the file at `path`, and writes the `owner` there.
     pub(super) fn acquire(path: &Path, owner: &LockOwner) -> Result<Self, StoreError> {
         Self::acquire_within(PATIENCE, path, owner)
     }
@@ -50,7 +50,7 @@ impl Lock {
             }
         }
         let text = owner.to_string();
-        // For those who wait in vain; the lock holds without it.
+        // Named in the error of programs that wait too long; the lock holds without it.
         let _ = file
             .set_len(0)
             .and_then(|()| file.rewind())
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_lock_names_its_holder_and_is_free_when_dropped() {
+    fn the_lock_names_its_owner_and_is_free_when_dropped() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("lock");
         let owner = LockOwner::this_program();

@@ -1,7 +1,7 @@
-//! The store of finished runs, addressed by case, code, version, program and all it was given.
+//! The store of finished runs, addressed by case, code, version, program and inputs.
 //!
 //! Several programs may use one store at a time: each claims the runs that it is making, and takes those that
-//! others have made. What is damaged is put aside, never used and never deleted.
+//! others have made. A damaged entry is moved to quarantine, never used and never deleted.
 
 mod format;
 mod lock;
@@ -10,12 +10,12 @@ mod session;
 
 pub use owner::LockOwner;
 
-use super::observations::ObservedRun;
 use crate::code::{Identity, Provenance, Run};
 use crate::dem::{EventRun, Observation};
-use crate::files::{FileError, seal, unseal, write_atomically_via};
+use crate::files::{FileError, parse_json, seal, unseal, write_atomically_via};
 use crate::model::{Case, shown};
 use crate::runs::{Archive, ProbeRecord};
+use serde::{Deserialize, Serialize};
 use session::Session;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,39 +26,47 @@ const PROBES: &str = "probes";
 /// Directory of the observations of event runs.
 const OBSERVATIONS: &str = "observations";
 
-/// Why a store cannot be used.
+/// The reason why a store cannot be used.
 #[derive(Debug, Error)]
 pub enum StoreError {
     /// A file or directory could not be read or written.
     #[error(transparent)]
     Files(#[from] FileError),
-    /// It was made by a tristack that keeps its runs in another way.
+    /// It has the format of another version of tristack.
     #[error(
         "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
         shown(path)
     )]
     OtherFormat {
-        /// The file that says so.
+        /// The file with the format.
         path: PathBuf,
-        /// What it says.
+        /// The format found.
         found: String,
-        /// What it should say.
+        /// The format of this version.
         accepted: &'static str,
     },
-    /// Somebody holds its lock and does not let go.
+    /// Another program keeps its lock.
     #[error(
-        "{}: locked by {owner}, which does not go on; continue or end it",
+        "{}: locked by {owner}, which does not release it; continue or end that process",
         shown(path)
     )]
     Busy {
         /// The lock.
         path: PathBuf,
-        /// Who holds it.
+        /// The owner of the lock.
         owner: String,
     },
 }
 
-/// Finished runs of one user.
+/// An event run with its observation.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ObservedRun {
+    run: EventRun,
+    observation: Observation,
+}
+
+/// The finished runs of a user.
 #[derive(Debug, Clone)]
 pub struct Store {
     archive: Archive,
@@ -102,10 +110,7 @@ impl Store {
         Ok(run)
     }
 
-    /// Keeps a finished run. What was kept of it while it was under way is no longer needed.
-    ///
-    /// # Errors
-    /// If it cannot be written.
+    /// Keeps a finished run and removes its checkpoint.
     pub fn put(&self, run: &Run) -> Result<(), FileError> {
         let Provenance {
             identity,
@@ -124,11 +129,8 @@ impl Store {
         let _ = std::fs::remove_file(checkpoint);
     }
 
-    /// Puts the damaged run under `address` aside, and says where it is now.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
-    pub fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+    /// Puts the damaged run under `address` into quarantine, and returns its place there.
+    pub(crate) fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         let aside = self.aside(address);
         self.archive.move_away(&name(address), &aside)?;
         Ok(aside)
@@ -146,18 +148,12 @@ impl Store {
     }
 
     /// Keeps a probe.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
+    pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
         self.put_sealed(&self.path(PROBES, address), &record.to_json())
     }
 
-    /// Puts the damaged probe under `address` aside, and says where it is now.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
-    pub fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
+    /// Puts the damaged probe under `address` into quarantine, and returns its place there.
+    pub(crate) fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         self.put_file_aside(PROBES, address)
     }
 
@@ -170,15 +166,12 @@ impl Store {
         let Some(text) = read_sealed(&path)? else {
             return Ok(None);
         };
-        let kept = ObservedRun::parse(&text, &path)?;
+        let kept: ObservedRun = parse_json(&text, &path)?;
         Ok((kept.run == *run).then_some(kept.observation))
     }
 
     /// Keeps the `observation` of `run`.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn put_observation(
+    pub(crate) fn put_observation(
         &self,
         run: &EventRun,
         observation: &Observation,
@@ -187,41 +180,39 @@ impl Store {
             run: *run,
             observation: *observation,
         };
-        self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &kept.to_json())
+        let content = serde_json::to_string(&kept).expect("plain data has a JSON form") + "\n";
+        self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &content)
     }
 
     /// Puts the damaged observation of `run` into quarantine, and returns its place there.
-    ///
-    /// # Errors
-    /// If it cannot be moved.
-    pub fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
+    pub(crate) fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
         self.put_file_aside(OBSERVATIONS, &run.address())
     }
 
-    /// Says of each of the runs under `addresses` who else is making it. The others are now this program's to make,
-    /// until it releases them or ends.
+    /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
+    /// other program that is making it, if there is one.
     ///
     /// # Errors
-    /// If nobody can know.
+    /// If the claims cannot be read or written.
     pub fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
         self.session.claim(addresses)
     }
 
-    /// This program no longer makes the runs under `addresses`.
+    /// Releases the claims to the runs under `addresses`.
     ///
     /// # Errors
-    /// If others cannot be told; they are when this program ends.
+    /// If the claims cannot be written; they end with this program in any case.
     pub fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
         self.session.release(addresses)
     }
 
-    /// Where native runs are kept that are under way.
+    /// Directory of the checkpoints of native runs.
     pub fn checkpoint_directory(&self) -> PathBuf {
         self.archive.root().join("checkpoints")
     }
 
-    /// Where run directories are made; those of failed runs stay.
-    pub fn work_directory(&self) -> &Path {
+    /// Directory of the run directories; those of failed runs stay.
+    pub(crate) fn work_directory(&self) -> &Path {
         self.session.work()
     }
 
@@ -242,12 +233,12 @@ impl Store {
             .map(|()| aside)
     }
 
-    /// A place that is free.
+    /// A free place in quarantine.
     fn aside(&self, address: &str) -> PathBuf {
         let directory = self.archive.root().join("quarantine");
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| !place.exists());
-        free.expect("numbers do not end before places do")
+        free.expect("there are more numbers than files")
     }
 }
 

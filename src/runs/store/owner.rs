@@ -1,4 +1,4 @@
-//! Who holds something in a store, in words that a colleague can act on.
+//! The owner of a lock or a claim in a store.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LockOwner {
-    /// Its process number.
+    /// Its process id.
     pub process: u32,
     /// The machine it runs on.
     pub host: String,
@@ -17,8 +17,7 @@ pub struct LockOwner {
 }
 
 impl LockOwner {
-    /// This program.
-    pub fn this_program() -> Self {
+    pub(crate) fn this_program() -> Self {
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname");
         let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         Self {

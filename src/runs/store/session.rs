@@ -1,8 +1,8 @@
-//! Programs that use a store at the same time: who is there, and what each of them is working on.
+//! Sessions: the programs that use a store at the same time, and the runs that each of them claims.
 //!
-//! A session is a file that its program keeps locked and a directory for all that is not finished. The system frees
-//! the lock when the program ends, however it ends: an unlocked file tells of a dead program, whose leftovers the
-//! next one removes.
+//! A session is a file that its program keeps locked, and a directory for unfinished work. The system frees the lock
+//! when the program ends, however it ends: an unlocked file belongs to a dead program, whose leftovers the next one
+//! removes.
 
 use super::lock::Lock;
 use super::{LockOwner, StoreError};
@@ -14,7 +14,7 @@ use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What a session's file says.
+/// The content of a session file.
 #[derive(Debug, Serialize, Deserialize)]
 struct Claims {
     owner: LockOwner,
@@ -73,12 +73,12 @@ impl Session {
         Ok(session)
     }
 
-    /// Where this session keeps what is not finished.
+    /// Directory for unfinished work.
     pub(super) fn work(&self) -> &Path {
         &self.work
     }
 
-    /// Says of each of `addresses` who else is working on it; the others are claimed for this session.
+    /// Claims `addresses` for this session, except those that other sessions have claimed, whose owners it returns.
     pub(super) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
         let mut state = self.state();
         let _lock = self.lock(&state)?;
@@ -97,7 +97,7 @@ impl Session {
         Ok(owners)
     }
 
-    /// Gives claims back.
+    /// Releases claims.
     pub(super) fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
         let mut state = self.state();
         let _lock = self.lock(&state)?;
@@ -111,7 +111,7 @@ impl Session {
         Lock::acquire(&self.root.join("lock"), &state.claims.owner)
     }
 
-    /// What other living sessions are working on, and who they are.
+    /// Addresses claimed by other live sessions, with their owners.
     fn others(&self) -> HashMap<String, LockOwner> {
         remove_dead(&self.root);
         let mut others = HashMap::new();
@@ -131,7 +131,7 @@ impl Session {
         others
     }
 
-    /// A set of addresses is whole, whoever held it and died.
+    /// A panic cannot leave a set of addresses half changed, so that poison does not matter.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -151,7 +151,7 @@ impl State {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // Stays if a failed run has left something to look into.
+        // Stays if it holds the files of failed runs.
         let _ = fs::remove_dir(&self.work);
         let _ = fs::remove_file(&self.path);
     }
@@ -172,12 +172,12 @@ fn claims(session: &Path) -> Option<Claims> {
     serde_json::from_slice(&text).ok()
 }
 
-/// Whether nobody on this machine holds it.
+/// Whether no program on this machine has locked it.
 fn is_unlocked(session: &Path) -> bool {
     File::open(session).is_ok_and(|file| file.try_lock_shared().is_ok())
 }
 
-/// Removes what dead sessions have left. Has to be called under the lock, so that no session is between its
+/// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its
 /// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
 /// cannot be seen from here.
 fn remove_dead(root: &Path) {
@@ -185,7 +185,7 @@ fn remove_dead(root: &Path) {
     for session in session_files(root) {
         let foreign = || claims(&session).is_some_and(|claims| claims.owner.host != here);
         if is_unlocked(&session) && !foreign() {
-            // Whoever cannot remove it leaves it to the next one, and the session with it.
+            // If that fails the session file stays, and the next program tries again.
             let removed = match fs::remove_dir_all(work_of(root, &session)) {
                 Err(error) => error.kind() == std::io::ErrorKind::NotFound,
                 Ok(()) => true,

@@ -8,13 +8,13 @@ use crate::study::Campaign;
 use crate::study::yield_force::MIDDLE_RUN;
 use serde::Serialize;
 
-/// Pushes that are looked at first, in units of ε, up to the largest of them.
+/// Spacing and end of the grid of pushes that is tried first, in units of ε.
 const GRID: f64 = 0.25;
 const LARGEST: f64 = 2.0;
 /// Halvings of the interval in which c appears; it is then 3 × 10⁻⁵ ε wide.
 const HALVINGS: usize = 13;
 
-/// Where c appears, in native runs.
+/// The push at which c appears in native runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CriticalPush {
     /// A* in r, the largest push that was found to end with c = 0; c appears within `width` above it.
@@ -25,9 +25,6 @@ pub struct CriticalPush {
 
 /// A* of each of `stacks`, the smallest push beyond which c appears, by bisection, every step a native run
 /// under the paper's convention; `None` where c > 0 already at A = 0, or c = 0 up to A = 2 ε.
-///
-/// # Errors
-/// The first run that failed.
 pub fn critical_pushes(
     campaign: &Campaign,
     stacks: &[Stack],

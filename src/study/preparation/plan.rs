@@ -1,19 +1,19 @@
-//! The runs behind one yield force of one preparation.
+//! The runs that measure the yield force after a preparation.
 
 use crate::code::Code;
 use crate::model::{Case, Preparation, Protocol, Sampling, SideWalls, Stack};
 use crate::study::yield_force::{Measurement, SHORT_RAMP_RUN, plan};
 
-/// How much further the wall goes than after a gravity ramp: a stack that starts with c > 0 yields later.
+/// Factor on the wall travel: a stack that starts with c > 0 yields later than after a gravity ramp.
 const FURTHER: f64 = 1.3;
-/// Rows are fine from this part of where they are after a gravity ramp, for the same reason.
+/// Factor on the travel from which rows are fine, to cover a yield that has moved.
 const FINE_FROM: f64 = 0.5;
-/// Time steps are shorter, in the same way: withdrawn walls let stiff cylinders go at once, and at a time step
-/// of 0.2 they slide where they should not.
+/// Factor on the time steps: withdrawn walls release stiff cylinders at once, and at a time step of 0.2 they slide
+/// where they should not.
 const FINER: f64 = 0.5;
 
 /// `protocol`, planned for a gravity ramp, with a preparation between side walls in its place.
-pub fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
+pub(crate) fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
     Protocol {
         preparation: Preparation::SideWalls(walls),
         wall_travel: FURTHER * protocol.wall_travel,
@@ -28,13 +28,13 @@ pub fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
 /// The runs of one code for one stack and one preparation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparationPlan {
-    /// Who runs them.
+    /// The code.
     pub code: Code,
-    /// Whose convention it runs them with; another one's than its own makes it a twin.
+    /// The code whose convention it has; another one than itself makes it a twin.
     pub convention_of: Code,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
-    /// What is measured. Its limit is that of the gravity ramp; its cases are three wall speeds, then twice the
+    /// The measurement. Its limit is that of the gravity ramp; its cases are three wall speeds, then twice the
     /// time step, then half the rests, or half the gravity ramp: the order that
     /// [`crate::study::yield_force::extrapolate`] expects.
     pub measurement: Measurement,

@@ -2,19 +2,16 @@
 
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::code::Code;
-use crate::code::Provenance;
+use crate::code::{Code, Provenance};
 use crate::model::{Arms, CRITICAL_FRICTION, Case, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
-use crate::study::yield_force::{
-    COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, extrapolate, peak_allowance,
-};
+use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, peak_allowance};
 use crate::study::{Campaign, Evaluation, Ground, Grounds, Judged, Study};
 use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use serde::Serialize;
 
-/// What a yield force is read off.
+/// The quantity that a yield force is read off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Estimator {
@@ -25,12 +22,12 @@ pub enum Estimator {
     Peak,
 }
 
-/// What one preparation leads to.
+/// A row: the result of one preparation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PreparationRow {
-    /// Who computed it.
+    /// The code.
     pub code: Code,
-    /// Whose convention it was computed with; native with another one's is that one's twin.
+    /// The code whose convention it has; native with that of another code is its twin.
     pub convention_of: Code,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
@@ -39,22 +36,22 @@ pub struct PreparationRow {
     pub limit_force: Option<f64>,
     /// c between the bottom cylinders when the compression begins, in m g.
     pub contact_force: Option<f64>,
-    /// What twice the time step and half the rests change of it, in m g.
+    /// Its change with twice the time step and half the rests, in m g.
     pub contact_uncertainty: Option<f64>,
     /// F at vanishing wall speed, in m g.
     pub yield_force: Option<f64>,
     /// Its uncertainty in m g: wall speed, time step, rests, sampling, round-off, print precision.
     pub uncertainty: Option<f64>,
-    /// What it was read off.
+    /// The estimator of F.
     pub estimator: Option<Estimator>,
     /// Why something is missing.
     pub note: Option<String>,
-    /// Where its runs come from.
+    /// The origin of its runs.
     #[serde(skip)]
     pub provenances: Vec<Provenance>,
 }
 
-/// What the choice of the preparation moves, for one stack.
+/// The effect of the preparation on a stack.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PreparationStudy {
     /// The stack.
@@ -63,7 +60,7 @@ pub struct PreparationStudy {
     pub exact_force: Option<f64>,
     /// A* to leading order in ε, if nothing slides during the preparation, in r.
     pub predicted_critical_push: f64,
-    /// A* as found by bisection, under the paper's convention.
+    /// A* by bisection, under the paper's convention.
     pub critical_push: Option<CriticalPush>,
     /// For every code, and every code's native twin: the gravity ramp, then the pushes in order, A*
     /// among them.
@@ -72,7 +69,7 @@ pub struct PreparationStudy {
 
 impl PreparationStudy {
     /// The rows of `code` with the convention of `convention_of`.
-    pub fn rows_of(
+    pub(crate) fn rows_of(
         &self,
         code: Code,
         convention_of: Code,
@@ -80,12 +77,6 @@ impl PreparationStudy {
         let own =
             move |row: &&PreparationRow| row.code == code && row.convention_of == convention_of;
         self.rows.iter().filter(own)
-    }
-
-    /// The row of the native twin of `row`.
-    pub fn twin_of(&self, row: &PreparationRow) -> Option<&PreparationRow> {
-        let mut twins = self.rows_of(Code::NATIVE, row.convention_of);
-        twins.find(|twin| twin.push == row.push)
     }
 
     /// By how much F at `push` is above F at A = 0, natively under the paper's convention, relative to
@@ -106,12 +97,9 @@ const STIFFNESSES: [f64; 2] = [1e2, 1e4];
 /// Pushes in units of ε, besides 0 and A*: two below A*, three above.
 const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 
-/// Everything about the preparation that the paper's figures call for: every one of `codes` at μ = 0.2 and
-/// stiffness 100, and native at frictions below, at and above the critical one at the stiffnesses 100 and 10⁴.
-///
-/// # Errors
-/// See [`study_preparation`].
-pub fn preparation_studies(
+/// The studies for the paper's figures: every one of `codes` at μ = 0.2 and stiffness 100, and native at frictions
+/// below, at and above the critical one at the stiffnesses 100 and 10⁴.
+pub(crate) fn preparation_studies(
     campaign: &Campaign,
     codes: &[Code],
 ) -> Result<Vec<PreparationStudy>, RunError> {
@@ -126,10 +114,7 @@ pub fn preparation_studies(
 }
 
 /// The cases of [`preparation_studies`] that `code` runs.
-///
-/// # Errors
-/// If a step of the bisection failed.
-pub fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
+pub(crate) fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
     let critical = critical_pushes(campaign, &[stack])?;
     let critical = critical.first().and_then(Option::as_ref);
@@ -143,7 +128,7 @@ pub fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, R
 }
 
 /// Measures c(A) and F(A) of each of `stacks` with native and every one of `codes`, at A = 0, at A* and at
-/// the pushes `relative_pushes` × ε; those that do not offer side walls show the gravity ramp alone. Native
+/// the pushes `relative_pushes` × ε; codes without side walls have the gravity ramp alone. Native
 /// computes a twin of every other code.
 ///
 /// # Errors
@@ -197,7 +182,7 @@ fn plans_of(
         }
     }
     plans.retain(|plan| {
-        // A twin of a run that is not there is of no use.
+        // A twin without its original is of no use.
         let names = [plan.code, plan.convention_of];
         let offered = |case: &Case| {
             let preparation = &case.protocol.preparation;
@@ -220,16 +205,16 @@ fn limit_force(plan: &PreparationPlan) -> Option<f64> {
     }
 }
 
-/// What the runs of one preparation show.
+/// The result of the runs of a preparation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparationFinding {
     /// c between the bottom cylinders when the compression begins, in m g.
     contact_force: Option<f64>,
-    /// What twice the time step and half the rests change of it, in m g.
+    /// Its change with twice the time step and half the rests, in m g.
     contact_uncertainty: Option<f64>,
     /// F at vanishing wall speed with its uncertainty, in m g.
     yield_force: Option<(f64, f64, Estimator)>,
-    /// Where the runs come from.
+    /// The origin of the runs.
     provenances: Vec<Provenance>,
 }
 
@@ -276,10 +261,8 @@ impl PreparationPlan {
     /// `None` without a peak.
     fn yield_force(&self, runs: &[RunSummary]) -> Option<(f64, f64, Estimator)> {
         let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
-        let steps: Vec<u64> = self.cases().iter().map(Case::total_steps).collect();
-        let stiffness = self.measurement.stack.stiffness;
-        let slip = extrapolate(&estimates, &steps, stiffness, |run| run.slip);
-        let peak = extrapolate(&estimates, &steps, stiffness, |run| run.peak)?;
+        let slip = self.measurement.extrapolate(&estimates, |run| run.slip);
+        let peak = self.measurement.extrapolate(&estimates, |run| run.peak)?;
         let allowance = peak_allowance(&self.measurement, peak.force).unwrap_or(0.0);
         let peak_uncertainty = peak.budget.total() + allowance;
         let same = slip.filter(|slip| {

@@ -1,4 +1,4 @@
-//! A code beside its twins: runs in, comparisons out.
+//! Compares the runs of a code with those of its twins.
 
 use super::distance::{Branch, Distance, Milestones, Quantity};
 use super::documented::documented;
@@ -11,7 +11,7 @@ use crate::runs::{Reading, RunSummary, Workload};
 use crate::series::Sample;
 use crate::study::{Evaluation, Ground, Grounds, Study};
 
-/// What is kept of a run: who made it, and its rows.
+/// The rows of a run, and the program that made it.
 #[derive(Debug, Clone)]
 pub struct Rows {
     identity: Identity,
@@ -92,8 +92,8 @@ impl Trajectory {
     }
 }
 
-/// In the collapse the update of the springs shows, in both twins at the same order. The twin that has
-/// the update of the code must be the closer one.
+/// Requires the twin that has the history update of the code to be the closer one in the collapse, where the update
+/// shows in both twins at the same order.
 fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
     let largest =
         |comparison: &Comparison| comparison.distances.last().map(|finest| finest.largest);
@@ -219,8 +219,8 @@ impl<'a> Pair<'a> {
         changes.fold(0.0, f64::max)
     }
 
-    /// Factor by which a displacement of the wall grows until it is seen, from the twin with a wall that is
-    /// slightly faster; in the unit of the quantity per r, at least 1 of a length.
+    /// Factor by which a displacement of the wall grows until it is seen, from the twin with a slightly faster
+    /// wall; in the unit of the quantity per r, at least 1 of a length.
     fn growth(&self, quantity: Quantity, branch: Branch) -> f64 {
         let Some((case, twin)) = self.runs.cases.first().zip(self.twin.first()) else {
             return f64::INFINITY;
@@ -232,14 +232,14 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// What rounding can do to a position of a run, if it always errs to the same side: half a unit in the last
-/// place of a coordinate between 2 and 4 in every step, in the code and in its twin.
+/// Largest effect of rounding on a position, if it always errs to the same side: half a unit in the last place of a
+/// coordinate between 2 and 4 in every step, in the code and in its twin.
 fn round_off(case: &Case) -> f64 {
     2.0 * f64::EPSILON * case.protocol.schedule().total_steps() as f64
 }
 
 impl Comparison {
-    /// The wall force must also be close to that of the twin in itself, up to its peak.
+    /// Requires the wall force up to its peak to be close to that of the twin.
     fn hold_force_to_tolerance(&mut self) {
         let judged = self.quantity == Quantity::WallForce && self.branch == Branch::Compression;
         if let Some(finest) = self.distances.last().filter(|_| judged) {

@@ -1,13 +1,13 @@
-//! How far two series are apart, branch by branch.
+//! The distance between two series, branch by branch.
 
 use crate::series::Sample;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Deviations whose first time is noted, in the unit of the quantity.
-pub const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
+/// Deviations whose first time is reported, in the unit of the quantity.
+pub(crate) const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
-/// What is compared.
+/// A quantity that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -72,7 +72,7 @@ impl Branch {
         }
     }
 
-    /// What there is to compare on this branch.
+    /// The quantities that are compared on this branch.
     pub fn quantities(self) -> &'static [Quantity] {
         match self {
             Self::Compression | Self::Collapse => &Quantity::ALL,
@@ -81,9 +81,9 @@ impl Branch {
     }
 }
 
-/// Rows at which something happens in a series.
+/// The rows of a series at which its branches end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Milestones {
+pub(crate) struct Milestones {
     /// The wall force is highest.
     pub peak: usize,
     /// The first row without a wall force after that.
@@ -116,7 +116,7 @@ impl Milestones {
     }
 }
 
-/// How far two series of the same time step are apart in one quantity on one branch, in the unit of the
+/// The distance between two series of the same time step in one quantity on one branch, in the unit of the
 /// quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
@@ -126,9 +126,9 @@ pub struct Distance {
     pub largest: f64,
     /// Root of the mean square over the rows.
     pub rms: f64,
-    /// Time of the first row that deviates by more than each of [`DEVIATIONS`].
+    /// Time of the first row that deviates by more than each of `DEVIATIONS`.
     pub first_above: [Option<f64>; 3],
-    /// What rounding may have done to the largest distance.
+    /// The part of the largest distance that may be rounding.
     pub round_off: f64,
 }
 

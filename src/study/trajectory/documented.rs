@@ -1,4 +1,4 @@
-//! The order in the time step that the distance between a code and its twin must have, and why.
+//! The documented order, in the time step, of the distance between a code and its twin, with the reason.
 
 use super::distance::{Branch, Quantity};
 use super::plan::Twin;
@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DocumentedOrder {
-    /// It is nothing but round-off.
+    /// Round-off only.
     RoundOff,
-    /// It halves when the step is halved.
+    /// Halves with the time step.
     First,
-    /// It quarters.
+    /// Quarters when the time step is halved.
     Second,
-    /// It falls irregularly, and only its size is judged.
+    /// Irregular: only the size is judged.
     Irregular,
 }
 
@@ -36,7 +36,7 @@ impl DocumentedOrder {
 pub struct Documented {
     /// The order.
     pub order: DocumentedOrder,
-    /// Its reason.
+    /// The reason.
     pub reason: String,
 }
 
@@ -51,9 +51,9 @@ impl Documented {
         Self::new(DocumentedOrder::RoundOff, reason)
     }
 
-    /// Tried out with YADE: where native too knows contacts of zero overlap, the distance is 1e-14 up to the peak,
-    /// and 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component along
-    /// the normal when it is turned linearly.
+    /// An experiment with YADE confirms it: if native, too, has contacts of zero overlap, the distance is 1e-14 up to
+    /// the peak, and 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component
+    /// along the normal when it is turned linearly.
     fn first_touch(code: Code) -> Self {
         let reason = format!(
             "{} knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its damping \

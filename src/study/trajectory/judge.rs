@@ -7,25 +7,25 @@ use std::f64::consts::LN_2;
 
 /// Largest distance of the wall force up to its peak that agrees, at the finest time step, in units of the
 /// peak.
-pub const FORCE_TOLERANCE: f64 = 1e-6;
+pub(crate) const FORCE_TOLERANCE: f64 = 1e-6;
 
 /// Largest deviation from a documented order that agrees. Orders are whole numbers: half of this would still
 /// tell them apart, and a half could not.
-pub const ORDER_TOLERANCE: f64 = 0.25;
+pub(crate) const ORDER_TOLERANCE: f64 = 0.25;
 
-/// What the distances say about the order.
+/// The order seen in distances.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObservedOrder {
+pub(crate) struct ObservedOrder {
     /// log₂ of the ratio of two distances.
     pub order: f64,
-    /// What the next order in the time step can have done to it.
+    /// Its uncertainty from the next order in the time step.
     pub curvature: f64,
-    /// What rounding can have done to it.
+    /// Its uncertainty from rounding.
     pub noise: f64,
 }
 
 impl ObservedOrder {
-    /// What both can have done to it.
+    /// The sum of both.
     pub fn uncertainty(&self) -> f64 {
         self.curvature + self.noise
     }
@@ -33,7 +33,7 @@ impl ObservedOrder {
 
 /// log₂ of the ratio of two distances, the second at half the time step of the first; `None` if one of them
 /// is zero.
-pub fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
+pub(crate) fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
     let ratio = coarse.largest / fine.largest;
     (ratio.is_finite() && ratio > 0.0).then(|| libm::log2(ratio))
 }
@@ -43,7 +43,7 @@ pub fn order_between(coarse: &Distance, fine: &Distance) -> Option<f64> {
 /// A distance C hᵖ (1 + B h) gives the order p + B h/(2 ln 2) between h and h/2, and half of that excess
 /// between h/2 and h/4. The difference of the two orders is therefore the excess of the finer pair, and half
 /// the excess of the coarser one, which rounding disturbs less.
-pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
+pub(crate) fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     let [coarse, middle, fine] = distances else {
         return None;
     };
@@ -65,10 +65,9 @@ pub fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     Some(if coarser_is_better { coarser } else { finer })
 }
 
-/// What `distances`, coarsest time step first, say for or against the order that is documented for them.
-/// `step_error` is the largest change of the twin itself when its time step is halved; it bounds what
-/// falls irregularly.
-pub fn judge_order(
+/// The grounds that `distances`, coarsest time step first, give for or against their documented order. `step_error`,
+/// the largest change of the twin itself when its time step is halved, bounds distances that fall irregularly.
+pub(crate) fn judge_order(
     documented: DocumentedOrder,
     distances: &[Distance],
     step_error: f64,
@@ -98,7 +97,7 @@ pub fn judge_order(
     grounds
 }
 
-/// Distances below this many times what rounding can do have noise above [`ORDER_TOLERANCE`] in their order.
+/// Distances below this multiple of their round-off have noise above [`ORDER_TOLERANCE`] in their order.
 const NEAR_ROUND_OFF: f64 = 2.0 / (ORDER_TOLERANCE * LN_2);
 
 fn judge_whole_order(
@@ -113,7 +112,7 @@ fn judge_whole_order(
         }
         return;
     };
-    // So close to rounding there is nothing left whose order could be seen.
+    // Distances this close to rounding show no order.
     let near = finest.largest <= NEAR_ROUND_OFF * finest.round_off;
     let error = seen.order - expected;
     if near && seen.noise > ORDER_TOLERANCE && error.abs() <= seen.uncertainty() {

@@ -1,4 +1,4 @@
-//! What is said of a code, and the rows that say it.
+//! The comparison of a code with its twins, and its rows.
 
 use super::distance::{Branch, Distance, Quantity};
 use super::documented::{Documented, DocumentedOrder};
@@ -6,10 +6,10 @@ use super::judge::order_between;
 use super::plan::{Trajectory, Twin};
 use crate::study::{Grounds, Judged, Verdict};
 
-/// What the runs of a code show beside those of its twins.
+/// The result of comparing the runs of a code with those of its twins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrajectoryFinding {
-    /// Times of the peak, of the loss of the wall and of the landing; `None` if there is no comparison.
+    /// Times of the peak, of the loss of the wall and of the landing; `None` without a comparison.
     pub times: Option<[f64; 3]>,
     /// Every quantity on every branch with every twin; none if a run shows no yield.
     pub comparisons: Vec<Comparison>,
@@ -21,24 +21,24 @@ pub type TrajectoryJudgement = Judged<Trajectory, TrajectoryFinding>;
 /// One quantity on one branch with one twin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// What the twin has of the convention of the code.
+    /// The twin.
     pub twin: Twin,
-    /// What is compared.
+    /// The quantity.
     pub quantity: Quantity,
-    /// Where.
+    /// The branch.
     pub branch: Branch,
-    /// How the distance must fall.
+    /// The order that the distances must have.
     pub documented: Documented,
     /// The distances, coarsest time step first.
     pub distances: Vec<Distance>,
     /// Largest change of the twin itself when its time step is halved.
     pub step_error: f64,
-    /// What speaks for and against it.
+    /// The grounds for a verdict on it.
     pub grounds: Grounds,
 }
 
 impl TrajectoryJudgement {
-    /// The comparisons; none where a run is not there or the convention of the twin is not that of the code.
+    /// The comparisons; none if a run is missing, or the twin has another convention than the code.
     pub fn comparisons(&self) -> &[Comparison] {
         match &self.finding {
             Some(finding) if self.grounds.is_judged() => &finding.comparisons,
@@ -67,7 +67,7 @@ impl Comparison {
     }
 
     /// The order between the two finest time steps; `None` if there is nothing but rounding.
-    pub fn last_order(&self) -> Option<f64> {
+    pub(crate) fn last_order(&self) -> Option<f64> {
         let [.., coarser, finest] = self.distances.as_slice() else {
             return None;
         };

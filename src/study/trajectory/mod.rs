@@ -1,9 +1,8 @@
-//! Whole series at a finite wall speed: an external code beside a native twin that has taken on its
-//! convention.
+//! Whole series at a finite wall speed: an external code beside a native twin that has its convention.
 //!
 //! At a finite speed nothing hides behind a limit: mass, inertia, damping, friction and the history of every
-//! contact move the series. If the twin does what the code does, what is left is round-off, or falls with
-//! the time step at the order that the known difference in the algorithms has.
+//! contact move the series. If the twin follows the same laws, the distance is round-off, or falls with the
+//! time step at the order of the known difference in the algorithms.
 
 mod compare;
 mod distance;
@@ -12,10 +11,9 @@ mod judge;
 mod judgement;
 mod plan;
 
-pub use distance::{Branch, DEVIATIONS, Distance, Milestones, Quantity};
+pub use distance::{Branch, Distance, Quantity};
 pub use documented::{Documented, DocumentedOrder, documented};
-pub use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
+pub(crate) use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
 pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement};
-pub use plan::{
-    TIME_STEPS, Trajectory, Twin, TwinRuns, WALL_SPEED, plan_trajectory, trajectory_stack,
-};
+pub(crate) use plan::WALL_SPEED;
+pub use plan::{TIME_STEPS, Trajectory, Twin, TwinRuns, plan_trajectory, trajectory_stack};

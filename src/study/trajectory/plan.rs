@@ -1,4 +1,4 @@
-//! What to run: a code at three time steps, and its twins at the same ones and two more.
+//! The runs of a comparison: a code at three time steps, and its twins at the same ones with two further runs.
 
 use crate::code::Code;
 use crate::model::{
@@ -8,14 +8,14 @@ use crate::theory::quasistatic_limit;
 use serde::{Deserialize, Serialize};
 
 /// Wall speed in r √(k_n/m): fast enough for inertia and damping to show, slow enough for a yield.
-pub const WALL_SPEED: f64 = 1e-3;
+pub(crate) const WALL_SPEED: f64 = 1e-3;
 
 /// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the first
 /// touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.
 pub const TIME_STEPS: [f64; 3] = [0.025, 0.0125, 0.00625];
 
 /// Relative change of the wall speed by which the growth of a small disturbance is measured: small enough
-/// to stay linear, and some hundred times what rounding does.
+/// to stay linear, and some hundred times the effect of rounding.
 pub(super) const DISTURBANCE: f64 = 1e-9;
 
 const RAMP_TIME: f64 = 100.0;
@@ -32,7 +32,7 @@ pub fn trajectory_stack() -> Stack {
     Stack::paper(0.3, 100.0)
 }
 
-/// What a twin has of the convention of the code.
+/// The part of the code's convention that a twin has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Twin {
@@ -56,13 +56,13 @@ impl Twin {
 /// The runs of a native twin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwinRuns {
-    /// What it has of the convention of the code.
+    /// The part of the code's convention that it has.
     pub twin: Twin,
     /// One case per time step of the code, in the same order.
     pub cases: Vec<Case>,
-    /// The finest of them with its time step halved, to see what the step itself costs.
+    /// The finest of them with its time step halved, which shows the error of the time step.
     pub halved: Case,
-    /// The coarsest of them with the wall slightly faster, to see how rounding grows.
+    /// The coarsest of them with a slightly faster wall, which shows how rounding grows.
     pub disturbed: Case,
 }
 
@@ -73,10 +73,10 @@ impl TwinRuns {
     }
 }
 
-/// All that the comparison of one code needs.
+/// The planned comparison of a code with its twins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    /// Who is compared with its twins.
+    /// The code.
     pub code: Code,
     /// Its runs, one per time step.
     pub cases: Vec<Case>,

@@ -1,4 +1,4 @@
-//! What stands behind a row, and what it does not prove.
+//! The kind of evidence behind a row, and what it does not prove.
 
 use super::judgement::Judgement;
 use crate::code::Code;
@@ -38,7 +38,7 @@ impl Evidence {
     }
 
     /// One sentence on what an agreement does not prove.
-    pub fn does_not_prove(self) -> &'static str {
+    pub(crate) fn does_not_prove(self) -> &'static str {
         match self {
             Self::ClosedForm => {
                 "that the model is the right one for real cylinders, or that the stepping is right beyond \

@@ -3,8 +3,7 @@
 use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
 use crate::series::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
 
-/// What the numerical uncertainty u_num consists of, in the words of ASME V&V 20; each part an expected
-/// largest error in m g.
+/// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
     /// Distance between the extrapolations of second and first order in the wall speed.
@@ -17,33 +16,33 @@ pub struct Budget {
     pub preparation: f64,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
-    /// Rounding of positions in every step, accumulated like a random walk, as the summary of the force and
+    /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
     /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
     /// times less (tests/round_off.rs).
     pub round_off: f64,
     /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
     pub print_precision: f64,
     /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
-    /// What they cost is linear in the wall speed first of all, and goes with it.
+    /// Their error is mostly linear in the wall speed, and vanishes with it.
     pub shortcuts: f64,
 }
 
 /// One part of a [`Budget`], as tables and explanations give it.
 #[derive(Debug, Clone, Copy)]
-pub struct BudgetPart {
+pub(crate) struct BudgetPart {
     /// Name of its column in files.
     pub name: &'static str,
-    /// Name for people.
+    /// Name in explanations.
     pub heading: &'static str,
-    /// How it is computed, in a line.
+    /// Its formula, in words.
     pub how: &'static str,
     /// Its value in m g.
     pub value: fn(&Budget) -> f64,
 }
 
 impl Budget {
-    /// The parts, in order. What is missing here is missing from the uncertainty.
-    pub const PARTS: [BudgetPart; 7] = [
+    /// The parts, in order; the uncertainty is their sum.
+    pub(crate) const PARTS: [BudgetPart; 7] = [
         BudgetPart {
             name: "wall_speed",
             heading: "wall speed",
@@ -88,8 +87,8 @@ impl Budget {
         },
     ];
 
-    /// The expanded uncertainty: the sum of the parts, as if they all conspired. It is never below their root
-    /// sum of squares, by which V&V 20 combines independent parts.
+    /// The expanded uncertainty: the sum of the parts, which is never below their root sum of squares, by which V&V 20
+    /// combines independent parts.
     pub fn total(&self) -> f64 {
         Self::PARTS.iter().map(|part| (part.value)(self)).sum()
     }
@@ -102,26 +101,26 @@ pub struct Extrapolation {
     pub force: f64,
     /// The same with the straight line through the two slower ones.
     pub first_order: f64,
-    /// Where its uncertainty comes from.
+    /// The parts of its uncertainty.
     pub budget: Budget,
-    /// How fast the differences between the speeds shrink.
+    /// The order at which the differences between the speeds shrink.
     pub order: ConvergenceOrder,
 }
 
-/// ConvergenceOrder of convergence in the wall speed.
+/// The order of convergence in the wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvergenceOrder {
     /// log₂ of the ratio of successive differences; absent where they are lost in noise.
     pub observed: Option<f64>,
-    /// How far the observed order may be from the expected one: what noise and curvature do to it.
+    /// Largest distance of the observed order from the expected one that noise and curvature explain.
     pub allowance: f64,
 }
 
 impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
-    pub const EXPECTED: f64 = 1.0;
+    pub(crate) const EXPECTED: f64 = 1.0;
 
-    /// From forces at three speeds, each half the one before, known up to `noise`. The term of second order
+    /// The order of forces at three speeds, each half the one before, known up to `noise`. The term of second order
     /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
     /// that moves the order by less than 0.01. Five times as much is allowed.
     fn of(forces: &[f64], noise: f64) -> Self {
@@ -141,8 +140,8 @@ impl ConvergenceOrder {
         }
     }
 
-    /// Whether the runs converge as they should, as far as can be seen.
-    pub fn is_expected(&self) -> bool {
+    /// Whether the observed order, if there is one, is the expected one.
+    pub(crate) fn is_expected(&self) -> bool {
         let off = |observed: f64| (observed - Self::EXPECTED).abs();
         self.observed
             .is_none_or(|observed| off(observed) <= self.allowance)
@@ -167,28 +166,16 @@ pub fn extrapolate(
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
     let by_speed = all.get(..SPEEDS.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
-    let straight_line = |runs: [usize; 2]| {
-        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
-        Some(2.0 * middle? - fast?)
-    };
-    let change_without_shortcuts = straight_line(PLAIN_RUNS)
-        .zip(straight_line([0, MIDDLE_RUN]))
-        .map(|(plain, short)| (plain - short).abs());
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
     let force = value_at_zero(&SPEEDS, &forces);
     let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
     let weights = weights_at_zero(&SPEEDS);
     let amplified = |error: &dyn Fn(&Estimate, u64) -> f64| -> f64 {
-        let runs = by_speed.iter().zip(steps);
-        let terms = weights.iter().zip(runs);
-        terms
-            .map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps))
-            .sum()
+        let terms = weights.iter().zip(by_speed.iter().zip(steps));
+        let terms = terms.map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps));
+        terms.sum()
     };
-    let rounded = |estimate: &Estimate, steps: u64| {
-        let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
-        per_step * (steps as f64).sqrt() * estimate.sensitivity
-    };
+    let rounded = |estimate: &Estimate, steps| round_off(estimate, steps, stiffness);
     let printed =
         |estimate: &Estimate, _| PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity;
     let budget = Budget {
@@ -198,7 +185,7 @@ pub fn extrapolate(
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
-        shortcuts: change_without_shortcuts.unwrap_or(0.0),
+        shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
     };
     let noise =
         |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);
@@ -209,6 +196,21 @@ pub fn extrapolate(
         budget,
         order: ConvergenceOrder::of(&forces, noise),
     })
+}
+
+/// Rounding of positions in so many `steps`, a random walk, as the estimator amplifies it.
+fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
+    let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
+    per_step * (steps as f64).sqrt() * estimate.sensitivity
+}
+
+/// Change of the straight line through the two faster runs without their shortcuts; `None` if there are no such runs.
+fn change_without_shortcuts(all: &[Estimate]) -> Option<f64> {
+    let straight_line = |runs: [usize; 2]| {
+        let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
+        Some(2.0 * middle? - fast?)
+    };
+    Some((straight_line(PLAIN_RUNS)? - straight_line([0, MIDDLE_RUN])?).abs())
 }
 
 #[cfg(test)]
@@ -331,7 +333,7 @@ mod tests {
         let budget = result.budget;
         assert!((budget.round_off / (one_step * walked) - 1.0).abs() < 1e-12);
         assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
-        // What the order is known to: the noisiest of the runs, here the longest.
+        // The noise in the order is that of the noisiest run, here the longest.
         let noise = 1e-9 + one_step * 200.0;
         let allowance = ConvergenceOrder::of(&[10.4, 10.2, 10.1], noise).allowance;
         assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);

@@ -1,18 +1,17 @@
-//! The yield force that the runs of a measurement show, held against the exact limit.
+//! The yield force that the runs of a measurement show, compared with the exact limit.
 
-use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
+use super::extrapolate::{ConvergenceOrder, Extrapolation};
 use super::plan::{Measurement, Method};
 use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
 use crate::code::Code;
-use crate::model::Case;
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::{Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, Study, Verdict, tolerance};
 
-/// What the runs of a measurement show.
+/// The yield force that the runs of a measurement show.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YieldForce {
-    /// What was read off each run, in the order of the cases.
+    /// The summary of each run, in the order of the cases.
     pub runs: Vec<RunSummary>,
     /// The slip onset at vanishing wall speed.
     pub slip: Option<Extrapolation>,
@@ -23,7 +22,7 @@ pub struct YieldForce {
     pub force: Option<(f64, f64)>,
 }
 
-/// A judged measurement: a row of a crosscheck and what stands behind it.
+/// A judged measurement: a row of a crosscheck with its evidence.
 pub type Judgement = Judged<Measurement, YieldForce>;
 
 impl Study for Measurement {
@@ -104,7 +103,7 @@ impl Judgement {
         self.grounds.deviation().map(|(_, tolerance)| tolerance)
     }
 
-    /// What was read off each run, in the order of the cases; nothing if one of them is not there.
+    /// The summary of each run, in the order of the cases; none if one of them is missing.
     pub fn runs(&self) -> &[RunSummary] {
         self.finding.as_ref().map_or(&[], |finding| &finding.runs)
     }
@@ -141,10 +140,8 @@ impl<'a> Reader<'a> {
     /// The yield force at vanishing wall speed, by slip onset, which the peak must not contradict.
     fn extrapolate(&mut self, reference: f64) {
         let measurement = self.measurement;
-        let stiffness = measurement.stack.stiffness;
-        let steps: Vec<u64> = measurement.cases.iter().map(Case::total_steps).collect();
-        let slip = extrapolate(&self.estimates, &steps, stiffness, |run| run.slip);
-        let peak = extrapolate(&self.estimates, &steps, stiffness, |run| run.peak);
+        let slip = measurement.extrapolate(&self.estimates, |run| run.slip);
+        let peak = measurement.extrapolate(&self.estimates, |run| run.peak);
         (self.finding.slip, self.finding.peak) = (slip, peak);
         let Some((peak, allowance)) = peak.zip(peak_allowance(measurement, reference)) else {
             return self.find_no_yield();
@@ -163,8 +160,8 @@ impl<'a> Reader<'a> {
         self.hold_to_peak(&slip, &peak, peak_uncertainty);
     }
 
-    /// The yield force as the paper reads it: the peak at one wall speed. A second run, twice as fast, shows
-    /// what the speed costs.
+    /// The yield force as the paper reads it: the peak at one wall speed. A second run, twice as fast, shows the error
+    /// of the speed.
     fn take_literally(&mut self, reference: f64) {
         let peaks: Option<Vec<_>> = self.estimates.iter().map(|run| run.peak).collect();
         let allowance = peak_allowance(self.measurement, reference);
@@ -185,7 +182,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Enters a yield force and holds it against the limit.
+    /// Sets the yield force and compares it with the limit.
     fn compare(&mut self, force: f64, uncertainty: f64, reference: f64) {
         self.finding.force = Some((force, uncertainty));
         let load = reference + 3.0;
@@ -260,8 +257,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A code that lets a wall go once it has passed the centre of a cylinder cannot follow a wall force above
-    /// k_n r; its series has no onset then, and says nothing about the yield.
+    /// A code that drops the contact of a wall beyond the centre of a cylinder cannot follow a wall force above k_n r;
+    /// its series has no onset then, and shows nothing about the yield.
     fn doubt_deep_wall(&mut self, reference: f64) {
         let stack = &self.measurement.stack;
         if reference < stack.stiffness {
@@ -274,7 +271,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Why nothing is decided where the planned walls are too fast.
+/// Note on rows whose planned walls are too fast.
 const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor slides for a moment, and a gentle \
                            wall would take more than 3e6 steps";
 
@@ -293,7 +290,7 @@ const GRAINY_STEPS: f64 = 4.0;
 
 /// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
 /// `reference`; `None` where nothing is planned.
-pub fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
+pub(crate) fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
     let travel = measurement.limit.wall_travel?;
     let fastest = &measurement.cases.first()?.protocol;
     let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;

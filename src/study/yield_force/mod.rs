@@ -10,13 +10,15 @@ mod touch;
 mod twin;
 
 pub use evidence::Evidence;
-pub use extrapolate::{Budget, BudgetPart, ConvergenceOrder, Extrapolation, extrapolate};
-pub use judgement::{Judgement, YieldForce, peak_allowance};
-pub use plan::{
-    Measurement, Method, NoYield, PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, plan, plan_literal,
-    planned_protocol, protocol_at_speed, yielding_frictions,
-};
-pub use profile::{PAPER_STIFFNESSES, Profile};
-pub use runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
-pub use touch::max_touch_speed;
-pub use twin::{TwinForce, measure_with_twin};
+pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
+pub(crate) use judgement::peak_allowance;
+pub use judgement::{Judgement, YieldForce};
+pub use plan::{Measurement, Method, NoYield, plan, protocol_at_speed};
+pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, planned_protocol};
+pub(crate) use profile::PAPER_STIFFNESSES;
+pub use profile::Profile;
+pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
+pub use runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
+pub(crate) use touch::max_touch_speed;
+pub use twin::TwinForce;
+pub(crate) use twin::measure_with_twin;

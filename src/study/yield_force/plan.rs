@@ -1,11 +1,13 @@
-//! What to run: the theory plans every run, so that cost and relative error are the same for every stack.
+//! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
+use super::extrapolate::{Extrapolation, extrapolate};
 use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{
     Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack,
 };
+use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -23,18 +25,20 @@ const FINE_FROM: f64 = 0.98;
 const TRAVEL_MARGIN: f64 = 1.05;
 /// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
+/// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
+const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch: 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
 /// Planned speeds have six digits.
 const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
-/// There is nothing to run because the stack does not yield at the floor.
+/// Refusal to run a stack that does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("`--mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
 pub struct NoYield {
     /// The stack.
     pub stack: Stack,
-    /// What happens instead of the yield.
+    /// The event that comes instead of the yield.
     pub reason: String,
     /// Lowest and highest floor friction at which such a stack yields, if there is any.
     pub range: Option<(f64, f64)>,
@@ -46,14 +50,11 @@ fn accepted(range: Option<(f64, f64)>) -> String {
     })
 }
 
-/// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
-const STIFF: f64 = 2e4;
-
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
-pub const PAPER_WALL_SPEED: f64 = 1e-6;
+pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
 /// Time step of the paper, in √(m/k_n) (supplement I.C).
-pub const PAPER_TIME_STEP: f64 = 1e-3;
-/// Wall speeds of a literal measurement: the paper's, and twice it to learn what it costs.
+pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
+/// Wall speeds of a literal measurement: the paper's, and twice it to estimate its error.
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
 /// How the yield force is read off the runs.
@@ -65,14 +66,14 @@ pub enum Method {
     Literal,
 }
 
-/// All that one row of a crosscheck needs.
+/// The planned measurement of a yield force: a row of a crosscheck.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
-    /// Who measures.
+    /// The code.
     pub code: Code,
-    /// What.
+    /// The stack.
     pub stack: Stack,
-    /// What a contact is to this code.
+    /// The contact convention of the code.
     pub convention: ContactConvention,
     /// The exact limit under this convention, by which the code is judged.
     pub limit: Limit,
@@ -94,18 +95,32 @@ pub fn plan(code: Code, stack: &Stack, convention: ContactConvention) -> Measure
 }
 
 /// Plans the measurement of `stack` as the paper made it.
-pub fn plan_literal(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
+pub(crate) fn plan_literal(
+    code: Code,
+    stack: &Stack,
+    convention: ContactConvention,
+) -> Measurement {
     planned(code, stack, convention, Method::Literal)
 }
 
 impl Measurement {
-    /// The same with shortcuts in every run, and the two faster runs once more without, which say what the
-    /// shortcuts change. The wall still touches gently, and is faster by the same factor in every run, so that
-    /// what this costs vanishes with the speed like the rest.
+    /// Extrapolates one estimator over `estimates`, those of the cases in their order.
+    pub(crate) fn extrapolate(
+        &self,
+        estimates: &[YieldEstimates],
+        estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
+    ) -> Option<Extrapolation> {
+        let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
+        extrapolate(estimates, &steps, self.stack.stiffness, estimator)
+    }
+
+    /// The same with shortcuts in every run, and the two faster runs once more without, which show the effect of the
+    /// shortcuts. The wall still touches gently, and is faster by the same factor in every run, so that its error
+    /// vanishes with the speed like the rest.
     ///
-    /// Measurements that are literal, or by an code that knows no shortcuts, are left as they are.
+    /// Literal measurements, and those of codes without shortcuts, are unchanged.
     #[must_use]
-    pub fn shortened(mut self) -> Self {
+    pub(crate) fn shortened(mut self) -> Self {
         let fastest = self.cases.first().map(|case| case.protocol.wall_speed);
         let (Some(fastest), Some(travel)) = (fastest, self.limit.wall_travel) else {
             return self;
@@ -219,7 +234,7 @@ fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the
 /// speeds of a measurement are measured. `None` where nothing yields.
-pub fn planned_protocol(
+pub(crate) fn planned_protocol(
     limit: &Limit,
     stack: &Stack,
     convention: &ContactConvention,
@@ -252,8 +267,8 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
     })
 }
 
-/// How long the wall goes on beyond the planned travel. What drives the collapse of a stack near μ_c falls with
-/// the square root of ε, so that stiff ones take longer.
+/// Duration of the compression beyond the planned travel. The force that drives the collapse of a stack near μ_c falls
+/// with the square root of ε, so that stiff stacks take longer.
 fn time_margin(limit: &Limit) -> f64 {
     let stiffness = limit.yield_force.zip(limit.z);
     let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
@@ -267,21 +282,22 @@ fn rounded(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-/// The refusal to run a stack that does not yield, with what would be accepted.
-pub fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
+/// The refusal to run a stack that does not yield, with the accepted frictions.
+pub(crate) fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
     NoYield {
         stack: *stack,
         reason: limit
             .reason
-            .clone()
-            .unwrap_or_else(|| "no yield force".to_owned()),
+            .as_deref()
+            .unwrap_or("no yield force")
+            .to_owned(),
         range: yielding_frictions(stack, convention),
     }
 }
 
 /// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
 /// four digits; `None` if there is none.
-pub fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
+fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
     const GRID: f64 = 0.01;
     let yields = |floor_friction: f64| {
         let stack = Stack {

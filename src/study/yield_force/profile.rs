@@ -1,11 +1,11 @@
-//! Which stacks a crosscheck covers, and how.
+//! Profiles: the stacks that a crosscheck covers, and how each is measured.
 
 use super::plan::{Measurement, plan, plan_literal};
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// Stiffnesses 1/ε of the paper (supplement I.A).
-pub const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
+pub(crate) const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
 
 /// Frictions of the quick profile.
 const QUICK_FRICTIONS: [f64; 6] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
@@ -44,7 +44,7 @@ const FIGURE_FRICTIONS: [f64; 25] = [
 /// figure (supplement I.C).
 const LITERAL_STACK: (f64, f64) = (0.2, 1e4);
 
-/// Which stacks a crosscheck covers.
+/// The stacks that a crosscheck covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Profile {
     /// Six frictions around the critical one at three stiffnesses.
@@ -71,7 +71,7 @@ impl Profile {
         .collect()
     }
 
-    /// What is measured, stack by stack, by each of the `codes`.
+    /// The measurements by each of the `codes`, stack by stack.
     pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
         let mut measurements = Vec::new();
         for stack in self.stacks() {

@@ -1,4 +1,4 @@
-//! How fast the top wall may touch the stack.
+//! The largest speed at which the top wall touches the stack without making the floor slide.
 
 use crate::dem::compress_stack;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
@@ -26,7 +26,7 @@ const MARGIN: f64 = 0.9;
 ///
 /// Displacements are small in the touch, so that the forces are those at rest and a part linear in the speed.
 /// One trial without sliding thus tells at which v the ratio |e₀ + v e₁(t)|/(d₀ + v d₁(t)) reaches μ.
-pub fn max_touch_speed(stack: &Stack, convention: &ContactConvention) -> f64 {
+pub(crate) fn max_touch_speed(stack: &Stack, convention: &ContactConvention) -> f64 {
     let trial = trial(stack, convention);
     // Where not even the trial stays finite there is no gentle speed.
     let Ok(series) = compress_stack(&trial, || true) else {

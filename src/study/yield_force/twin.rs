@@ -1,6 +1,5 @@
-//! Round-off, measured: the same runs by a twin of the code that computes with more digits.
+//! Measures round-off: the same runs by a build of the code that computes with more digits.
 
-use super::extrapolate::extrapolate;
 use super::plan::Measurement;
 use crate::runs::{Progress, RunError, SelectedCode, Settings, run_all};
 use crate::series::YieldEstimates;
@@ -16,10 +15,7 @@ pub struct TwinForce {
 }
 
 /// Repeats `measurement` with the twin of its code; `None` if there is no such twin here.
-///
-/// # Errors
-/// If one of its runs fails.
-pub fn measure_with_twin(
+pub(crate) fn measure_with_twin(
     measurement: &Measurement,
     settings: &Settings,
     progress: &dyn Progress,
@@ -44,12 +40,7 @@ pub fn measure_with_twin(
         Ok(estimates) => estimates,
         Err(error) => return Some(Err(error)),
     };
-    let steps: Vec<u64> = measurement
-        .cases
-        .iter()
-        .map(crate::model::Case::total_steps)
-        .collect();
-    let slip = extrapolate(&estimates, &steps, stack.stiffness, |run| run.slip)?;
+    let slip = measurement.extrapolate(&estimates, |run| run.slip)?;
     let version = package.map_or(version, |package| format!("long double, {package}"));
     Some(Ok(TwinForce {
         version,

@@ -39,6 +39,6 @@ pub struct CriticalState {
     pub floor_overlap: f64,
     /// c, force between the bottom cylinders, in k_n r.
     pub bottom_force: f64,
-    /// How far the top wall has moved, in r.
+    /// Wall travel, in r.
     pub wall_travel: f64,
 }

@@ -9,14 +9,14 @@ use crate::model::{Arms, Stack};
 /// The path of equilibria, with c > 0 where the bottom cylinders touch. Floor friction and cylinder
 /// friction decide how far a stack gets on it, and nothing else.
 pub struct EquilibriumPath {
-    path: CoursePath,
+    path: PathKind,
     closes: bool,
     epsilon: f64,
     /// The parameter at which the top wall reaches the bottom cylinders.
     wall_contact: Option<f64>,
 }
 
-enum CoursePath {
+enum PathKind {
     /// c = 0 all the way: the closed form.
     Open(ClosedForm),
     /// Contact 2–3 closes somewhere: followed.
@@ -30,9 +30,9 @@ impl EquilibriumPath {
         let closes = locate(&open, Event::ContactCloses, stack).is_some();
         let path = if closes {
             let followed = followed_path(stack, &Arms::PAPER, BottomContact::Followed);
-            CoursePath::Closing(followed)
+            PathKind::Closing(followed)
         } else {
-            CoursePath::Open(open)
+            PathKind::Open(open)
         };
         let wall_contact = locate(path.as_path(), Event::WallContact, stack);
         Self {
@@ -144,7 +144,7 @@ impl EquilibriumPath {
     }
 }
 
-impl CoursePath {
+impl PathKind {
     fn as_path(&self) -> &dyn Path {
         match self {
             Self::Open(path) => path,
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn what_happens_is_told_with_force_stage_and_travel() {
+    fn a_critical_state_has_force_stage_and_travel() {
         let path = path(2.5);
         let settled = path.settled();
         let at_rest = path.critical_state(Event::FloorSlip, settled);

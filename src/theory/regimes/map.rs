@@ -39,7 +39,7 @@ impl Axis {
         }
     }
 
-    /// Its name in tables and on the command line.
+    /// The name in tables and on the command line.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Stiffness => "stiffness",
@@ -67,7 +67,7 @@ pub struct RegimeMap {
     pub frictions: (f64, f64),
 }
 
-/// Values of an axis between which a line is looked for.
+/// Number of values of an axis between which lines are sought.
 const SEARCHED_VALUES: usize = 65;
 
 impl RegimeMap {
@@ -100,7 +100,7 @@ impl RegimeMap {
         spread(self.frictions, count, false)
     }
 
-    /// How much of the axis a part of it takes up, on the scale on which it is spread.
+    /// Length of a part of the axis, on the scale on which the axis is spread.
     pub fn width(&self, (from, to): (f64, f64)) -> f64 {
         if self.axis.is_logarithmic() {
             libm::log(to / from)
@@ -131,8 +131,8 @@ impl RegimeMap {
             .collect()
     }
 
-    /// The values on the axis at which something changes whatever the floor friction is: where the cylinders
-    /// just bear their own weight, where they slip just as the wall arrives, and where contact 2–3 closes.
+    /// The boundaries that do not depend on the floor friction: where the cylinders just bear their own weight,
+    /// where they slip just as the wall arrives, and where contact 2–3 closes.
     pub fn lines(&self) -> Vec<Line> {
         let mut lines = Vec::new();
         let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
@@ -153,8 +153,7 @@ impl RegimeMap {
         lines
     }
 
-    /// The floor friction from which on `line` separates anything: with less, the floor slips first on both
-    /// sides of it.
+    /// The floor friction above which `line` is a boundary: with less, the floor slips first on both sides of it.
     pub fn lowest_friction_of(&self, line: Line) -> f64 {
         let path = EquilibriumPath::new(&self.axis.set(&self.base, line.value()));
         let end = match line {
@@ -167,7 +166,7 @@ impl RegimeMap {
 
     /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the
     /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
-    /// and those at which what ends a stack beyond them changes.
+    /// and those at which the failure of a stack beyond them changes.
     pub fn reopenings(&self) -> Vec<f64> {
         let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
         let settled = self.roots(|value| path(value).settled_outward());
@@ -180,7 +179,7 @@ impl RegimeMap {
         settled.chain(wall).chain(pair).collect()
     }
 
-    /// Points on every boundary, with what lies on either side at a relative distance of `distance`: on the
+    /// Points on every boundary, with the outcomes on both sides at a relative distance of `distance`: on the
     /// boundaries in μ at `count` values on the axis, on each line at `count` floor frictions.
     pub fn boundary_points(&self, count: usize, distance: f64) -> Vec<BoundaryPoint> {
         let mut places = Vec::new();
@@ -258,7 +257,7 @@ impl Across {
     }
 }
 
-/// A stack on a boundary, and what is claimed of its neighbours.
+/// A stack on a boundary, and the predicted outcomes of its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryPoint {
     /// The map, by the axis that it has besides the floor friction.

@@ -192,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stages_regimes_and_consequences_have_words() {
+    fn stages_regimes_and_failure_modes_have_words() {
         assert_eq!(LoadingPhase::OwnWeight.to_string(), "own weight");
         assert_eq!(LoadingPhase::Wall.to_string(), "wall");
         let regime = |first, last, last_stage| Regime {

@@ -61,7 +61,7 @@ pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
 }
 
 /// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0.
-pub fn released_wall_tangent(stack: &Stack) -> Option<f64> {
+pub(crate) fn released_wall_tangent(stack: &Stack) -> Option<f64> {
     wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond)
 }
 
@@ -77,7 +77,7 @@ fn touching_overlap(beyond: f64) -> f64 {
     beyond * (CRITICAL_FRICTION.recip() - tangent) / (2.0 * tangent)
 }
 
-/// How far the top wall is above the bottom cylinders where these just touch, ρ cos ψ − ε F.
+/// Height of the top wall above the bottom cylinders where these just touch, ρ cos ψ − ε F.
 fn clearance(beyond: f64, epsilon: f64) -> f64 {
     let tangent = CRITICAL_FRICTION + beyond;
     let square = tangent * tangent;

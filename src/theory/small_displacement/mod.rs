@@ -11,8 +11,8 @@ mod quintic;
 mod rigid;
 
 pub use elastic::{ElasticRoot, elastic_root};
-pub use naive::naive_load;
-pub use perturbation::perturbation_load;
+pub(crate) use naive::naive_load;
+pub(crate) use perturbation::perturbation_load;
 #[cfg(test)]
 use quintic::quintic_displacement;
 pub use rigid::{RigidYield, rigid_yield};
@@ -27,7 +27,7 @@ fn vanishing_alpha(floor_friction: f64) -> f64 {
 }
 
 /// z⋆ (paper, Eq. 12), the displacement at yield of infinitely stiff cylinders above μ_c, in r.
-pub fn displacement_of_stiff_cylinders(floor_friction: f64, stiffness_ratio: f64) -> f64 {
+pub(crate) fn displacement_of_stiff_cylinders(floor_friction: f64, stiffness_ratio: f64) -> f64 {
     let mu = floor_friction;
     let geometry = 1.0 + mu * mu;
     (mu - CRITICAL_FRICTION) * (mu + CRITICAL_FRICTION.recip())

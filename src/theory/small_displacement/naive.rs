@@ -5,7 +5,7 @@ use crate::model::{CRITICAL_FRICTION, Stack};
 
 /// F + 3 = 2 z/(ε r) to leading order in ε: μ_c/(μ_c − μ) ε below μ_c, its square root at μ_c, z⋆ above
 /// (paper, Eq. 13). `None` where it contradicts F ≥ 0.
-pub fn naive_load(stack: &Stack) -> Option<f64> {
+pub(crate) fn naive_load(stack: &Stack) -> Option<f64> {
     let mu = stack.floor_friction;
     let epsilon = stack.epsilon();
     let kappa = stack.stiffness_ratio;

@@ -4,7 +4,7 @@ use super::{SQRT_3, displacement_of_stiff_cylinders, vanishing_alpha};
 use crate::model::Stack;
 
 /// F + 3 = (z⋆ + √(z⋆² + 4 ε Φ))/ε (paper, Eq. 17). `None` where it is not real or contradicts F ≥ 0.
-pub fn perturbation_load(stack: &Stack) -> Option<f64> {
+pub(crate) fn perturbation_load(stack: &Stack) -> Option<f64> {
     let epsilon = stack.epsilon();
     let kappa = stack.stiffness_ratio;
     let stiff = displacement_of_stiff_cylinders(stack.floor_friction, kappa);

@@ -1,52 +1,36 @@
-//! Appendix A: every equation at states that solve the unreduced ones.
+//! Appendix A: every equation, evaluated at solutions of the unreduced equations.
 
 use super::Check;
-use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::paper::claims::finding::{Finding, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::paper::claims::truth::{RADIUS, YieldState, yield_states};
+use crate::paper::claims::truth::{
+    Displacements, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
+};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("five-unknowns", five_unknowns),
-    Check::theory("slip-condition", |paper| {
-        at_states(|state| imbalance(&paper.slip_condition_terms(state)))
-    }),
-    Check::theory("first-of-xyz", |paper| {
-        at_states(|state| imbalance(&paper.first_terms(state)))
-    }),
-    Check::theory("second-of-xyz", |paper| {
-        at_states(|state| imbalance(&paper.second_terms(state)))
-    }),
-    Check::theory("third-of-xyz", |paper| {
-        at_states(|state| imbalance(&paper.third_terms(state)))
-    }),
+    Check::at_states("slip-condition", PaperTheory::slip_condition),
+    Check::at_states("first-of-xyz", PaperTheory::first_of_xyz),
+    Check::at_states("second-of-xyz", PaperTheory::second_of_xyz),
+    Check::at_states("third-of-xyz", PaperTheory::third_of_xyz),
     Check::theory("auxiliary-functions", auxiliary_functions),
-    Check::theory("a-eliminated", |paper| {
-        at_states(|state| imbalance(&paper.eliminated_terms(state)))
-    }),
+    Check::at_states("a-eliminated", PaperTheory::a_eliminated),
     Check::theory("factors-not-zero", factors_not_zero),
-    Check::theory("sum-relation", |paper| {
-        at_states(|state| imbalance(&paper.sum_terms(state)))
-    }),
-    Check::theory("conjugate-relation", |paper| {
-        at_states(|state| imbalance(&paper.conjugate_terms(state)))
-    }),
-    Check::theory("slope-relation", |paper| {
-        at_states(|state| imbalance(&paper.slope_terms(state)))
-    }),
-    Check::theory("closed-form", |paper| {
-        at_states(|state| imbalance(&paper.closed_terms(state)))
-    }),
+    Check::at_states("sum-relation", PaperTheory::sum_relation),
+    Check::at_states("conjugate-relation", PaperTheory::conjugate_relation),
+    Check::at_states("slope-relation", PaperTheory::slope_relation),
+    Check::at_states("closed-form", PaperTheory::closed_form),
     Check::theory("non-negative-variables", non_negative_variables),
 ];
 
 const COMPARED: &str = "put in solutions of the five unreduced equations (Newton's method; mu = 0.1 to 0.7, \
                         1/epsilon = 1e2 to 1e4, kappa = 1, 2.5, 10; r and k_n not 1)";
 
-fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
+pub(crate) fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
     Finding::identity(yield_states().iter().map(deviation), COMPARED)
 }
 
-/// The Jacobian of the five equations is regular, so that Newton's method finds isolated solutions.
+/// Newton's method finds isolated solutions, because the Jacobian of the five equations is regular.
 fn five_unknowns(_: &PaperTheory) -> Finding {
     let expected = 90;
     let found = yield_states().len();
@@ -54,27 +38,29 @@ fn five_unknowns(_: &PaperTheory) -> Finding {
         "Newton's method on the five equations (three balances of cylinder 2, one of cylinder 1, e = mu d) in \
          delta_11, delta_21, delta_22, theta and f, with a regular Jacobian, has converged for {found} of {expected} stacks"
     );
-    Finding::new((expected - found) as f64, 0.0, evidence)
+    Finding::exceptions(expected - found, evidence)
 }
 
-/// A = (a S)(S …)²: what A, B and C are in terms of the forces, with S the distance of the centres.
+/// A, B and C in terms of the forces, with S the distance of the centres.
 ///
-/// a = k_n [x(√3r − x) − y(r + y)]/S and b = e = μ k_n z; with r(x + √3y) = S (2μκz − y),
+/// From a = k_n [x(√3r − x) − y(r + y)]/S and b = e = μ k_n z; with r(x + √3y) = S (2μκz − y),
 /// A = a S w²/k_n, B = b S w² z/(k_n z), C = S² w² z for w = 2μκz − y.
 fn auxiliary_functions(paper: &PaperTheory) -> Finding {
     at_states(|state| {
         let [a, b, c] = paper.auxiliary(state);
         let forces = state.forces();
-        let stiffness = crate::paper::claims::truth::NORMAL_STIFFNESS;
         let moved = &state.displacements;
         let distance = (moved.upper(RADIUS) - moved.lower(RADIUS)).norm();
         // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
-        let twice = state.ratio * (forces.b + forces.e) / stiffness;
+        let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
         let square = (twice - state.y()).powi(2);
         worst([
-            relative(a, forces.a * distance * square / stiffness),
-            relative(b, forces.b * distance * square / stiffness),
-            relative(c, distance * distance * square * forces.d / stiffness),
+            relative(a, forces.a * distance * square / NORMAL_STIFFNESS),
+            relative(b, forces.b * distance * square / NORMAL_STIFFNESS),
+            relative(
+                c,
+                distance * distance * square * forces.d / NORMAL_STIFFNESS,
+            ),
         ])
     })
 }
@@ -89,10 +75,10 @@ fn factors_not_zero(paper: &PaperTheory) -> Finding {
     let evidence = format!(
         "{COMPARED}: (x + sqrt3 y)/(epsilon r) and (r + y)/r are both at least {smallest:.3}"
     );
-    Finding::new(if smallest > 0.0 { 0.0 } else { 1.0 }, 0.0, evidence)
+    Finding::statement(smallest > 0.0, evidence)
 }
 
-/// Is "x, y, z ≥ 0" what keeps a, b, d and e positive?
+/// Whether "x, y, z ≥ 0" is necessary or sufficient for a, b, d and e to be positive.
 fn non_negative_variables(paper: &PaperTheory) -> Finding {
     let states = yield_states();
     let positive = |state: &&YieldState| {
@@ -104,8 +90,8 @@ fn non_negative_variables(paper: &PaperTheory) -> Finding {
     let inward = states.iter().filter(|state| state.y() < 0.0);
     let needless = inward.clone().filter(positive).count();
     let inward = inward.count();
-    // x = 0 and y, z > 0: the normal force is −k_n y (r + y)/S whatever the rest is.
-    let moved = crate::paper::claims::truth::Displacements {
+    // With x = 0 and y, z > 0 the normal force is −k_n y (r + y)/S.
+    let moved = Displacements {
         delta_11: 0.01,
         delta_21: 0.01,
         delta_22: 0.02,
@@ -118,5 +104,5 @@ fn non_negative_variables(paper: &PaperTheory) -> Finding {
          bottom cylinders apart, c = 0"
     );
     let violations = needless + usize::from(pulling < 0.0);
-    Finding::new(violations as f64, 0.0, evidence)
+    Finding::exceptions(violations, evidence)
 }

@@ -1,13 +1,14 @@
-//! The DEM's contact law as the paper writes it, held against kinematics, energy and the motion it causes.
+//! The DEM's contact law as printed, compared with kinematics, energy and the motion that it causes.
 
 use super::Check;
 use crate::model::Stack;
-use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, worst};
+use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, violation, worst};
 use crate::paper::claims::printed::{PaperTheory, Sliding};
+use crate::paper::claims::truth::{NORMAL_STIFFNESS as STIFFNESS, RADIUS};
 use crate::theory::{LoadingOutcome, LoadingPhase};
 use nalgebra::Vector2;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("overlap", overlap),
     Check::theory("normal-force", normal_force),
     Check::theory("tangential-spring", tangential_spring),
@@ -22,109 +23,96 @@ pub const CHECKS: &[Check] = &[
     Check::theory("pair-restitution", pair_restitution),
 ];
 
-const STIFFNESS: f64 = 2.3;
 const MASS: f64 = 0.8;
-const RADIUS: f64 = 1.7;
+/// e_r of the paper.
+const RESTITUTION: f64 = 0.7;
 
-/// Numbers without a pattern between −1 and 1.
-fn samples(count: u32) -> impl Iterator<Item = f64> {
-    (1..=count).map(|index| (f64::from(index) * 2.399_963).sin())
+/// An identity at `count` numbers without a pattern between −1 and 1.
+fn at_samples(count: u32, compared: &str, deviation: impl Fn(f64) -> f64) -> Finding {
+    let samples = (1..=count).map(|index| (f64::from(index) * 2.399_963).sin());
+    Finding::identity(samples.map(deviation), compared)
+}
+
+/// The unit vector at an angle from the x-axis.
+fn unit_vector(angle: f64) -> Vector2<f64> {
+    Vector2::new(angle.cos(), angle.sin())
 }
 
 fn overlap(paper: &PaperTheory) -> Finding {
     let deviations = [3.1, 3.39, 3.41].map(|distance| {
-        // How far the surfaces interpenetrate on the line of centres.
+        // Interpenetration of the surfaces on the line of centres.
         let (right_of_left, left_of_right) = (RADIUS, distance - RADIUS);
         (paper.overlap(distance, RADIUS) - (right_of_left - left_of_right)).abs()
     });
-    Finding::identity(
-        deviations,
-        "positions of the two surfaces on the line of centres",
-    )
+    let compared = "positions of the two surfaces on the line of centres";
+    Finding::identity(deviations, compared)
 }
 
 fn normal_force(paper: &PaperTheory) -> Finding {
     let energy = |overlap: f64| 0.5 * STIFFNESS * overlap.max(0.0).powi(2);
     let damping = 0.6;
-    let deviations: Vec<f64> = samples(30)
-        .map(|sample| {
-            let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
-            let step = 1e-6;
-            let spring = (energy(overlap + step) - energy(overlap - step)) / (2.0 * step);
-            // The dashpot takes the power η v².
-            let power = if overlap > 0.0 {
-                -damping * velocity * velocity
-            } else {
-                0.0
-            };
-            let force = paper.normal_force(STIFFNESS, damping, overlap, velocity);
-            ((force - spring) * velocity - power).abs()
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact",
-    )
+    let compared = "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact";
+    at_samples(30, compared, |sample| {
+        let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
+        let step = 1e-6;
+        let spring = (energy(overlap + step) - energy(overlap - step)) / (2.0 * step);
+        // The dashpot takes the power η v².
+        let power = if overlap > 0.0 {
+            -damping * velocity * velocity
+        } else {
+            0.0
+        };
+        let force = paper.normal_force(STIFFNESS, damping, overlap, velocity);
+        ((force - spring) * velocity - power).abs()
+    })
 }
 
 fn tangential_spring(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(30)
-        .map(|sample| {
-            let contact = Sliding {
-                stiffness: STIFFNESS,
-                damping: 0.6,
-                stretch: 0.1 * sample,
-                velocity: (5.0 * sample).sin(),
-                cap: f64::INFINITY,
-            };
-            let spring_power = -STIFFNESS * contact.stretch * contact.velocity;
-            let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
-            (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
-        })
-        .collect();
-    Finding::identity(deviations, "power of a spring k_t and of a dashpot eta_t")
+    let compared = "power of a spring k_t and of a dashpot eta_t";
+    at_samples(30, compared, |sample| {
+        let contact = Sliding {
+            stiffness: STIFFNESS,
+            damping: 0.6,
+            stretch: 0.1 * sample,
+            velocity: (5.0 * sample).sin(),
+            cap: f64::INFINITY,
+        };
+        let spring_power = -STIFFNESS * contact.stretch * contact.velocity;
+        let dashpot_power = -contact.damping * contact.velocity * contact.velocity;
+        (paper.sticking_force(&contact) * contact.velocity - spring_power - dashpot_power).abs()
+    })
 }
 
 fn pair_tangent(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(20)
-        .map(|sample| {
-            let separation = Vector2::new((9.0 * sample).cos(), (9.0 * sample).sin()) * 3.3;
-            let tangent = paper.pair_tangent(separation);
-            let quarter_turn = Vector2::new(-separation.y, separation.x).normalize();
-            worst([
-                tangent.dot(&separation).abs(),
-                (tangent - quarter_turn).norm(),
-            ])
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "product with the line of centres, and n turned by 90 degrees",
-    )
+    let compared = "product with the line of centres, and n turned by 90 degrees";
+    at_samples(20, compared, |sample| {
+        let separation = unit_vector(9.0 * sample) * 3.3;
+        let tangent = paper.pair_tangent(separation);
+        let quarter_turn = Vector2::new(-separation.y, separation.x).normalize();
+        worst([
+            tangent.dot(&separation).abs(),
+            (tangent - quarter_turn).norm(),
+        ])
+    })
 }
 
-/// Surface velocities at the contact point from v + ω × arm, with arms r along the line of centres.
+/// Surface velocities at the contact point are v + ω × arm, with arms r along the line of centres.
 fn tangential_velocity(paper: &PaperTheory) -> Finding {
-    let deviations: Vec<f64> = samples(20)
-        .map(|sample| {
-            let normal = Vector2::new((9.0 * sample).cos(), (9.0 * sample).sin());
-            let velocity = Vector2::new(sample, (3.0 * sample).cos());
-            let spins = [(4.0 * sample).sin(), (6.0 * sample).sin()];
-            let surface = |spin: f64, arm: Vector2<f64>| Vector2::new(-arm.y, arm.x) * spin;
-            let difference =
-                velocity + surface(spins[0], -normal * RADIUS) - surface(spins[1], normal * RADIUS);
-            let tangent = Vector2::new(-normal.y, normal.x);
-            let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
-            (printed - difference.dot(&tangent)).abs()
-        })
-        .collect();
-    Finding::identity(
-        deviations,
-        "velocities of the two surfaces from rigid motion with arms r",
-    )
+    let compared = "velocities of the two surfaces from rigid motion with arms r";
+    at_samples(20, compared, |sample| {
+        let normal = unit_vector(9.0 * sample);
+        let velocity = Vector2::new(sample, (3.0 * sample).cos());
+        let spins = [(4.0 * sample).sin(), (6.0 * sample).sin()];
+        let surface = |spin: f64, arm: Vector2<f64>| Vector2::new(-arm.y, arm.x) * spin;
+        let difference =
+            velocity + surface(spins[0], -normal * RADIUS) - surface(spins[1], normal * RADIUS);
+        let tangent = Vector2::new(-normal.y, normal.x);
+        let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
+        (printed - difference.dot(&tangent)).abs()
+    })
 }
 
-/// A contact dragged at a constant speed: the force must rise to the cap and stay there, the spring stop.
+/// In a contact dragged at a constant speed the force rises to the cap and stays there, and the spring stops.
 fn stick(paper: &PaperTheory) -> Finding {
     let (cap, step) = (0.4, 1e-4);
     let mut contact = Sliding {
@@ -150,7 +138,7 @@ fn stick(paper: &PaperTheory) -> Finding {
     Finding::new(worst([overshoot, stretch]), 1.01 * one_step, evidence)
 }
 
-/// The force on both sides of the Coulomb threshold, and where the contact does not move.
+/// The force must be continuous at the Coulomb threshold, and defined where the contact does not move.
 fn cap_direction(paper: &PaperTheory) -> Finding {
     let (cap, damping) = (0.4, 0.05);
     let jump = |velocity: f64| {
@@ -181,11 +169,11 @@ fn cap_direction(paper: &PaperTheory) -> Finding {
          further, {unloading:.2} while it relaxes; a contact at rest with |h_t| above the cap has {} force",
         if undefined { "no defined" } else { "a defined" }
     );
-    let deviation = worst([loading, unloading, if undefined { 1.0 } else { 0.0 }]);
+    let deviation = worst([loading, unloading, violation(!undefined)]);
     Finding::new(deviation, ROUND_OFF, evidence)
 }
 
-/// With the printed cap between cylinders, does a stack that is said to yield at the floor get that far?
+/// Whether stacks that the paper has yield at the floor stand until then, with the printed cap between cylinders.
 fn cap_between_cylinders(paper: &PaperTheory) -> Finding {
     let frictions = [0.12, 0.15, 0.2, 0.25];
     let fallen: Vec<f64> = frictions
@@ -223,43 +211,44 @@ fn arm_correction(paper: &PaperTheory) -> Finding {
     Finding::new((paper.arm_order - order).abs(), 1e-6, evidence)
 }
 
-/// Restitution of an oscillator with mass, stiffness and damping over half a period, by numerical integration
-/// until the displacement is back at zero.
+/// Restitution of a damped oscillator over half a period, integrated until the displacement is back at zero.
 fn restitution(mass: f64, stiffness: f64, damping: f64) -> f64 {
     let step = 1e-3 * (mass / stiffness).sqrt();
-    let acceleration = |x: f64, v: f64| (-stiffness * x - damping * v) / mass;
-    let (mut x, mut v) = (0.0, 1.0);
+    // The state is (x, v); a Runge–Kutta method of fourth order.
+    let rate = |state: Vector2<f64>| {
+        Vector2::new(state.y, (-stiffness * state.x - damping * state.y) / mass)
+    };
+    let mut state = Vector2::new(0.0, 1.0);
     loop {
-        let (x1, v1) = (v, acceleration(x, v));
-        let (x2, v2) = (
-            v + 0.5 * step * v1,
-            acceleration(x + 0.5 * step * x1, v + 0.5 * step * v1),
-        );
-        let (x3, v3) = (
-            v + 0.5 * step * v2,
-            acceleration(x + 0.5 * step * x2, v + 0.5 * step * v2),
-        );
-        let (x4, v4) = (v + step * v3, acceleration(x + step * x3, v + step * v3));
-        let next_x = x + step * (x1 + 2.0 * x2 + 2.0 * x3 + x4) / 6.0;
-        let next_v = v + step * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0;
-        if next_x <= 0.0 || !next_x.is_finite() {
+        let first = rate(state);
+        let second = rate(state + 0.5 * step * first);
+        let third = rate(state + 0.5 * step * second);
+        let fourth = rate(state + step * third);
+        let next = state + step * (first + 2.0 * second + 2.0 * third + fourth) / 6.0;
+        if next.x <= 0.0 || !next.x.is_finite() {
             // Near the end the motion is straight to second order in the step.
-            let part = if x > 0.0 { x / (x - next_x) } else { f64::NAN };
-            return -(v + part * (next_v - v));
+            let part = if state.x > 0.0 {
+                state.x / (state.x - next.x)
+            } else {
+                f64::NAN
+            };
+            return -(state.y + part * (next.y - state.y));
         }
-        (x, v) = (next_x, next_v);
+        state = next;
     }
 }
 
-/// Deviation that the integration of a collision may have.
-const COLLISION: f64 = 1e-6;
+/// The measured `restitution` must be that of the paper, up to the error of the integration.
+fn restores(restitution: f64, evidence: String) -> Finding {
+    Finding::new((restitution - RESTITUTION).abs(), 1e-6, evidence)
+}
 
 fn normal_damping(paper: &PaperTheory) -> Finding {
     let measured = restitution(MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
     let evidence = format!(
         "a cylinder thrown against a wall with this eta_n, integrated: restitution {measured:.5}"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }
 
 fn tangential_damping(paper: &PaperTheory) -> Finding {
@@ -270,7 +259,7 @@ fn tangential_damping(paper: &PaperTheory) -> Finding {
         "a mass m on a spring k_t with this eta_t, integrated: restitution {measured:.5}. (A cylinder free to turn \
          has the tangential mass m/3 at a wall and {turning:.3}.)"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }
 
 fn pair_restitution(paper: &PaperTheory) -> Finding {
@@ -278,5 +267,5 @@ fn pair_restitution(paper: &PaperTheory) -> Finding {
     let evidence = format!(
         "two cylinders thrown against each other with this eta_n (reduced mass m/2), integrated: restitution {measured:.5}"
     );
-    Finding::new((measured - 0.7).abs(), COLLISION, evidence)
+    restores(measured, evidence)
 }

@@ -1,15 +1,16 @@
-//! Eqs. (6) to (10) and (12), and what is said around them.
+//! Eqs. (6) to (10) and (12), and the statements around them.
 
 use super::Check;
 use crate::model::{Arms, CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::paper::claims::finding::{Finding, list, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
-    NORMAL_STIFFNESS, RADIUS, YieldState, figure_loads, yield_states,
+    NORMAL_STIFFNESS, RADIUS, RATIOS, YieldState, elastic_displacement, figure_loads, pairs,
+    yield_states,
 };
 use crate::theory::{elastic_root, pair_overlap, quasistatic_limit};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("epsilon", epsilon),
     Check::theory("floor-load", floor_load),
     Check::theory("lowest-displacement", lowest_displacement),
@@ -46,20 +47,16 @@ fn epsilon(paper: &PaperTheory) -> Finding {
             sinking,
         )
     });
-    Finding::identity(
-        deviations,
-        "epsilon r against how far one cylinder sinks into the floor under its weight",
-    )
+    let compared = "epsilon r against how far one cylinder sinks into the floor under its weight";
+    Finding::identity(deviations, compared)
 }
 
 fn floor_load(paper: &PaperTheory) -> Finding {
-    at_states(
-        "(f + 3mg)/mg of the solution against 2z/(epsilon r)",
-        |state| {
-            let load = state.force / state.weight() + 3.0;
-            relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
-        },
-    )
+    let compared = "(f + 3mg)/mg of the solution against 2z/(epsilon r)";
+    at_states(compared, |state| {
+        let load = state.force / state.weight() + 3.0;
+        relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
+    })
 }
 
 fn lowest_displacement(paper: &PaperTheory) -> Finding {
@@ -76,56 +73,47 @@ fn lowest_displacement(paper: &PaperTheory) -> Finding {
 
 fn elastic_equation(paper: &PaperTheory) -> Finding {
     at_states("z against r D E at the solution's own alpha", |state| {
-        imbalance(&paper.closed_terms(state))
+        paper.closed_form(state)
     })
 }
 
 /// 𝒟 = (T² + 2√3 T − 1)/(T (1 + T²))/(1 − α) with T read off the solution's geometry.
 fn script_d(paper: &PaperTheory) -> Finding {
-    at_states(
-        "D against its value in terms of the angle of the line of centres",
-        |state| {
-            let tangent = state.half_angle_tangent();
-            let square = tangent * tangent;
-            let truth = (square + 2.0 * 3f64.sqrt() * tangent - 1.0) / (tangent * (1.0 + square));
-            let printed = paper.geometry(state.friction, state.alpha()) * (1.0 - state.alpha());
-            // 𝒟 vanishes with the displacements: it is compared with its terms, which are of order 1.
-            (printed - truth).abs()
-        },
-    )
+    let compared = "D against its value in terms of the angle of the line of centres";
+    at_states(compared, |state| {
+        let tangent = state.half_angle_tangent();
+        let square = tangent * tangent;
+        let truth = (square + 2.0 * 3f64.sqrt() * tangent - 1.0) / (tangent * (1.0 + square));
+        let printed = paper.geometry(state.friction, state.alpha()) * (1.0 - state.alpha());
+        // 𝒟 vanishes with the displacements, but its terms are of order 1: the deviation is relative to them.
+        (printed - truth).abs()
+    })
 }
 
 /// ℰ = 1/(1 + κ(1 + T²)).
 fn script_e(paper: &PaperTheory) -> Finding {
-    at_states(
-        "E against its value in terms of the angle of the line of centres",
-        |state| {
-            let tangent = state.half_angle_tangent();
-            let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
-            relative(
-                paper.compliance(state.friction, state.ratio, state.alpha()),
-                truth,
-            )
-        },
-    )
+    let compared = "E against its value in terms of the angle of the line of centres";
+    at_states(compared, |state| {
+        let tangent = state.half_angle_tangent();
+        let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
+        relative(
+            paper.compliance(state.friction, state.ratio, state.alpha()),
+            truth,
+        )
+    })
 }
 
 const WIDE: [f64; 8] = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5, 0.7];
 
 fn stiff_displacement(paper: &PaperTheory) -> Finding {
-    let mut deviations = Vec::new();
-    for mu in WIDE {
-        for kappa in [1.0, 2.5, 10.0] {
-            let square = mu * mu;
-            let numerator = square + 2.0 * 3f64.sqrt() * mu - 1.0;
-            let truth = RADIUS * numerator / (mu * (1.0 + square)) / (1.0 + kappa * (1.0 + square));
-            deviations.push(relative(paper.stiff_displacement(mu, kappa, RADIUS), truth));
-        }
-    }
-    Finding::identity(
-        deviations,
-        "the right side of the elastic equation at alpha = 0, in terms of T = mu",
-    )
+    let deviations = pairs(WIDE, RATIOS).map(|(mu, kappa)| {
+        let square = mu * mu;
+        let numerator = square + 2.0 * 3f64.sqrt() * mu - 1.0;
+        let truth = RADIUS * numerator / (mu * (1.0 + square)) / (1.0 + kappa * (1.0 + square));
+        relative(paper.stiff_displacement(mu, kappa, RADIUS), truth)
+    });
+    let compared = "the right side of the elastic equation at alpha = 0, in terms of T = mu";
+    Finding::identity(deviations, compared)
 }
 
 fn changes_sign(paper: &PaperTheory) -> Finding {
@@ -134,24 +122,14 @@ fn changes_sign(paper: &PaperTheory) -> Finding {
     let (below, above) = (at(CRITICAL_FRICTION - 1e-9), at(CRITICAL_FRICTION + 1e-9));
     let evidence =
         format!("z_star is {below:.2e} r at mu_c - 1e-9 and {above:.2e} r at mu_c + 1e-9");
-    Finding::new(
-        if below < 0.0 && above > 0.0 { 0.0 } else { 1.0 },
-        0.0,
-        evidence,
-    )
+    Finding::statement(below < 0.0 && above > 0.0, evidence)
 }
 
 fn stiff_limit(paper: &PaperTheory) -> Finding {
-    let mut largest = 0.0f64;
-    for mu in [0.28, 0.3, 0.4, 0.5, 0.7] {
-        let stack = Stack {
-            stiffness_ratio: paper.stiffness_ratio,
-            ..Stack::paper(mu, 1e8)
-        };
-        let root = elastic_root(&stack).map_or(f64::NAN, |root| root.z);
+    let largest = worst([0.28, 0.3, 0.4, 0.5, 0.7].map(|mu| {
         let printed = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0);
-        largest = crate::paper::claims::finding::worse(largest, relative(root, printed));
-    }
+        relative(elastic_displacement(&paper.stack(mu, 1e8)), printed)
+    }));
     let evidence = format!(
         "root of the elastic equation at 1/epsilon = 1e8 against z_star, mu = 0.28 to 0.7: largest relative \
          difference {largest:.1e} (it falls as epsilon)"
@@ -167,13 +145,11 @@ fn stiff_limit_of_dem(paper: &PaperTheory) -> Finding {
             paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / exact - 1.0,
         )
     });
-    let listed: Vec<String> = differences
-        .iter()
-        .map(|(mu, difference)| format!("{:+.2} % at mu = {mu}", 100.0 * difference))
-        .collect();
+    let listed =
+        differences.map(|(mu, difference)| format!("{:+.2} % at mu = {mu}", 100.0 * difference));
     let evidence = format!(
         "z_star against the displacement G(mu) at which the DEM's exact quasi-static limit slips for epsilon -> 0: {}",
-        listed.join(", ")
+        list(listed)
     );
     Finding::new(
         worst(differences.map(|(_, difference)| difference.abs())),
@@ -187,14 +163,11 @@ fn small_displacements(_: &PaperTheory) -> Finding {
         let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &Arms::PAPER);
         (mu, limit.z.unwrap_or(f64::NAN))
     });
-    let listed: Vec<String> = displacements
-        .iter()
-        .map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"))
-        .collect();
+    let listed = displacements.map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"));
     let evidence = format!(
         "z at yield in the exact quasi-static limit at 1/epsilon = 1e8: {}. Above mu_c displacements do not become small \
          as epsilon -> 0, and the springs' linearisation is off there at any stiffness",
-        listed.join(", ")
+        list(listed)
     );
     Finding::new(worst(displacements.map(|(_, z)| z)), 1e-3, evidence)
 }
@@ -209,7 +182,7 @@ fn slip_above_critical(_: &PaperTheory) -> Finding {
          (0.27 to 0.5), at a finite force",
         frictions.len()
     );
-    Finding::new((frictions.len() - yields) as f64, 0.0, evidence)
+    Finding::exceptions(frictions.len() - yields, evidence)
 }
 
 /// Largest deviation of F + 3 from the exact quasi-static limit over Fig. 2(a), and where.
@@ -218,7 +191,7 @@ fn over_figure(load: impl Fn(&Stack) -> f64) -> (f64, f64, f64) {
         let deviation = relative(load(stack), *exact);
         (deviation, stack.floor_friction, stack.stiffness)
     });
-    // A deviation that is not a number counts as the largest.
+    // In this order a deviation that is not a number is the largest.
     let largest = compared.max_by(|left, right| left.0.total_cmp(&right.0));
     largest.unwrap_or((f64::NAN, f64::NAN, f64::NAN))
 }

@@ -2,11 +2,11 @@
 
 use super::Check;
 use crate::model::{Arms, CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, worst};
+use crate::paper::claims::finding::{Finding, list, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::theory::{floor_slip_force, quasistatic_limit};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("epsilon-of-elasticity", epsilon_of_elasticity),
     Check::theory("epsilon-of-elastomer", epsilon_of_elastomer),
     Check::theory("elastomer-in-range", elastomer_in_range),
@@ -74,9 +74,9 @@ fn force_is_inverse_epsilon(_: &PaperTheory) -> Finding {
     let factors =
         frictions.map(|mu| floor_slip_force(&Stack::paper(mu, 1e4)).unwrap_or(f64::NAN) / 1e4);
     let evidence = format!(
-        "epsilon f/mg of the exact quasi-static limit at 1/epsilon = 1e4: {:.3}, {:.3}, {:.3}, {:.3}, {:.3} at mu = mu_c, 0.28, 0.3, 0.4, 0.5: the order of \
+        "epsilon f/mg of the exact quasi-static limit at 1/epsilon = 1e4: {} at mu = mu_c, 0.28, 0.3, 0.4, 0.5: the order of \
          magnitude is right from 0.3 on, up to a factor of 5",
-        factors[0], factors[1], factors[2], factors[3], factors[4]
+        list(factors.map(|factor| format!("{factor:.3}")))
     );
     let deviation = worst(factors[2..].iter().map(|&factor| decades(factor, 1.0)));
     Finding::new(deviation, 0.0, evidence)
@@ -98,11 +98,11 @@ fn mass_of_estimates(paper: &PaperTheory) -> Finding {
     Finding::new(decades(cube, paper.estimate_mass), 1e-9, evidence)
 }
 
-/// The paper gives no modulus of wood; the force implies one.
+/// The force implies a modulus of wood, which the paper does not give.
 fn force_of_wood(paper: &PaperTheory) -> Finding {
     let epsilon = paper.estimate_mass * GRAVITY / paper.wood_force;
     let modulus = paper.elastomer_length * paper.elastomer_density * GRAVITY / epsilon;
-    // Across the grain, which is how a cylinder on its side is pressed: 0.3 to 2 GPa.
+    // A cylinder on its side is pressed across the grain: 0.3 to 2 GPa.
     let across = 1e9;
     let evidence = format!(
         "the paper gives no modulus; mg/epsilon = 1e5 N implies epsilon = {epsilon:.1e} and E = {:.2} GPa, that of wood across the grain (0.3 to 2 GPa); \
@@ -125,11 +125,7 @@ fn movie_density(paper: &PaperTheory) -> Finding {
 fn stiffness_range(paper: &PaperTheory) -> Finding {
     let decades = (paper.highest_stiffness / paper.lowest_stiffness).log10();
     let yields = [paper.lowest_stiffness, 1e3, paper.highest_stiffness].map(|stiffness| {
-        let stack = Stack {
-            stiffness_ratio: paper.stiffness_ratio,
-            ..Stack::paper(0.3, stiffness)
-        };
-        quasistatic_limit(&stack, &Arms::PAPER)
+        quasistatic_limit(&paper.stack(0.3, stiffness), &Arms::PAPER)
             .yield_force
             .unwrap_or(f64::NAN)
     });
@@ -137,13 +133,7 @@ fn stiffness_range(paper: &PaperTheory) -> Finding {
         "all three have a yield force in the exact limit at mu = 0.3: {:.2}, {:.2}, {:.2} mg; they span {decades:.0} decades, in steps of one",
         yields[0], yields[1], yields[2]
     );
-    let wrong = worst([
-        (decades - 2.0).abs(),
-        if yields.iter().all(|force| force.is_finite()) {
-            0.0
-        } else {
-            1.0
-        },
-    ]);
+    let all_yield = yields.iter().all(|force| force.is_finite());
+    let wrong = worst([(decades - 2.0).abs(), violation(all_yield)]);
     Finding::new(wrong, 1e-9, evidence)
 }

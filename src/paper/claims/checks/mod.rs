@@ -1,4 +1,4 @@
-//! The checks, by subject. Each holds what is printed against something worked out another way.
+//! The checks, by subject. Each compares what is printed with the same thing derived in another way.
 
 mod appendix;
 mod contact_law;
@@ -15,41 +15,55 @@ mod supplement;
 
 use super::finding::Finding;
 use super::printed::PaperTheory;
+use super::truth::YieldState;
 use crate::paper::reproduction::Reproduction;
 
-/// How a check works.
+type TheoryTest = fn(&PaperTheory) -> Finding;
+type StateTest = fn(&PaperTheory, &YieldState) -> f64;
+type RunTest = fn(&PaperTheory, &Reproduction) -> Result<Finding, String>;
+
+/// The data that a check needs.
 enum Test {
-    /// On formulas and theory alone.
-    Theory(fn(&PaperTheory) -> Finding),
-    /// On runs; the error says what is missing.
-    Runs(fn(&PaperTheory, &Reproduction) -> Result<Finding, String>),
+    /// Formulas and theory alone.
+    Theory(TheoryTest),
+    /// The deviation of an equation at every yield state.
+    AtStates(StateTest),
+    /// Runs; the error names those that are missing.
+    Runs(RunTest),
 }
 
 /// A check that claims can name.
-pub struct Check {
+pub(crate) struct Check {
     /// Its name in the register.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     test: Test,
 }
 
 impl Check {
-    const fn theory(name: &'static str, test: fn(&PaperTheory) -> Finding) -> Self {
+    const fn theory(name: &'static str, test: TheoryTest) -> Self {
         let test = Test::Theory(test);
         Self { name, test }
     }
 
-    const fn runs(
-        name: &'static str,
-        test: fn(&PaperTheory, &Reproduction) -> Result<Finding, String>,
-    ) -> Self {
+    const fn at_states(name: &'static str, test: StateTest) -> Self {
+        let test = Test::AtStates(test);
+        Self { name, test }
+    }
+
+    const fn runs(name: &'static str, test: RunTest) -> Self {
         let test = Test::Runs(test);
         Self { name, test }
     }
 
-    /// What the check finds in what `paper` says and what was run, or why it cannot find anything.
-    pub fn run(&self, paper: &PaperTheory, runs: Option<&Reproduction>) -> Result<Finding, String> {
+    /// Compares `paper` with theory or with the runs; an error says why that is impossible.
+    pub(crate) fn run(
+        &self,
+        paper: &PaperTheory,
+        runs: Option<&Reproduction>,
+    ) -> Result<Finding, String> {
         match (&self.test, runs) {
             (Test::Theory(test), _) => Ok(test(paper)),
+            (Test::AtStates(test), _) => Ok(appendix::at_states(|state| test(paper, state))),
             (Test::Runs(test), Some(runs)) => test(paper, runs),
             (Test::Runs(_), None) => Err("this takes DEM runs, and none were made".to_owned()),
         }
@@ -57,7 +71,7 @@ impl Check {
 }
 
 /// Every check.
-pub fn all() -> impl Iterator<Item = &'static Check> {
+fn all() -> impl Iterator<Item = &'static Check> {
     let groups: [&'static [Check]; 12] = [
         rigid::CHECKS,
         contact_law::CHECKS,
@@ -75,7 +89,11 @@ pub fn all() -> impl Iterator<Item = &'static Check> {
     groups.into_iter().flatten()
 }
 
-/// The check of that name.
-pub fn find(name: &str) -> Option<&'static Check> {
+/// The names of all checks that a register may use.
+pub fn check_names() -> Vec<&'static str> {
+    all().map(|check| check.name).collect()
+}
+
+pub(crate) fn find(name: &str) -> Option<&'static Check> {
     all().find(|check| check.name == name)
 }

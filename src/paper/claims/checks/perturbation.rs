@@ -1,12 +1,12 @@
 //! The singular perturbation, Eqs. (14) to (17), and appendix B.
 
 use super::Check;
-use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::model::CRITICAL_FRICTION;
+use crate::paper::claims::finding::{Finding, imbalance, list, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::theory::elastic_root;
+use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs, stack};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("remainder", remainder),
     Check::theory("coefficient", coefficient),
     Check::theory("product-quotient", product_quotient),
@@ -17,18 +17,13 @@ pub const CHECKS: &[Check] = &[
     Check::theory("limiting-alpha", limiting_alpha),
 ];
 
-const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
-const AWAY: [f64; 4] = [0.2, 0.25, 0.3, 0.5];
+const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 
 fn root(mu: f64, kappa: f64, epsilon: f64) -> f64 {
-    let stack = Stack {
-        stiffness_ratio: kappa,
-        ..Stack::paper(mu, 1.0 / epsilon)
-    };
-    elastic_root(&stack).map_or(f64::NAN, |root| root.z)
+    elastic_displacement(&stack(mu, kappa, epsilon))
 }
 
-/// (𝒟ℰ(α) − 𝒟ℰ(0))/α with 𝒟 and ℰ in terms of T = μ/(1 − α), which is how the springs see them.
+/// (𝒟ℰ(α) − 𝒟ℰ(0))/α with 𝒟 and ℰ in terms of T = μ/(1 − α), as they follow from the springs.
 fn true_quotient(mu: f64, kappa: f64, alpha: f64) -> f64 {
     let displacement = |alpha: f64| {
         let u = 1.0 - alpha;
@@ -46,7 +41,7 @@ fn order(paper: &PaperTheory, mu: f64, coarse: f64, fine: f64) -> f64 {
     let kappa = paper.stiffness_ratio;
     let left = |epsilon: f64| {
         let z = root(mu, kappa, epsilon);
-        // z(z − z⋆) = ε F(μ, α), so that what is left is ε (F − Φ).
+        // z(z − z⋆) = ε F(μ, α), so that the remainder is ε (F − Φ).
         let alpha = epsilon / z;
         epsilon * (true_quotient(mu, kappa, alpha) - paper.coefficient(mu, kappa))
     };
@@ -54,12 +49,12 @@ fn order(paper: &PaperTheory, mu: f64, coarse: f64, fine: f64) -> f64 {
 }
 
 fn remainder(paper: &PaperTheory) -> Finding {
-    let away = AWAY.map(|mu| order(paper, mu, 1e-4, 1e-5));
+    let away = [0.2, 0.25, 0.3, 0.5].map(|mu| order(paper, mu, 1e-4, 1e-5));
     let at = order(paper, CRITICAL_FRICTION, 1e-5, 1e-7);
     let evidence = format!(
-        "z(z - z_star) - epsilon r^2 Phi at the root of the elastic equation falls as epsilon to the power {:.2}, {:.2}, {:.2}, {:.2} at \
+        "z(z - z_star) - epsilon r^2 Phi at the root of the elastic equation falls as epsilon to the power {} at \
          mu = 0.2, 0.25, 0.3, 0.5, but {at:.2} at mu_c, where alpha is of order epsilon^(1/2)",
-        away[0], away[1], away[2], away[3]
+        list(away.map(|order| format!("{order:.2}")))
     );
     let away = worst(away.map(|order| (order - paper.remainder_order).abs()));
     let at = (at - paper.remainder_order_at_transition).abs();
@@ -67,20 +62,14 @@ fn remainder(paper: &PaperTheory) -> Finding {
 }
 
 fn coefficient(paper: &PaperTheory) -> Finding {
-    let mut largest = 0.0f64;
-    for mu in [0.1, 0.15, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.7] {
-        for kappa in RATIOS {
-            let epsilon = 1e-8;
-            let alpha = epsilon / root(mu, kappa, epsilon);
-            // F(μ, α → 0) by a step that rounding allows.
-            let step = alpha.max(1e-6);
-            let truth = true_quotient(mu, kappa, step);
-            largest = crate::paper::claims::finding::worse(
-                largest,
-                relative(paper.coefficient(mu, kappa), truth),
-            );
-        }
-    }
+    let frictions = [0.1, 0.15, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.7];
+    let largest = worst(pairs(frictions, RATIOS).map(|(mu, kappa)| {
+        let epsilon = 1e-8;
+        let alpha = epsilon / root(mu, kappa, epsilon);
+        // F(μ, α → 0) with a step that rounding allows.
+        let truth = true_quotient(mu, kappa, alpha.max(1e-6));
+        relative(paper.coefficient(mu, kappa), truth)
+    }));
     let evidence = format!(
         "Phi against [DE(alpha) - DE(0)]/alpha at the elastic equation's own alpha for 1/epsilon = 1e8, mu = 0.1 to 0.7, kappa = 1, 2.5, 10: \
          largest relative difference {largest:.0e} (it falls with epsilon)"
@@ -89,44 +78,34 @@ fn coefficient(paper: &PaperTheory) -> Finding {
 }
 
 /// Points (μ, κ, α) at which quotients keep their digits.
-fn points() -> Vec<(f64, f64, f64)> {
-    let mut points = Vec::new();
-    for mu in [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5] {
-        for kappa in RATIOS {
-            for alpha in [0.05, 0.2, 0.4, 0.6] {
-                points.push((mu, kappa, alpha));
-            }
-        }
-    }
-    points
+fn points() -> impl Iterator<Item = (f64, f64, f64)> {
+    pairs(FRICTIONS, RATIOS)
+        .flat_map(|(mu, kappa)| [0.05, 0.2, 0.4, 0.6].map(|alpha| (mu, kappa, alpha)))
 }
 
 fn product_quotient(paper: &PaperTheory) -> Finding {
-    let deviations = points().into_iter().map(|(mu, kappa, alpha)| {
+    let deviations = points().map(|(mu, kappa, alpha)| {
         relative(
             paper.product_quotient(mu, kappa, alpha),
             true_quotient(mu, kappa, alpha),
         )
     });
-    Finding::identity(
-        deviations,
-        "F against [DE(alpha) - DE(0)]/alpha of the springs' own D E",
-    )
+    let compared = "F against [DE(alpha) - DE(0)]/alpha of the springs' own D E";
+    Finding::identity(deviations, compared)
 }
 
 /// 𝒟 and ℰ are smooth in α: D and E have limits for α → 0.
 fn difference_quotients(paper: &PaperTheory) -> Finding {
-    let mut largest = 0.0f64;
-    for (mu, kappa, _) in points() {
-        let d = |alpha: f64| (paper.geometry(mu, alpha) - paper.geometry(mu, 0.0)) / alpha;
-        let e = |alpha: f64| {
-            (paper.compliance(mu, kappa, alpha) - paper.compliance(mu, kappa, 0.0)) / alpha
-        };
-        for quotient in [&d as &dyn Fn(f64) -> f64, &e] {
-            let change = (quotient(1e-5) - quotient(-1e-5)).abs() / (1.0 + quotient(1e-5).abs());
-            largest = crate::paper::claims::finding::worse(largest, change);
-        }
-    }
+    let change = |function: &dyn Fn(f64) -> f64| {
+        let quotient = |alpha: f64| (function(alpha) - function(0.0)) / alpha;
+        (quotient(1e-5) - quotient(-1e-5)).abs() / (1.0 + quotient(1e-5).abs())
+    };
+    let largest = worst(pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
+        worst([
+            change(&|alpha| paper.geometry(mu, alpha)),
+            change(&|alpha| paper.compliance(mu, kappa, alpha)),
+        ])
+    }));
     let evidence = format!(
         "D and E at alpha = 1e-5 and -1e-5 differ by at most {largest:.0e} at 15 pairs of mu and kappa: they are regular at alpha = 0"
     );
@@ -135,29 +114,24 @@ fn difference_quotients(paper: &PaperTheory) -> Finding {
 
 fn perturbative_solution(paper: &PaperTheory) -> Finding {
     let mut deviations = Vec::new();
-    for mu in [0.1, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.5] {
-        for kappa in RATIOS {
-            for epsilon in [1e-2, 1e-4] {
-                let z = 0.5 * epsilon * paper.perturbative_load(mu, kappa, epsilon);
-                let stiff = paper.stiff_displacement(mu, kappa, 1.0);
-                let source = epsilon * paper.coefficient(mu, kappa);
-                deviations.push(imbalance(&[z * z, -z * stiff, -source]));
-            }
+    for (mu, kappa) in pairs([0.1, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.5], RATIOS) {
+        for epsilon in [1e-2, 1e-4] {
+            let z = 0.5 * epsilon * paper.perturbative_load(mu, kappa, epsilon);
+            let stiff = paper.stiff_displacement(mu, kappa, 1.0);
+            let source = epsilon * paper.coefficient(mu, kappa);
+            deviations.push(imbalance(&[z * z, -z * stiff, -source]));
         }
     }
-    Finding::identity(
-        deviations,
-        "z = epsilon r (f + 3mg)/(2mg) put into z(z - z_star) = epsilon r^2 Phi",
-    )
+    let compared = "z = epsilon r (f + 3mg)/(2mg) put into z(z - z_star) = epsilon r^2 Phi";
+    Finding::identity(deviations, compared)
 }
 
 /// z = z⋆ + α r (ℰ(0) D + 𝒟(0) E + α D E).
 fn expansion(paper: &PaperTheory) -> Finding {
-    let radius = 1.7;
-    let deviations = points().into_iter().map(|(mu, kappa, alpha)| {
-        let z = radius * paper.geometry(mu, alpha) * paper.compliance(mu, kappa, alpha);
-        let stiff = paper.stiff_displacement(mu, kappa, radius);
-        let added = alpha * radius * paper.product_quotient(mu, kappa, alpha);
+    let deviations = points().map(|(mu, kappa, alpha)| {
+        let z = RADIUS * paper.geometry(mu, alpha) * paper.compliance(mu, kappa, alpha);
+        let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
+        let added = alpha * RADIUS * paper.product_quotient(mu, kappa, alpha);
         imbalance(&[stiff, added, -z])
     });
     Finding::identity(deviations, "r D E against z_star + alpha r F, r not 1")
@@ -165,30 +139,23 @@ fn expansion(paper: &PaperTheory) -> Finding {
 
 /// z(z − z⋆) = ε r² F(μ, α) at roots of the elastic equation.
 fn quadratic(paper: &PaperTheory) -> Finding {
-    let radius = 1.7;
-    let mut deviations = Vec::new();
-    for mu in [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5] {
-        for kappa in RATIOS {
-            let epsilon = 1e-2;
-            let z = radius * root(mu, kappa, epsilon);
-            let alpha = epsilon * radius / z;
-            let stiff = paper.stiff_displacement(mu, kappa, radius);
-            let source = epsilon * radius * radius * paper.product_quotient(mu, kappa, alpha);
-            deviations.push(imbalance(&[z * z, -z * stiff, -source]));
-        }
-    }
-    Finding::identity(
-        deviations,
-        "roots of the elastic equation at 1/epsilon = 1e2, r not 1",
-    )
+    let epsilon = 1e-2;
+    let deviations = pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
+        let z = RADIUS * root(mu, kappa, epsilon);
+        let alpha = epsilon * RADIUS / z;
+        let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
+        let source = epsilon * RADIUS * RADIUS * paper.product_quotient(mu, kappa, alpha);
+        imbalance(&[z * z, -z * stiff, -source])
+    });
+    let compared = "roots of the elastic equation at 1/epsilon = 1e2, r not 1";
+    Finding::identity(deviations, compared)
 }
 
 fn limiting_alpha(paper: &PaperTheory) -> Finding {
     let alpha = |mu: f64, epsilon: f64| epsilon / root(mu, paper.stiffness_ratio, epsilon);
-    let away = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5]
-        .map(|mu| (alpha(mu, 1e-8) - paper.limiting_alpha(mu)).abs());
-    let at = (alpha(CRITICAL_FRICTION, 1e-8) - paper.limiting_alpha(CRITICAL_FRICTION)).abs();
-    let (away, at) = (worst(away), at);
+    let deviation = |mu: f64| (alpha(mu, 1e-8) - paper.limiting_alpha(mu)).abs();
+    let away = worst([0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5].map(deviation));
+    let at = deviation(CRITICAL_FRICTION);
     let evidence = format!(
         "alpha of the elastic equation at 1/epsilon = 1e8: within {away:.0e} of the limit at seven mu from 0.1 to 0.5, {at:.0e} at mu_c, \
          where it vanishes as epsilon^(1/2)"

@@ -2,12 +2,12 @@
 
 use super::Check;
 use crate::code::Code;
-use crate::paper::claims::finding::{Finding, worst};
+use crate::paper::claims::finding::{Finding, list, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::reproduction::Reproduction;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::runs("prepared-without-contact", prepared_without_contact),
     Check::runs("push-controls-contact", push_controls_contact),
     Check::runs("no-contact-specifies", no_contact_specifies),
@@ -15,14 +15,12 @@ pub const CHECKS: &[Check] = &[
 
 const MISSING: &str = "there is no native study of the preparation in this reproduction";
 
-/// Native rows under the paper's convention, by increasing push.
+/// Native rows under the paper's convention, sorted by push.
 fn pushed(study: &PreparationStudy) -> Vec<&PreparationRow> {
     let rows = study.rows_of(Code::NATIVE, Code::NATIVE);
     let mut pushed: Vec<_> = rows.filter(|row| row.push.is_some()).collect();
     pushed.sort_by(|left, right| {
-        left.push
-            .partial_cmp(&right.push)
-            .unwrap_or(std::cmp::Ordering::Equal)
+        f64::total_cmp(&left.push.unwrap_or(0.0), &right.push.unwrap_or(0.0))
     });
     pushed
 }
@@ -54,9 +52,9 @@ fn prepared_without_contact(_: &PaperTheory, runs: &Reproduction) -> Result<Find
     }
     let evidence = format!(
         "native runs of the protocol: c = 0 after it with A = 0 for {without} of {all} stacks, and up to A = {}",
-        listed.join(", ")
+        list(listed)
     );
-    Ok(Finding::new((all - without) as f64, 0.0, evidence))
+    Ok(Finding::exceptions(all - without, evidence))
 }
 
 fn push_controls_contact(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
@@ -79,12 +77,12 @@ fn push_controls_contact(_: &PaperTheory, runs: &Reproduction) -> Result<Finding
     }
     let evidence = format!(
         "native runs of the protocol: c is 0 up to some A and grows with A beyond, to {} for the largest A (5 epsilon r)",
-        listed.join(", ")
+        list(listed)
     );
-    Ok(Finding::new(wrong as f64, 0.0, evidence))
+    Ok(Finding::exceptions(wrong, evidence))
 }
 
-/// By how much the yield force differs between preparations that all end with c = 0.
+/// Spread of the yield force over preparations that end with c = 0.
 fn no_contact_specifies(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     let mut shifts = Vec::new();
     let mut listed = Vec::new();
@@ -103,7 +101,7 @@ fn no_contact_specifies(_: &PaperTheory, runs: &Reproduction) -> Result<Finding,
     let evidence = format!(
         "native runs of the protocol: between A = 0 and the largest A that also ends with c = 0, f + 3mg at yield changes by {}. The \
          tangential forces that A leaves are not fixed by c = 0",
-        listed.join(", ")
+        list(listed)
     );
     Ok(Finding::new(worst(shifts), 1e-4, evidence))
 }

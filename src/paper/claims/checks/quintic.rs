@@ -2,12 +2,12 @@
 
 use super::Check;
 use crate::model::CRITICAL_FRICTION;
-use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, worst};
+use crate::paper::claims::finding::{Finding, ROUND_OFF, list, relative, size, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::paper::claims::truth::{RADIUS, multiplied_out};
+use crate::paper::claims::truth::{RADIUS, RATIOS, multiplied_out, pairs};
 use crate::theory::bracketed_root;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("quintic", quintic),
     Check::theory("quintic-orders", quintic_orders),
     Check::theory("balance-exponents", balance_exponents),
@@ -18,23 +18,18 @@ pub const CHECKS: &[Check] = &[
 ];
 
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
-const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
 
 /// The constant term, and −z⋆ in the coefficient of z⁴, against the elastic equation multiplied out.
 fn quintic(paper: &PaperTheory) -> Finding {
     let epsilon: f64 = 1e-2;
     let (mut constant, mut leading) = (Vec::new(), Vec::new());
-    for mu in FRICTIONS {
-        for kappa in RATIOS {
-            let table = multiplied_out(mu, kappa);
-            let truth = table[0][4] * epsilon.powi(4) * RADIUS.powi(5);
-            constant.push(relative(
-                paper.quintic_constant(mu, kappa, epsilon, RADIUS),
-                truth,
-            ));
-            let stiff = paper.stiff_displacement(mu, kappa, 1.0);
-            leading.push((table[4][0] + stiff).abs());
-        }
+    for (mu, kappa) in pairs(FRICTIONS, RATIOS) {
+        let table = multiplied_out(mu, kappa);
+        let truth = table[0][4] * epsilon.powi(4) * RADIUS.powi(5);
+        let printed = paper.quintic_constant(mu, kappa, epsilon, RADIUS);
+        constant.push(relative(printed, truth));
+        let stiff = paper.stiff_displacement(mu, kappa, 1.0);
+        leading.push((table[4][0] + stiff).abs());
     }
     let count = constant.len();
     let kappa = paper.stiffness_ratio;
@@ -44,13 +39,13 @@ fn quintic(paper: &PaperTheory) -> Finding {
         "the elastic equation multiplied out at {count} pairs of mu and kappa, coefficient of z^5 made 1: that of z^4 at \
          epsilon = 0 is -z_star (deviation {}); the constant term is c_0 epsilon^4 with c_0 = {coefficient:.4} r^5 at mu_c and kappa = 2.5, \
          off by a factor of up to {:.2} from the printed one. With the bare epsilon^4 the roots given for beta = 1 would not follow",
-        crate::paper::claims::finding::size(leading, ROUND_OFF),
+        size(leading, ROUND_OFF),
         constant + 1.0
     );
     Finding::new(worst([constant, leading]), ROUND_OFF, evidence)
 }
 
-/// Which powers of ε come with which power of z: z⁵; z⁴ {1, ε}; z³ {ε, ε²}; z² {ε², ε³}; z {ε³, ε⁴}; 1 {ε⁴}.
+/// The powers of ε that come with each power of z: z⁵; z⁴ {1, ε}; z³ {ε, ε²}; z² {ε², ε³}; z {ε³, ε⁴}; 1 {ε⁴}.
 fn quintic_orders(paper: &PaperTheory) -> Finding {
     let last = |power: usize| (power as f64 - paper.quintic_constant_order).abs() < ROUND_OFF;
     let expected = |z_power: usize, epsilon_power: usize| match z_power {
@@ -59,19 +54,16 @@ fn quintic_orders(paper: &PaperTheory) -> Finding {
         power => epsilon_power == 4 - power || epsilon_power == 5 - power,
     };
     let mut stray = 0.0f64;
-    for mu in FRICTIONS {
-        for kappa in RATIOS {
-            let table = multiplied_out(mu, kappa);
-            for (z_power, row) in table.iter().enumerate() {
-                for (epsilon_power, coefficient) in row.iter().enumerate() {
-                    if !expected(z_power, epsilon_power) {
-                        stray = stray.max(coefficient.abs());
-                    }
+    for (mu, kappa) in pairs(FRICTIONS, RATIOS) {
+        for (z_power, row) in multiplied_out(mu, kappa).iter().enumerate() {
+            for (epsilon_power, coefficient) in row.iter().enumerate() {
+                if !expected(z_power, epsilon_power) {
+                    stray = stray.max(coefficient.abs());
                 }
             }
         }
     }
-    let found = crate::paper::claims::finding::size(stray, ROUND_OFF);
+    let found = size(stray, ROUND_OFF);
     let evidence = format!(
         "the elastic equation multiplied out at 15 pairs of mu and kappa: largest coefficient of a power of epsilon that the \
          form does not have: {found}. (The coefficients depend on kappa as well as on mu.)"
@@ -82,7 +74,7 @@ fn quintic_orders(paper: &PaperTheory) -> Finding {
 /// P(z) at μ_c.
 fn polynomial(kappa: f64, epsilon: f64, z: f64) -> f64 {
     let mut table = multiplied_out(CRITICAL_FRICTION, kappa);
-    // z⋆ = 0 at μ_c; what is left of it is rounding, which 1/ε² would bring up.
+    // z⋆ = 0 at μ_c up to rounding, which 1/ε² would magnify.
     table[4][0] = 0.0;
     let row = |row: &[f64; 6]| {
         row.iter()
@@ -95,19 +87,18 @@ fn polynomial(kappa: f64, epsilon: f64, z: f64) -> f64 {
         .fold(0.0, |sum, coefficients| sum * z + row(coefficients))
 }
 
-fn root_between(kappa: f64, epsilon: f64, low: f64, high: f64) -> f64 {
-    bracketed_root(|z| polynomial(kappa, epsilon, z), low, high).unwrap_or(f64::NAN)
-}
-
-/// The five roots at μ_c: ±, and the three of order ε, smallest first.
+/// The five roots at μ_c, smallest first: the negative one, the three of order ε, and the large positive one.
 fn roots(kappa: f64, epsilon: f64) -> [f64; 5] {
     let scale = (epsilon / (CRITICAL_FRICTION * (1.0 + 4.0 * kappa * CRITICAL_FRICTION))).sqrt();
+    let between = |low: f64, high: f64| {
+        bracketed_root(|z| polynomial(kappa, epsilon, z), low, high).unwrap_or(f64::NAN)
+    };
     [
-        root_between(kappa, epsilon, -1.5 * scale, -0.5 * scale),
-        root_between(kappa, epsilon, 0.8 * epsilon, 0.96 * epsilon),
-        root_between(kappa, epsilon, 0.96 * epsilon, epsilon),
-        root_between(kappa, epsilon, epsilon, 1.04 * epsilon),
-        root_between(kappa, epsilon, 0.5 * scale, 1.5 * scale),
+        between(-1.5 * scale, -0.5 * scale),
+        between(0.8 * epsilon, 0.96 * epsilon),
+        between(0.96 * epsilon, epsilon),
+        between(epsilon, 1.04 * epsilon),
+        between(0.5 * scale, 1.5 * scale),
     ]
 }
 
@@ -124,8 +115,8 @@ fn balance_exponents(paper: &PaperTheory) -> Finding {
     ];
     let deviation = worst([0, 1, 2, 3, 4].map(|index| (exponents[index] - expected[index]).abs()));
     let evidence = format!(
-        "all five roots at mu_c, between epsilon = 1e-8 and 1e-10: {:.3}, {:.3}, {:.3}, {:.3}, {:.3}",
-        exponents[0], exponents[1], exponents[2], exponents[3], exponents[4]
+        "all five roots at mu_c, between epsilon = 1e-8 and 1e-10: {}",
+        list(exponents.map(|exponent| format!("{exponent:.3}")))
     );
     Finding::new(deviation, 1e-3, evidence)
 }

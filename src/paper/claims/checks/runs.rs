@@ -1,14 +1,14 @@
-//! What the paper says of its simulations, by the native DEM, which has the paper's contact law.
+//! The paper's statements on its simulations, checked with the native DEM, which has the paper's contact law.
 
 use super::Check;
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, relative, worst};
+use crate::model::CRITICAL_FRICTION;
+use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction};
 use crate::study::yield_force::Judgement;
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::runs("force-series", force_series),
     Check::runs("peak-is-quasistatic", peak_is_quasistatic),
     Check::runs("converges-with-speed", converges_with_speed),
@@ -20,7 +20,8 @@ pub const CHECKS: &[Check] = &[
     Check::runs("runs-scale", scale),
 ];
 
-fn of(name: &str) -> String {
+/// The reason for which a check cannot be made.
+fn missing(name: &str) -> String {
     format!("there is no native run of {name} in this reproduction")
 }
 
@@ -31,7 +32,7 @@ fn force_series(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String>
         .iter()
         .enumerate()
         .max_by(|left, right| left.1.1.total_cmp(&right.1.1));
-    let (index, &(_, highest)) = peak.ok_or_else(|| of("f(t)"))?;
+    let (index, &(_, highest)) = peak.ok_or_else(|| missing("f(t)"))?;
     let (mut so_far, mut drop) = (0.0f64, 0.0f64);
     for &(_, force) in &rows[..index] {
         drop = drop.max(so_far - force);
@@ -43,17 +44,17 @@ fn force_series(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String>
          falls to {last:.3} mg",
         drop / highest
     );
-    let falls = if last < 0.9 * highest { 0.0 } else { 1.0 };
-    Ok(Finding::new(worst([drop / highest, falls]), 1e-3, evidence))
+    let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
+    Ok(Finding::new(deviation, 1e-3, evidence))
 }
 
-/// The peak at the paper's speed against the exact quasi-static limit, where the paper shows f(t).
+/// The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
 fn peak_is_quasistatic(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     let series = &runs.force_series;
     let (peak, limit) = series
         .peak_force
         .zip(series.limit)
-        .ok_or_else(|| of("f(t)"))?;
+        .ok_or_else(|| missing("f(t)"))?;
     let evidence = format!(
         "native DEM at mu = 0.2, k_n r/mg = 1e2, v = {:e}, dt = {:e}: peak {peak:.6} mg, exact quasi-static limit {limit:.6} mg: {:+.4} %",
         series.wall_speed,
@@ -63,49 +64,49 @@ fn peak_is_quasistatic(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, 
     Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
 }
 
-fn native(points: &[ConvergencePoint]) -> Vec<&ConvergencePoint> {
-    points
-        .iter()
-        .filter(|point| point.code == Code::NATIVE)
-        .collect()
+/// The native run with this value of `setting`.
+fn native(
+    points: &[ConvergencePoint],
+    setting: impl Fn(&ConvergencePoint) -> f64,
+    value: f64,
+) -> Option<&ConvergencePoint> {
+    let mut native = points.iter().filter(|point| point.code == Code::NATIVE);
+    native.find(|point| relative(setting(point), value) < 1e-9)
 }
 
 /// Excess of the peak over the limit at a wall speed.
 fn excess(runs: &Reproduction, speed: f64) -> Option<f64> {
-    let points = native(&runs.convergence.wall_speeds);
-    let point = points
-        .into_iter()
-        .find(|point| relative(point.wall_speed, speed) < 1e-9);
-    point.and_then(ConvergencePoint::excess_of_peak)
+    native(
+        &runs.convergence.wall_speeds,
+        |point| point.wall_speed,
+        speed,
+    )?
+    .excess_of_peak()
 }
 
 fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
-    let listed = speeds.iter().map(|&speed| {
-        let percent = excess(runs, speed).map(|excess| 100.0 * excess);
-        percent.map_or(format!("not run at {speed:e}"), |percent| {
-            format!("{percent:+.3} % at v = {speed:e}")
-        })
-    });
-    listed.collect::<Vec<_>>().join(", ")
+    list(speeds.iter().map(|&speed| match excess(runs, speed) {
+        Some(excess) => format!("{:+.3} % at v = {speed:e}", 100.0 * excess),
+        None => format!("not run at {speed:e}"),
+    }))
 }
 
 fn converges_with_speed(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     let speeds = [1e-4, 1e-5, paper.compression_speed];
     let excesses = speeds.map(|speed| excess(runs, speed));
     let [Some(fast), Some(middle), Some(slow)] = excesses else {
-        return Err(of("the convergence study"));
+        return Err(missing("the convergence study"));
     };
     let evidence = format!(
         "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}",
         percents(runs, &[1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
     );
-    // Each slower wall must come closer.
     let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
-    Ok(Finding::new(if shrinks { 0.0 } else { 1.0 }, 0.0, evidence))
+    Ok(Finding::statement(shrinks, evidence))
 }
 
 fn compression_speed(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let excess = excess(runs, paper.compression_speed).ok_or_else(|| of("this wall speed"))?;
+    let excess = excess(runs, paper.compression_speed).ok_or_else(|| missing("this wall speed"))?;
     let evidence = format!(
         "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}: it grows as v/epsilon",
         percents(runs, &[1e-5, 1e-6, 1e-7])
@@ -114,16 +115,11 @@ fn compression_speed(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding
 }
 
 fn time_step(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let points = native(&runs.convergence.time_steps);
-    let peak = |step: f64| {
-        let point = points
-            .iter()
-            .find(|point| relative(point.time_step, step) < 1e-9);
-        point.and_then(|point| point.peak_force)
-    };
+    let points = &runs.convergence.time_steps;
+    let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
     let (at, finer) = peak(paper.time_step)
         .zip(peak(0.1 * paper.time_step))
-        .ok_or_else(|| of("these time steps"))?;
+        .ok_or_else(|| missing("these time steps"))?;
     let coarse = peak(0.1).map_or_else(String::new, |coarse| {
         format!(
             "; even at dt = 0.1 it is {:.1e} off",
@@ -139,11 +135,7 @@ fn time_step(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String
 }
 
 fn leapfrog(paper: &PaperTheory) -> Finding {
-    let stack = Stack {
-        stiffness_ratio: paper.stiffness_ratio,
-        ..Stack::paper(0.2, 1e4)
-    };
-    let ratio = paper.time_step / stack.longest_time_step();
+    let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
     let evidence = format!(
         "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
         paper.time_step
@@ -151,7 +143,7 @@ fn leapfrog(paper: &PaperTheory) -> Finding {
     Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
 }
 
-/// Rows of the native DEM that have a force.
+/// Friction, stiffness and yield force of the native rows that have one.
 fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
     let rows = judgements.iter();
     let native = rows.filter(|row| row.code == Code::NATIVE);
@@ -163,26 +155,17 @@ fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
 fn agrees_with_perturbation(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     let rows = forces(&runs.yield_curves);
     let kappa = paper.stiffness_ratio;
-    let deviation = |mu: f64, stiffness: f64, force: f64| {
-        relative(
-            paper.perturbative_load(mu, kappa, 1.0 / stiffness),
-            force + 3.0,
-        )
-    };
-    let compared: Vec<_> = rows
-        .iter()
-        .map(|&(mu, stiffness, force)| (deviation(mu, stiffness, force), mu, stiffness))
-        .collect();
+    let compared = rows.into_iter().map(|(mu, stiffness, force)| {
+        let printed = paper.perturbative_load(mu, kappa, 1.0 / stiffness);
+        (relative(printed, force + 3.0), mu, stiffness)
+    });
+    let compared: Vec<_> = compared.collect();
     let farthest = compared
         .iter()
         .max_by(|left, right| left.0.total_cmp(&right.0));
-    let &(largest, mu, stiffness) = farthest.ok_or_else(|| of("Fig. 2(a)"))?;
-    let near = worst(
-        compared
-            .iter()
-            .filter(|row| row.1 <= CRITICAL_FRICTION)
-            .map(|row| row.0),
-    );
+    let &(largest, mu, stiffness) = farthest.ok_or_else(|| missing("Fig. 2(a)"))?;
+    let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
+    let near = worst(near.map(|row| row.0));
     let evidence = format!(
         "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): f + 3mg differs by at most {:.1} % \
          (mu = {mu}, k_n r/mg = {stiffness:.0}), {:.1} % up to mu_c. The distance does not vanish for stiff cylinders above mu_c",
@@ -205,24 +188,21 @@ fn approaches_rigid_limit(paper: &PaperTheory, runs: &Reproduction) -> Result<Fi
         })
         .collect();
     below.sort_by(|left, right| left.0.total_cmp(&right.0));
-    let &(stiffness, closest) = below.last().ok_or_else(|| of("Fig. 2(b)"))?;
+    let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
     let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
     let evidence = format!(
         "native DEM at mu = 0.25: f + 3mg comes closer to f_0 + 3mg with every decade of k_n r/mg, to {closest:.1e} at {stiffness:.0e}; \
          at mu_c and above it grows without bound (see the exponents)"
     );
-    let unsteady = if shrinks { 0.0 } else { 1.0 };
-    Ok(Finding::new(worst([closest, unsteady]), 1e-2, evidence))
+    let deviation = worst([closest, violation(shrinks)]);
+    Ok(Finding::new(deviation, 1e-2, evidence))
 }
 
 fn scale(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
     let mut listed = Vec::new();
     let mut deviations = Vec::new();
-    for exponent in runs
-        .exponents
-        .iter()
-        .filter(|exponent| exponent.code == Code::NATIVE)
-    {
+    let exponents = runs.exponents.iter();
+    for exponent in exponents.filter(|exponent| exponent.code == Code::NATIVE) {
         let printed = match exponent.mu.total_cmp(&CRITICAL_FRICTION) {
             std::cmp::Ordering::Less => 0.0,
             std::cmp::Ordering::Equal => paper.scaling_at,
@@ -235,11 +215,11 @@ fn scale(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
         ));
     }
     if deviations.len() < 3 {
-        return Err(of("Fig. 2(b)"));
+        return Err(missing("Fig. 2(b)"));
     }
     let evidence = format!(
         "slopes of ln(f + 3mg) over ln(k_n r/mg), native DEM, fitted from {FITTED_FROM:.0e} on: {}; the paper's 0, {} and {} are their limits",
-        listed.join(", "),
+        list(listed),
         paper.scaling_at,
         paper.scaling_above
     );

@@ -1,12 +1,13 @@
-//! How the yield force grows with stiffness: Eqs. (5) and (13), and the rigid limit.
+//! Growth of the yield force with stiffness: Eqs. (5) and (13), and the rigid limit.
 
 use super::Check;
 use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, relative, worst};
+use crate::paper::claims::finding::{Finding, relative, size, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::theory::{elastic_root, floor_slip_force, rigid_yield};
+use crate::paper::claims::truth::elastic_displacement;
+use crate::theory::{floor_slip_force, rigid_yield};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("scaling", scaling),
     Check::theory("scaling-of-naive", scaling_of_naive),
     Check::theory("scaling-of-perturbation", scaling_of_perturbation),
@@ -20,18 +21,11 @@ pub const CHECKS: &[Check] = &[
     Check::theory("steepest-near-critical", steepest_near_critical),
 ];
 
-/// What an exponent may be off where the next order still shows at 1/ε = 10⁷.
+/// Deviation of an exponent that the next order causes at 1/ε = 10⁷.
 const EXPONENT: f64 = 2e-3;
 /// The frictions of Fig. 2(b).
 const BELOW: f64 = 0.25;
 const ABOVE: f64 = 0.3;
-
-fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
-    Stack {
-        stiffness_ratio: paper.stiffness_ratio,
-        ..Stack::paper(mu, stiffness)
-    }
-}
 
 fn exact_load(stack: &Stack) -> f64 {
     floor_slip_force(stack).unwrap_or(f64::NAN) + 3.0
@@ -44,8 +38,8 @@ fn rigid_load(mu: f64) -> f64 {
 /// Exponents of ε below, and of 1/ε at and above μ_c, between two stiffnesses.
 fn exponents(paper: &PaperTheory, from: f64, to: f64, load: impl Fn(&Stack) -> f64) -> [f64; 3] {
     let slope = |low: f64, high: f64| (high / low).ln() / (to / from).ln();
-    let missing = |stiffness| (rigid_load(BELOW) - load(&stack(paper, BELOW, stiffness))).abs();
-    let at = |mu, stiffness| load(&stack(paper, mu, stiffness));
+    let at = |mu, stiffness| load(&paper.stack(mu, stiffness));
+    let missing = |stiffness| (rigid_load(BELOW) - at(BELOW, stiffness)).abs();
     [
         slope(missing(to), missing(from)),
         slope(at(CRITICAL_FRICTION, from), at(CRITICAL_FRICTION, to)),
@@ -53,12 +47,18 @@ fn exponents(paper: &PaperTheory, from: f64, to: f64, load: impl Fn(&Stack) -> f
     ]
 }
 
-fn printed_exponents(paper: &PaperTheory) -> [f64; 3] {
-    [paper.scaling_below, paper.scaling_at, paper.scaling_above]
+/// Largest deviation from the exponents of Eq. (5).
+fn off_printed(paper: &PaperTheory, [below, at, above]: [f64; 3]) -> f64 {
+    worst([
+        (below - paper.scaling_below).abs(),
+        (at - paper.scaling_at).abs(),
+        (above - paper.scaling_above).abs(),
+    ])
 }
 
-fn largest_difference(left: [f64; 3], right: [f64; 3]) -> f64 {
-    worst([0, 1, 2].map(|index| (left[index] - right[index]).abs()))
+/// F + 3 by Eq. (17).
+fn perturbative_load(paper: &PaperTheory, stack: &Stack) -> f64 {
+    paper.perturbative_load(stack.floor_friction, stack.stiffness_ratio, stack.epsilon())
 }
 
 fn listed([below, at, above]: [f64; 3]) -> String {
@@ -76,27 +76,16 @@ fn scaling(paper: &PaperTheory) -> Finding {
         listed(far),
         listed(near)
     );
-    Finding::new(
-        largest_difference(far, printed_exponents(paper)),
-        EXPONENT,
-        evidence,
-    )
+    Finding::new(off_printed(paper, far), EXPONENT, evidence)
 }
 
 fn scaling_of_perturbation(paper: &PaperTheory) -> Finding {
-    let load = |stack: &Stack| {
-        paper.perturbative_load(stack.floor_friction, stack.stiffness_ratio, stack.epsilon())
-    };
-    let far = exponents(paper, 1e7, 1e8, load);
+    let far = exponents(paper, 1e7, 1e8, |stack| perturbative_load(paper, stack));
     let evidence = format!(
         "exponents of Eq. (17) between 1/epsilon = 1e7 and 1e8: {}",
         listed(far)
     );
-    Finding::new(
-        largest_difference(far, printed_exponents(paper)),
-        EXPONENT,
-        evidence,
-    )
+    Finding::new(off_printed(paper, far), EXPONENT, evidence)
 }
 
 fn scaling_of_naive(paper: &PaperTheory) -> Finding {
@@ -116,7 +105,7 @@ fn scaling_of_naive(paper: &PaperTheory) -> Finding {
     let evidence = format!(
         "2z/(epsilon r) of Eq. (13): (f_0 + 3mg)/mg at mu = 0.25 (relative difference {}), exponents {at:.3} at mu_c and \
          {above:.3} at 0.3",
-        crate::paper::claims::finding::size(rigid, 1e-9)
+        size(rigid, 1e-9)
     );
     let deviation = worst([
         rigid,
@@ -135,7 +124,7 @@ fn naive(
 ) -> Finding {
     let at = |stiffness: f64| {
         worst(frictions.iter().map(|&mu| {
-            let root = elastic_root(&stack(paper, mu, stiffness)).map_or(f64::NAN, |root| root.z);
+            let root = elastic_displacement(&paper.stack(mu, stiffness));
             relative(z(mu, 1.0 / stiffness), root)
         }))
     };
@@ -177,19 +166,18 @@ fn naive_validity(paper: &PaperTheory) -> Finding {
         excess(1.001 * lowest)
     );
     let right = excess(0.999 * lowest) < 0.0 && excess(1.001 * lowest) > 0.0;
-    Finding::new(if right { 0.0 } else { 1.0 }, 0.0, evidence)
+    Finding::statement(right, evidence)
 }
 
 fn naive_breaks_down(paper: &PaperTheory) -> Finding {
     let distances = [1e-2, 1e-3, 1e-4];
     let ratios = distances.map(|distance| {
         let mu = CRITICAL_FRICTION * (1.0 - distance);
-        let root = elastic_root(&stack(paper, mu, 1e4)).map_or(f64::NAN, |root| root.z);
-        paper.displacement_below(mu, 1e-4, 1.0) / root
+        paper.displacement_below(mu, 1e-4, 1.0) / elastic_displacement(&paper.stack(mu, 1e4))
     });
     let above = {
         let mu = CRITICAL_FRICTION * (1.0 + 1e-4);
-        let root = elastic_root(&stack(paper, mu, 1e4)).map_or(f64::NAN, |root| root.z);
+        let root = elastic_displacement(&paper.stack(mu, 1e4));
         paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / root
     };
     let evidence = format!(
@@ -198,49 +186,36 @@ fn naive_breaks_down(paper: &PaperTheory) -> Finding {
         ratios[0], ratios[1], ratios[2]
     );
     let diverges = ratios[1] > 5.0 * ratios[0] && ratios[2] > 5.0 * ratios[1] && above < 0.1;
-    Finding::new(if diverges { 0.0 } else { 1.0 }, 0.0, evidence)
+    Finding::statement(diverges, evidence)
 }
 
 fn rigid_limit(paper: &PaperTheory) -> Finding {
-    let perturbative = |stack: &Stack| {
-        paper.perturbative_load(stack.floor_friction, stack.stiffness_ratio, stack.epsilon())
+    let loads = |mu: f64| {
+        let stack = paper.stack(mu, 1e8);
+        [exact_load(&stack), perturbative_load(paper, &stack)]
     };
-    let mut below = 0.0f64;
-    for mu in [0.1, 0.15, 0.2, 0.25] {
-        for load in [
-            exact_load(&stack(paper, mu, 1e8)),
-            perturbative(&stack(paper, mu, 1e8)),
-        ] {
-            let deviation = relative(load, paper.rigid_yield_force(mu) + 3.0);
-            below = crate::paper::claims::finding::worse(below, deviation);
-        }
-    }
-    let mut least = f64::INFINITY;
-    for mu in [CRITICAL_FRICTION, 0.3, 0.5] {
-        for load in [
-            exact_load(&stack(paper, mu, 1e8)),
-            perturbative(&stack(paper, mu, 1e8)),
-        ] {
-            least = least.min(load);
-        }
-    }
+    let below = worst([0.1, 0.15, 0.2, 0.25].map(|mu| {
+        let rigid = paper.rigid_yield_force(mu) + 3.0;
+        worst(loads(mu).map(|load| relative(load, rigid)))
+    }));
+    let above = [CRITICAL_FRICTION, 0.3, 0.5].into_iter().flat_map(loads);
+    let least = above.fold(f64::INFINITY, f64::min);
     let evidence = format!(
         "at 1/epsilon = 1e8 the DEM's exact quasi-static limit and Eq. (17) are within {below:.1e} of f_0 + 3mg for mu = 0.1 to \
          0.25, and above {least:.0e} mg at mu_c, 0.3 and 0.5, where f_0 is infinite"
     );
-    let grows = if least > 1e3 { 0.0 } else { 1.0 };
-    Finding::new(worst([below, grows]), 1e-4, evidence)
+    Finding::new(worst([below, violation(least > 1e3)]), 1e-4, evidence)
 }
 
 fn smooth_transition(paper: &PaperTheory) -> Finding {
-    let mut largest = 0.0f64;
-    for stiffness in [paper.lowest_stiffness, 1e3, paper.highest_stiffness] {
-        // The slope on either side of μ_c: a kink would make them differ at any distance.
-        let load = |offset: f64| exact_load(&stack(paper, CRITICAL_FRICTION + offset, stiffness));
+    let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
+    let largest = worst(stiffnesses.map(|stiffness| {
+        // Slopes on both sides of μ_c: with a kink they would differ at any distance.
+        let load = |offset: f64| exact_load(&paper.stack(CRITICAL_FRICTION + offset, stiffness));
         let step = 1e-5;
         let (left, right) = (load(0.0) - load(-step), load(step) - load(0.0));
-        largest = crate::paper::claims::finding::worse(largest, relative(left, right));
-    }
+        relative(left, right)
+    }));
     let evidence = format!(
         "in the exact quasi-static limit F is finite at mu_c and its slopes on both sides of it agree to {largest:.1e} \
          (1/epsilon = 1e2, 1e3, 1e4)"
@@ -252,7 +227,7 @@ fn steepest_near_critical(paper: &PaperTheory) -> Finding {
     const SPACING: f64 = 0.004;
     let steepest = |stiffness: f64| {
         let mu = |index: i32| CRITICAL_FRICTION + SPACING * f64::from(index);
-        let load = |index: i32| exact_load(&stack(paper, mu(index), stiffness)).ln();
+        let load = |index: i32| exact_load(&paper.stack(mu(index), stiffness)).ln();
         let loads: Vec<f64> = (-18..=18).map(load).collect();
         let slopes = loads.windows(3).map(|triple| triple[2] - triple[0]);
         let largest = slopes

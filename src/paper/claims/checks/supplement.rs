@@ -1,4 +1,4 @@
-//! Section II of the supplement: displacements and spring forces against rigid-body kinematics.
+//! Section II of the supplement: displacements and spring forces, compared with rigid-body kinematics.
 
 use super::Check;
 use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
@@ -8,7 +8,7 @@ use crate::paper::claims::truth::{
 };
 use nalgebra::{Matrix4x5, Vector2};
 
-pub const CHECKS: &[Check] = &[
+pub(crate) const CHECKS: &[Check] = &[
     Check::theory("displacement-vectors", displacement_vectors),
     Check::theory("positions", positions),
     Check::theory("separation", separation),
@@ -29,30 +29,14 @@ pub const CHECKS: &[Check] = &[
     Check::theory("floor-sinking", |paper| {
         kinematics(|moved| (paper.floor_sinking(moved) - floor_point(moved).y).abs())
     }),
-    Check::theory("spring-a", |paper| {
-        springs(|moved| implicit(paper, moved).a, |forces| forces.a)
-    }),
-    Check::theory("spring-b", |paper| {
-        springs(|moved| implicit(paper, moved).b, |forces| forces.b)
-    }),
-    Check::theory("spring-d", |paper| {
-        springs(|moved| implicit(paper, moved).d, |forces| forces.d)
-    }),
-    Check::theory("spring-e", |paper| {
-        springs(|moved| implicit(paper, moved).e, |forces| forces.e)
-    }),
-    Check::theory("explicit-a", |paper| {
-        springs(|moved| explicit(paper, moved).a, |forces| forces.a)
-    }),
-    Check::theory("explicit-b", |paper| {
-        springs(|moved| explicit(paper, moved).b, |forces| forces.b)
-    }),
-    Check::theory("explicit-d", |paper| {
-        springs(|moved| explicit(paper, moved).d, |forces| forces.d)
-    }),
-    Check::theory("explicit-e", |paper| {
-        springs(|moved| explicit(paper, moved).e, |forces| forces.e)
-    }),
+    Check::theory("spring-a", |paper| implicit(paper, |forces| forces.a)),
+    Check::theory("spring-b", |paper| implicit(paper, |forces| forces.b)),
+    Check::theory("spring-d", |paper| implicit(paper, |forces| forces.d)),
+    Check::theory("spring-e", |paper| implicit(paper, |forces| forces.e)),
+    Check::theory("explicit-a", |paper| explicit(paper, |forces| forces.a)),
+    Check::theory("explicit-b", |paper| explicit(paper, |forces| forces.b)),
+    Check::theory("explicit-d", |paper| explicit(paper, |forces| forces.d)),
+    Check::theory("explicit-e", |paper| explicit(paper, |forces| forces.e)),
     Check::theory("supplement-balances", supplement_balances),
     Check::theory("indeterminate-c", indeterminate_c),
 ];
@@ -63,43 +47,42 @@ fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
     let deviations = arbitrary_displacements()
         .into_iter()
         .map(|moved| deviation(&moved) / RADIUS);
-    Finding::identity(
-        deviations,
-        "positions and motions of rigid cylinders at arbitrary displacements, r not 1",
-    )
+    let compared = "positions and motions of rigid cylinders at arbitrary displacements, r not 1";
+    Finding::identity(deviations, compared)
 }
 
-/// How the point of cylinder 2 on the floor has moved.
+/// Motion of the point of cylinder 2 on the floor.
 fn floor_point(moved: &Displacements) -> Vector2<f64> {
     moved.lower_surface(Vector2::new(0.0, -RADIUS))
 }
 
-fn implicit(paper: &PaperTheory, moved: &Displacements) -> Forces {
-    paper.forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)
-}
-
-fn explicit(paper: &PaperTheory, moved: &Displacements) -> Forces {
-    paper.explicit_forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)
-}
-
-fn springs(printed: impl Fn(&Displacements) -> f64, of: impl Fn(&Forces) -> f64) -> Finding {
-    let deviations = arbitrary_displacements().into_iter().map(|moved| {
-        let truth = of(&moved.spring_forces(RADIUS, NORMAL_STIFFNESS, RATIO));
-        ((printed(&moved) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
-    });
-    Finding::identity(
-        deviations,
-        "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)",
+/// Eqs. (S11), (S12), (S15) or (S16), by the `component` of the forces.
+fn implicit(paper: &PaperTheory, component: impl Fn(&Forces) -> f64) -> Finding {
+    springs(
+        |moved| component(&paper.forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)),
+        &component,
     )
 }
 
+/// Eqs. (S17) to (S20), by the `component` of the forces.
+fn explicit(paper: &PaperTheory, component: impl Fn(&Forces) -> f64) -> Finding {
+    springs(
+        |moved| component(&paper.explicit_forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)),
+        &component,
+    )
+}
+
+fn springs(printed: impl Fn(&Displacements) -> f64, component: impl Fn(&Forces) -> f64) -> Finding {
+    let deviations = arbitrary_displacements().into_iter().map(|moved| {
+        let truth = component(&moved.spring_forces(RADIUS, NORMAL_STIFFNESS, RATIO));
+        ((printed(&moved) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
+    });
+    let compared = "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)";
+    Finding::identity(deviations, compared)
+}
+
 fn displacement_vectors(paper: &PaperTheory) -> Finding {
-    let at_rest = Displacements {
-        delta_11: 0.0,
-        delta_21: 0.0,
-        delta_22: 0.0,
-        theta: 0.0,
-    };
+    let at_rest = Displacements::default();
     kinematics(|moved| {
         let [upper, lower] = paper.displacement_vectors(moved);
         let upper_moved = moved.upper(RADIUS) - at_rest.upper(RADIUS);
@@ -124,14 +107,9 @@ fn separation(paper: &PaperTheory) -> Finding {
     })
 }
 
-/// δ₁₂ is the motion of the centre of 2 seen from that of 1.
+/// δ₁₂ is the motion of the centre of 2 relative to that of 1.
 fn relative_displacement(paper: &PaperTheory) -> Finding {
-    let at_rest = Displacements {
-        delta_11: 0.0,
-        delta_21: 0.0,
-        delta_22: 0.0,
-        theta: 0.0,
-    };
+    let at_rest = Displacements::default();
     kinematics(|moved| {
         let seen = |moved: &Displacements| moved.lower(RADIUS) - moved.upper(RADIUS);
         (paper.relative_displacement_vector(moved) - (seen(moved) - seen(&at_rest))).norm()
@@ -165,10 +143,9 @@ fn supplement_balances(paper: &PaperTheory) -> Finding {
             relative(forces.e, state.friction * forces.d),
         ])
     });
-    Finding::identity(
-        deviations,
-        "the supplement's a, b, d, e in solutions of the unreduced equations, and e = mu d",
-    )
+    let compared =
+        "the supplement's a, b, d, e in solutions of the unreduced equations, and e = mu d";
+    Finding::identity(deviations, compared)
 }
 
 /// Without c = 0: torque and horizontal balance of 2, vertical balance of 1 and of the stack, for a, b, c, d, e.
@@ -181,7 +158,7 @@ fn indeterminate_c(paper: &PaperTheory) -> Finding {
     );
     let decomposition = matrix.transpose().svd(true, false);
     let rank = decomposition.rank(1e-12);
-    // The direction left free: what the four columns of the transposed matrix do not span.
+    // The free direction is the one that the four columns of the transposed matrix do not span.
     let spanned = decomposition.u.unwrap_or_default();
     let along_c = (0..4).map(|index| spanned[(2, index)].powi(2)).sum::<f64>();
     let freedom = 1.0 - along_c;
@@ -190,6 +167,5 @@ fn indeterminate_c(paper: &PaperTheory) -> Finding {
          (its share is {:.3})",
         freedom.sqrt()
     );
-    let wrong = (4.0 - rank as f64).abs() + if freedom > 1e-3 { 0.0 } else { 1.0 };
-    Finding::new(wrong, 0.0, evidence)
+    Finding::exceptions(4 - rank + usize::from(freedom <= 1e-3), evidence)
 }

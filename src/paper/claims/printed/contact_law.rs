@@ -5,27 +5,33 @@ use nalgebra::Vector2;
 
 /// A tangential contact in motion.
 #[derive(Debug, Clone, Copy)]
-pub struct Sliding {
+pub(crate) struct Sliding {
     /// k_t.
-    pub stiffness: f64,
+    pub(crate) stiffness: f64,
     /// η_t.
-    pub damping: f64,
+    pub(crate) damping: f64,
     /// u, stretch of the spring.
-    pub stretch: f64,
+    pub(crate) stretch: f64,
     /// v, tangential velocity.
-    pub velocity: f64,
+    pub(crate) velocity: f64,
     /// μ |f_n|.
-    pub cap: f64,
+    pub(crate) cap: f64,
 }
 
 impl PaperTheory {
     /// Δ = 2r − r_ij.
-    pub fn overlap(&self, distance: f64, radius: f64) -> f64 {
+    pub(crate) fn overlap(&self, distance: f64, radius: f64) -> f64 {
         self.overlap_diameters * radius - distance
     }
 
     /// h_n Θ(Δ) with h_n = k_n Δ − η_n v_n.
-    pub fn normal_force(&self, stiffness: f64, damping: f64, overlap: f64, velocity: f64) -> f64 {
+    pub(crate) fn normal_force(
+        &self,
+        stiffness: f64,
+        damping: f64,
+        overlap: f64,
+        velocity: f64,
+    ) -> f64 {
         if overlap >= 0.0 {
             stiffness * overlap - self.normal_damping * damping * velocity
         } else {
@@ -34,12 +40,12 @@ impl PaperTheory {
     }
 
     /// t_ij = (−y_ij, x_ij)/r_ij.
-    pub fn pair_tangent(&self, separation: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn pair_tangent(&self, separation: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(self.pair_tangent_sign * separation.y, separation.x) / separation.norm()
     }
 
     /// (v_i − v_j)·t_ij − r (ω_i + ω_j).
-    pub fn tangential_velocity(
+    pub(crate) fn tangential_velocity(
         &self,
         separation: Vector2<f64>,
         velocity: Vector2<f64>,
@@ -51,13 +57,13 @@ impl PaperTheory {
     }
 
     /// h_t = −k_t u − η_t v.
-    pub fn sticking_force(&self, contact: &Sliding) -> f64 {
+    pub(crate) fn sticking_force(&self, contact: &Sliding) -> f64 {
         -contact.stiffness * contact.stretch
             - self.tangential_damping * contact.damping * contact.velocity
     }
 
     /// min(h_t, −μ |f_n| v/|v|), the one with the smaller norm.
-    pub fn tangential_force(&self, contact: &Sliding) -> f64 {
+    pub(crate) fn tangential_force(&self, contact: &Sliding) -> f64 {
         let sticking = self.sticking_force(contact);
         if sticking.abs() <= contact.cap {
             sticking
@@ -69,12 +75,12 @@ impl PaperTheory {
     }
 
     /// Whether u grows: |h_t| < μ |f_n|.
-    pub fn sticks(&self, contact: &Sliding) -> bool {
+    pub(crate) fn sticks(&self, contact: &Sliding) -> bool {
         self.sticking_force(contact).abs() < self.stick_limit * contact.cap
     }
 
     /// The friction coefficient that caps the force between two cylinders.
-    pub fn friction_between_cylinders(&self, floor_friction: f64) -> f64 {
+    pub(crate) fn friction_between_cylinders(&self, floor_friction: f64) -> f64 {
         if self.cap_of_cylinders == 0.0 {
             floor_friction
         } else {
@@ -83,7 +89,7 @@ impl PaperTheory {
     }
 
     /// η = −2 ln e_r √(m k/(π² + ln² e_r)), Eqs. (S1) and (S2).
-    pub fn damping(&self, mass: f64, stiffness: f64) -> f64 {
+    pub(crate) fn damping(&self, mass: f64, stiffness: f64) -> f64 {
         let logarithm = self.restitution.ln();
         let spread = std::f64::consts::PI.powi(2) + logarithm * logarithm;
         -self.damping_factor * logarithm * (self.damping_mass * mass * stiffness / spread).sqrt()

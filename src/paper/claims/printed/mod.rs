@@ -1,5 +1,5 @@
-//! The paper as printed. Every formula is evaluated the way it stands, with the constants of
-//! [`PaperTheory`]; which of them are wrong is for the checks to say.
+//! The paper as printed. Every formula is evaluated as it stands, with the constants of [`PaperTheory`]; the
+//! checks find out which of them are wrong.
 
 mod appendix;
 mod constants;
@@ -9,4 +9,4 @@ mod rigid;
 mod supplement;
 
 pub use constants::PaperTheory;
-pub use contact_law::Sliding;
+pub(crate) use contact_law::Sliding;

@@ -1,22 +1,31 @@
 //! Setup and rigid cylinders, Eqs. (1) to (4).
 
 use super::PaperTheory;
+use crate::model::Stack;
 use crate::paper::claims::truth::Forces;
 use nalgebra::Vector2;
 
 impl PaperTheory {
+    /// A stack with the paper's stiffness ratio.
+    pub(crate) fn stack(&self, friction: f64, stiffness: f64) -> Stack {
+        Stack {
+            stiffness_ratio: self.stiffness_ratio,
+            ..Stack::paper(friction, stiffness)
+        }
+    }
+
     /// t = (n_y, −n_x).
-    pub fn tangent(&self, normal: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn tangent(&self, normal: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(normal.y, self.tangent_sign * normal.x)
     }
 
     /// Terms of Eqs. (1) and (S21), b − e = 0.
-    pub fn torque_terms(&self, forces: &Forces) -> [f64; 2] {
+    pub(crate) fn torque_terms(&self, forces: &Forces) -> [f64; 2] {
         [forces.b, -self.torque_ratio * forces.e]
     }
 
     /// Terms of Eqs. (2) and (S22), a n_x + b (t_x + 1) = 0.
-    pub fn horizontal_terms(&self, forces: &Forces, normal: Vector2<f64>) -> [f64; 2] {
+    pub(crate) fn horizontal_terms(&self, forces: &Forces, normal: Vector2<f64>) -> [f64; 2] {
         let tangent = self.tangent(normal);
         [
             forces.a * normal.x,
@@ -25,7 +34,7 @@ impl PaperTheory {
     }
 
     /// Terms of Eqs. (3) and (S23), 2 a n_y + 2 b t_y − f − m g = 0.
-    pub fn vertical_terms(
+    pub(crate) fn vertical_terms(
         &self,
         forces: &Forces,
         normal: Vector2<f64>,
@@ -42,7 +51,7 @@ impl PaperTheory {
     }
 
     /// Terms of f + 3 m g = 2 d.
-    pub fn stack_terms(&self, forces: &Forces, f: f64, weight: f64) -> [f64; 3] {
+    pub(crate) fn stack_terms(&self, forces: &Forces, f: f64, weight: f64) -> [f64; 3] {
         [
             f,
             self.stack_weights * weight,
@@ -51,27 +60,27 @@ impl PaperTheory {
     }
 
     /// n = (−1/2, √3/2).
-    pub fn rigid_normal(&self) -> Vector2<f64> {
+    pub(crate) fn rigid_normal(&self) -> Vector2<f64> {
         Vector2::new(self.rigid_normal_x, self.rigid_normal_y)
     }
 
     /// t = (√3/2, 1/2).
-    pub fn rigid_tangent(&self) -> Vector2<f64> {
+    pub(crate) fn rigid_tangent(&self) -> Vector2<f64> {
         Vector2::new(self.rigid_tangent_x, self.rigid_tangent_y)
     }
 
     /// d = (f + 3 m g)/2 of rigid cylinders.
-    pub fn rigid_floor_load(&self, f: f64, weight: f64) -> f64 {
+    pub(crate) fn rigid_floor_load(&self, f: f64, weight: f64) -> f64 {
         (f + self.rigid_load_weights * weight) / 2.0
     }
 
     /// e = μ_c (f + m g)/2 of rigid cylinders.
-    pub fn rigid_floor_shear(&self, f: f64, weight: f64) -> f64 {
+    pub(crate) fn rigid_floor_shear(&self, f: f64, weight: f64) -> f64 {
         self.critical_friction * (f + self.rigid_shear_weights * weight) / 2.0
     }
 
     /// f₀(μ)/(m g), Eq. (4).
-    pub fn rigid_yield_force(&self, friction: f64) -> f64 {
+    pub(crate) fn rigid_yield_force(&self, friction: f64) -> f64 {
         let critical = self.critical_friction;
         if friction < critical / self.rigid_threshold {
             0.0
@@ -83,7 +92,7 @@ impl PaperTheory {
     }
 
     /// m = π ρ r² l.
-    pub fn mass(&self, density: f64, radius: f64, length: f64) -> f64 {
+    pub(crate) fn mass(&self, density: f64, radius: f64, length: f64) -> f64 {
         self.mass_factor * density * radius * radius * length
     }
 }

@@ -1,0 +1,52 @@
+//! The largest error of a yield force that agrees.
+
+/// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
+/// torque arms (tests/golden_theory.rs).
+pub const MIN_TOLERANCE: f64 = 1e-7;
+
+/// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
+/// An uncertainty above it decides nothing.
+pub const MAX_TOLERANCE: f64 = 1e-5;
+
+/// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
+/// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
+pub fn tolerance(uncertainty: f64) -> f64 {
+    uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::{Grounds, Verdict};
+
+    /// The verdict on an error with its uncertainty, both relative to F + 3.
+    fn judge(error: f64, uncertainty: f64) -> Verdict {
+        let mut grounds = Grounds::new();
+        grounds.compare(error, uncertainty, tolerance(uncertainty), None);
+        grounds.verdict()
+    }
+
+    #[test]
+    fn a_small_error_agrees_and_a_large_one_differs() {
+        assert_eq!(judge(9e-8, 1e-8), Verdict::Agrees);
+        assert_eq!(judge(-1.1e-7, 1e-8), Verdict::Differs);
+    }
+
+    #[test]
+    fn tolerance_follows_the_uncertainty_between_its_bounds() {
+        assert_eq!(judge(4e-6, 5e-6), Verdict::Agrees);
+        assert_eq!(judge(6e-6, 5e-6), Verdict::Differs);
+    }
+
+    #[test]
+    fn an_uncertainty_above_the_largest_tolerance_decides_only_against_large_errors() {
+        assert_eq!(judge(1e-7, 2e-5), Verdict::Inconclusive);
+        assert_eq!(judge(1e-3, 2e-5), Verdict::Differs);
+    }
+
+    #[test]
+    fn not_a_number_is_never_a_pass() {
+        assert_eq!(judge(f64::NAN, 1e-8), Verdict::Inconclusive);
+        assert_eq!(judge(1e-8, f64::NAN), Verdict::Inconclusive);
+    }
+}

@@ -21,7 +21,7 @@ pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
         "`tristack predict`",
     ))
     .text("contact", "the estimate of the contact", |(_, own)| own.contact.as_str())
-    .text("chosen", "whether it is the one that was asked for", |(all, own)| {
+    .text("chosen", "whether it is the chosen estimate", |(all, own)| {
         all.contact == own.contact
     })
     .number("normal_stiffness", "N/m", "k_n", |(_, own)| own.normal_stiffness)

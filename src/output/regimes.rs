@@ -75,7 +75,7 @@ pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     .number("distance", "1", "relative distance of the neighbours below and above", |own| {
         own.point.distance
     })
-    .text("below", "what theory says of the neighbour below", move |own| claimed(own, 0))
+    .text("below", "regime of the neighbour below, by theory", move |own| claimed(own, 0))
     .text("above", "the same of the one above", move |own| claimed(own, 1))
     .text("below_observed", "what the DEM shows below; absent if nothing happened", move |own| {
         observed(own, 0)

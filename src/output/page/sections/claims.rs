@@ -65,7 +65,7 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         own.place.clone()
     })
     .shown("place")
-    .text("statement", "what it says", |own| own.statement.clone())
+    .text("statement", "its text", |own| own.statement.clone())
     .shown("statement")
     .text("kind", "what kind of statement it is", |own| {
         Value::word(own.kind)

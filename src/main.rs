@@ -1,4 +1,4 @@
-//! Runs the command line and turns its end into an exit status.
+//! Runs the command line and returns its exit status.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -7,7 +7,7 @@ use tristack::{cli, code};
 fn main() -> ExitCode {
     code::guard_foreign_programs();
     let status = cli::run(std::env::args_os()).unwrap_or_else(|error| {
-        // Whoever was to read it may have gone.
+        // Standard error may be closed.
         let _ = writeln!(std::io::stderr(), "error: {error}");
         error.status()
     });

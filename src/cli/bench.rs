@@ -1,7 +1,7 @@
 //! `tristack bench`.
 
 use super::options::{CodeParser, Format, selected_codes, writable, write_all};
-use super::{CliError, ExitStatus, INTERRUPT, print};
+use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
 use crate::files::FileError;
 use crate::output::{
@@ -12,55 +12,52 @@ use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// What a step and a yield force cost, code by code
+/// Measure the cost of a time step and of a yield force
 ///
-/// Native is always timed, a run at a time and in the lanes of vectors, since the others are compared with
-/// it. A step costs the difference of a long and a short run, so that start-up cancels; all codes take
-/// turns. Every code runs on one core. Nothing is taken from a store.
+/// Native is always timed, one run at a time and in vector lanes, since the other codes are compared with it. The
+/// cost of a step is the difference of a long and a short run, so that start-up cancels. The codes take turns,
+/// each on one core. No run is taken from the store.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack bench --codes native,lammps --repeats 3")]
-pub struct Arguments {
-    /// Which codes, separated by commas; each must be installed [default: all that are, of each the first variant]
+pub(super) struct Arguments {
+    /// Codes to time, separated by commas; each must be installed [default: the first variant of every installed code]
     #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
-    /// How often everything is measured; medians are printed
+    /// Number of measurements, whose medians are printed
     #[arg(long, value_name = "N")]
     repeats: Option<NonZeroUsize>,
-    /// Pyramids of a thousand to ten thousand cylinders instead of the stack
+    /// Time pyramids of a thousand to ten thousand cylinders instead of the stack
     #[arg(long)]
     pyramids: bool,
-    /// How native lanes scale with the number of cases and cores, too
+    /// Also measure how native lanes scale with the number of cases and cores
     #[arg(long, conflicts_with = "pyramids")]
     scaling: bool,
     /// Directory for bench.csv, bench.json, bench.md, scaling.csv and performance.svg; implies --scaling
     #[arg(long, value_name = "DIR", conflicts_with = "pyramids")]
     out: Option<PathBuf>,
-    /// How to print the rows; those of the scaling are in the table alone
+    /// Format of the rows; the scaling is printed in the table format alone
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
-/// Measures, prints and writes.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+/// Measures, prints and writes the costs.
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = timed_codes(&arguments.codes)?;
-    if let Some(directory) = &arguments.out {
-        writable(directory)?;
-    }
+    writable(arguments.out.as_deref())?;
     let temporary = std::env::temp_dir();
     let directory = tempfile::tempdir().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
     let measured = match arguments.pyramids {
-        true => measure_pyramids(arguments, command, codes, &context),
-        false => measure_stack(arguments, command, &codes, &context),
+        true => time_pyramids(arguments, command, codes, &context),
+        false => time_stack(arguments, command, &codes, &context),
     };
     match measured {
         Err(_) if INTERRUPT.requested() => Ok(ExitStatus::Interrupted),
-        Err(error) => Err(error),
-        Ok(output) => print(&output),
+        other => other,
     }
 }
 
-/// The codes named and native, or those of the default that are installed.
+/// The named codes with native, or else the installed ones.
 fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
         return Ok(StackBench::installed());
@@ -68,15 +65,15 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     let mut names = vec![Code::NATIVE];
     names.extend(named);
     let codes = selected_codes(&names)?;
-    Ok(codes.iter().map(|who| who.name).collect())
+    Ok(codes.iter().map(|selected| selected.name).collect())
 }
 
-fn measure_stack(
+fn time_stack(
     arguments: &Arguments,
     command: &str,
     codes: &[Code],
     context: &RunContext,
-) -> Result<Vec<u8>, CliError> {
+) -> Result<ExitStatus, CliError> {
     let default = StackBench::default();
     let bench = StackBench {
         targets: codes.iter().copied().flat_map(BenchTarget::of).collect(),
@@ -84,18 +81,16 @@ fn measure_stack(
         ..default
     };
     let costs = bench.measure(context)?;
-    let mut output = printed(arguments.format, crate::output::bench(&costs), command);
-    if arguments.scaling || arguments.out.is_some() {
-        let further = measure_scaling(arguments, command, &costs, context)?;
-        if arguments.format == Format::Table {
-            output.extend(further.into_bytes());
-        }
-    }
-    Ok(output)
+    let rows = crate::output::bench(&costs);
+    let further = match arguments.scaling || arguments.out.is_some() {
+        true => time_scaling(arguments, command, &costs, context)?,
+        false => String::new(),
+    };
+    print(arguments.format, rows, command, &further)
 }
 
-/// Measures and writes what goes beyond the rows, and returns it for people.
-fn measure_scaling(
+/// Measures how lanes scale, writes all files, and returns the text for a terminal.
+fn time_scaling(
     arguments: &Arguments,
     command: &str,
     costs: &[StackCost],
@@ -107,10 +102,10 @@ fn measure_scaling(
         ..default
     };
     let measured = bench.measure(context)?;
-    if let Some(directory) = &arguments.out {
+    write_all(arguments.out.as_deref(), || {
         let all = measured.cases.iter().chain(&measured.cores);
         let rows = crate::output::bench(costs);
-        let files = [
+        [
             ("bench.csv", rows.csv()),
             ("bench.json", json(&[rows], command)),
             ("bench.md", bench_markdown(costs, &measured).into_bytes()),
@@ -119,9 +114,8 @@ fn measure_scaling(
                 "performance.svg",
                 performance_svg(costs, &measured).into_bytes(),
             ),
-        ];
-        write_all(directory, &files)?;
-    }
+        ]
+    })?;
     let (cases, cores) = (scaling(&measured.cases), scaling(&measured.cores));
     Ok(format!(
         "native lanes on one core:\n{}native lanes, planned runs:\n{}",
@@ -130,12 +124,12 @@ fn measure_scaling(
     ))
 }
 
-fn measure_pyramids(
+fn time_pyramids(
     arguments: &Arguments,
     command: &str,
     mut codes: Vec<Code>,
     context: &RunContext,
-) -> Result<Vec<u8>, CliError> {
+) -> Result<ExitStatus, CliError> {
     if arguments.codes.is_empty() {
         codes.retain(|code| code.builds_pyramids());
     }
@@ -146,12 +140,18 @@ fn measure_pyramids(
         ..default
     };
     let costs = bench.measure(context)?;
-    Ok(printed(arguments.format, pyramids(&costs), command))
+    print(arguments.format, pyramids(&costs), command, "")
 }
 
-fn printed(format: Format, rows: DataTable, command: &str) -> Vec<u8> {
+/// Prints `rows`; a terminal also gets the machine above and `further` text below.
+fn print(
+    format: Format,
+    rows: DataTable,
+    command: &str,
+    further: &str,
+) -> Result<ExitStatus, CliError> {
     let tables = [rows];
-    format.render(&tables, command, || {
-        format!("{}\n{}", bench_machine(), tables[0].shown().terminal())
-    })
+    let table = || tables[0].shown().terminal();
+    let people = || format!("{}\n{}{further}", bench_machine(), table());
+    format.print(&tables, command, people)
 }

@@ -6,22 +6,19 @@ use crate::code::Code;
 use crate::output::{Inventory, inventory};
 use clap::Args;
 
-/// What is installed, in which version, with which contact convention
+/// List the codes: installed or not, version, contact convention
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack codes --format json")]
-pub struct Arguments {
-    /// How to print the list
+pub(super) struct Arguments {
+    /// Format of the list
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
-/// Prints every code that tristack knows.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let found = Code::all()
-        .into_iter()
-        .map(Inventory::take)
-        .collect::<Vec<_>>();
+/// Prints every known code.
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    let found: Vec<Inventory> = Code::all().into_iter().map(Inventory::take).collect();
     let tables = [inventory(&found)];
     let people = || tables[0].shown().terminal();
-    super::print(&arguments.format.render(&tables, command, people))
+    arguments.format.print(&tables, command, people)
 }

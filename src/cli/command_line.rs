@@ -1,9 +1,9 @@
-//! The command that a result names, so that it can be made again.
+//! The command line that a result carries, to produce it again.
 
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Options that do not change a result: where it goes, what form it has, how its runs are carried out.
+/// Options that change no number: output files, formats, and how runs are carried out.
 const LEFT_OUT: [&str; 7] = [
     "--out",
     "--format",
@@ -15,8 +15,8 @@ const LEFT_OUT: [&str; 7] = [
 ];
 const LEFT_OUT_FLAGS: [&str; 1] = ["--fresh"];
 
-/// `tristack` and those of its `arguments`, the first of which is the program, that the result depends on.
-pub fn command_line(arguments: &[OsString]) -> String {
+/// `tristack` with those of its `arguments`, the first of which is the program, on which the results depend.
+pub(super) fn command_line(arguments: &[OsString]) -> String {
     let mut line = "tristack".to_owned();
     let mut words = arguments.iter().skip(1);
     while let Some(word) = words.next() {
@@ -34,7 +34,7 @@ pub fn command_line(arguments: &[OsString]) -> String {
     line
 }
 
-/// `word` as a shell reads it.
+/// `word`, quoted for a shell where necessary.
 fn quoted(word: &str) -> String {
     let plain = |char: char| char.is_ascii_alphanumeric() || "-_=.,:/+@%".contains(char);
     if !word.is_empty() && word.chars().all(plain) {

@@ -1,99 +1,91 @@
 //! `tristack crosscheck`.
 
 use super::explain::{RowName, explain, row_name};
-use super::options::{
-    CodeParser, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
-};
-use super::progress::Reporter;
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::interrupt::interrupted_after;
+use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
-use crate::files::FileError;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement, Profile};
 use crate::study::{Campaign, Verdict};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// The main job: run, compare, judge, write tables
+/// Compare the yield forces of all codes with the exact limit (the main command)
 ///
 /// Measures the yield force of every stack of the profile with every code, extrapolates it to vanishing
-/// wall speed, and holds it against the exact quasi-static limit under the code's own contact
-/// convention. Codes that are not installed are represented by their recorded runs.
+/// wall speed, and compares it with the exact quasi-static limit under the code's own contact
+/// convention. Recorded runs stand in for codes that are not installed.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples: tristack crosscheck --codes native,liggghts --out results\n          \
     tristack crosscheck --explain yade/0.3/100"
 )]
-pub struct Arguments {
-    /// Which stacks
+pub(super) struct Arguments {
+    /// Set of stacks
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     profile: Profile,
-    /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+    #[command(flatten)]
+    codes: CodeOptions,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all
+    /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
     #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile"])]
     explain: Option<RowName>,
-    /// Let native walls approach the yield up to ten times faster and stop after it; a run without, for each
-    /// row, says what this changes
+    /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
+    /// run without shortcuts measures what this changes
     #[arg(long, conflicts_with = "explain")]
     shortcuts: bool,
     #[command(flatten)]
     run: RunOptions,
-    /// How to print the rows
+    /// Format of the rows
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 /// Runs the crosscheck, prints and writes its rows.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if let Some(row) = &arguments.explain {
         return explain(row, &arguments.run);
     }
-    let codes = selected_codes(&arguments.codes)?;
-    if let Some(directory) = &arguments.out {
-        writable(directory)?;
-    }
-    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let mut measurements = arguments.profile.measurements(&names);
-    if arguments.shortcuts {
-        measurements = measurements
-            .into_iter()
-            .map(Measurement::shortened)
-            .collect();
-    }
+    let codes = arguments.codes.selected()?;
+    writable(arguments.out.as_deref())?;
+    let measurements = measurements(arguments, &codes);
     let settings = arguments.run.settings()?;
-    let reporter = Reporter::new();
     let planned = measurements.len();
-    let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(measurements);
-    drop(reporter);
-    if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write(directory, &judgements, command)?;
-    }
+    let judgements = with_progress(|progress| {
+        Campaign::new(&codes, &settings, progress).carry_out(measurements)
+    });
     let tables = [crosscheck(&judgements)];
+    write_all(arguments.out.as_deref(), || {
+        [
+            ("crosscheck.csv", tables[0].csv()),
+            ("budget.csv", budget(&judgements).csv()),
+            ("crosscheck.json", json(&tables, command)),
+            (
+                "crosscheck.md",
+                crosscheck_markdown(&judgements, command).into_bytes(),
+            ),
+        ]
+    })?;
     let people = || crosscheck_text(&judgements);
-    super::print(&arguments.format.render(&tables, command, people))?;
+    arguments.format.print(&tables, command, people)?;
     Ok(conclude(&judgements, planned, &codes))
 }
 
-fn write(directory: &Path, judgements: &[Judgement], command: &str) -> Result<(), FileError> {
-    let rows = crosscheck(judgements);
-    let page = crosscheck_markdown(judgements, command).into_bytes();
-    let files = [
-        ("crosscheck.csv", rows.csv()),
-        ("budget.csv", budget(judgements).csv()),
-        ("crosscheck.json", json(&[rows], command)),
-        ("crosscheck.md", page),
-    ];
-    write_all(directory, &files)
+fn measurements(arguments: &Arguments, codes: &[SelectedCode]) -> Vec<Measurement> {
+    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
+    let measurements = arguments.profile.measurements(&names).into_iter();
+    match arguments.shortcuts {
+        true => measurements.map(Measurement::shortened).collect(),
+        false => measurements.collect(),
+    }
 }
 
-/// Says on standard error what the rows amount to, and returns the exit status.
+/// Summarizes the rows on standard error, and returns the exit status.
 pub(super) fn conclude(
     judgements: &[Judgement],
     planned: usize,
@@ -117,12 +109,7 @@ pub(super) fn conclude(
     });
     tell!("{}", summary(judgements));
     if INTERRUPT.requested() {
-        tell!(
-            "interrupted with {} of {planned} rows complete; every finished run is kept, and the same \
-             command goes on from here",
-            judgements.len()
-        );
-        return ExitStatus::Interrupted;
+        return interrupted_after(judgements.len(), planned, "rows");
     }
     ExitStatus::of(judgements)
 }
@@ -147,9 +134,7 @@ fn summary(judgements: &[Judgement]) -> String {
     for verdict in others.into_iter().filter(|&verdict| count(verdict) > 0) {
         text += &format!(", {} {verdict}", count(verdict));
     }
-    let recorded = judgements
-        .iter()
-        .filter(|judgement| judgement.is_recorded());
+    let recorded = judgements.iter().filter(|row| row.is_recorded());
     match recorded.count() {
         0 => text,
         count => format!("{text}; {count} rows are recorded, not live"),

@@ -1,4 +1,4 @@
-//! How a command ends.
+//! The exit status and the errors of a command.
 
 use crate::code::{Code, Failure, FailureKind};
 use crate::files::FileError;
@@ -15,35 +15,34 @@ use thiserror::Error;
 /// The exit status of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
-    /// All agree, or there was nothing to judge.
+    /// All rows agree, or there was nothing to judge.
     Success,
-    /// The uncertainty is larger than the tolerance, and nothing worse.
+    /// An uncertainty is larger than its tolerance, and nothing is worse.
     Inconclusive,
     /// A disagreement was found.
     Disagreement,
     /// A code failed, timed out or is missing.
-    EngineFailed,
-    /// Wrong usage or input.
+    CodeFailed,
+    /// The command line or an input is wrong.
     WrongInput,
-    /// The user interrupted.
+    /// The user interrupted the program.
     Interrupted,
 }
 
 impl ExitStatus {
-    /// The number that the shell sees.
+    /// The number given to the shell.
     pub fn code(self) -> u8 {
         match self {
             Self::Success => 0,
             Self::WrongInput => 1,
             Self::Disagreement => 2,
-            Self::EngineFailed => 3,
+            Self::CodeFailed => 3,
             Self::Inconclusive => 4,
             Self::Interrupted => 130,
         }
     }
 
-    /// The worst that the rows say. That nothing yields where the theory expects no yield is no
-    /// disagreement.
+    /// The worst of the rows. A stack that does not yield where theory expects no yield is no disagreement.
     pub(super) fn of(judgements: &[Judgement]) -> Self {
         let each = judgements
             .iter()
@@ -55,21 +54,21 @@ impl ExitStatus {
         each.max().unwrap_or(Self::Success)
     }
 
-    /// What a single verdict says, where a yield was expected.
+    /// The status that goes with one verdict, where a yield was expected.
     pub(super) fn of_verdict(verdict: Verdict) -> Self {
         match verdict {
             Verdict::Agrees => Self::Success,
             Verdict::NoYield | Verdict::Differs => Self::Disagreement,
             Verdict::Inconclusive => Self::Inconclusive,
-            Verdict::Failed | Verdict::Missing => Self::EngineFailed,
+            Verdict::Failed | Verdict::Missing => Self::CodeFailed,
         }
     }
 }
 
-/// Why a command could not do what it was asked.
+/// The reason why a command stopped.
 #[derive(Debug, Error)]
 pub enum CliError {
-    /// A flag has a value that is not accepted.
+    /// The value of a flag is not accepted.
     #[error(transparent)]
     Invalid(#[from] InvalidValue),
     /// The stack does not yield.
@@ -78,16 +77,16 @@ pub enum CliError {
     /// The case file is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// Something cannot be written or read.
+    /// A file cannot be written or read.
     #[error("{}", in_one_line(.0))]
     Files(#[from] FileError),
     /// The store cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// A code was asked for by name, but is not installed.
-    #[error("{0} is not installed: its program is not in the search path, or does not say its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
-    MissingEngine(Code),
-    /// A run that everything else needs is not there.
+    /// A code that was named is not installed.
+    #[error("{0} is not installed: its program is not in the search path, or does not print its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
+    MissingCode(Code),
+    /// A run that the whole report depends on failed.
     #[error(transparent)]
     Reproduction(#[from] ReproductionError),
     /// The register of claims is wrong.
@@ -95,10 +94,11 @@ pub enum CliError {
     Register(#[from] RegisterError),
     /// A code failed.
     #[error(transparent)]
-    InstalledCode(#[from] Box<Failure>),
+    CodeFailed(#[from] Box<Failure>),
 }
 
-/// Paths may hold anything. What a parser says of a case file has lines of its own.
+/// The message with control characters escaped, since paths may hold any; that of a case file has several lines
+/// on purpose.
 fn in_one_line(error: &FileError) -> String {
     match error {
         FileError::Case(error) => error.to_string(),
@@ -109,23 +109,23 @@ fn in_one_line(error: &FileError) -> String {
 impl From<BenchError> for CliError {
     fn from(error: BenchError) -> Self {
         match error {
-            BenchError::Missing { code } => Self::MissingEngine(code),
-            BenchError::Failed(failure) => Self::InstalledCode(failure),
+            BenchError::Missing { code } => Self::MissingCode(code),
+            BenchError::Failed(failure) => Self::CodeFailed(failure),
             BenchError::Files(error) => Self::Files(error),
         }
     }
 }
 
 impl CliError {
-    /// The exit status that goes with it.
+    /// The exit status of a command that stops with this error.
     pub fn status(&self) -> ExitStatus {
         match self {
-            Self::InstalledCode(failure) => match failure.kind {
+            Self::CodeFailed(failure) => match failure.kind {
                 FailureKind::Interrupted => ExitStatus::Interrupted,
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
-                _ => ExitStatus::EngineFailed,
+                _ => ExitStatus::CodeFailed,
             },
-            Self::Reproduction(_) | Self::MissingEngine(_) => ExitStatus::EngineFailed,
+            Self::Reproduction(_) | Self::MissingCode(_) => ExitStatus::CodeFailed,
             _ => ExitStatus::WrongInput,
         }
     }

@@ -1,8 +1,8 @@
 //! `tristack crosscheck --explain ROW`.
 
 use super::options::{RunOptions, as_flag, friction};
-use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
 use crate::model::Stack;
 use crate::output::explanation;
@@ -12,13 +12,13 @@ use crate::study::yield_force::{measure_with_twin, plan};
 
 /// One row of a crosscheck.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RowName {
+pub(super) struct RowName {
     code: Code,
     stack: Stack,
 }
 
 /// Reads CODE/MU/STIFFNESS.
-pub fn row_name(text: &str) -> Result<RowName, String> {
+pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     let parts: Vec<&str> = text.split('/').collect();
     let [code, mu, stiffness] = parts[..] else {
         return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
@@ -38,24 +38,20 @@ pub fn row_name(text: &str) -> Result<RowName, String> {
     Ok(RowName { code, stack })
 }
 
-/// Measures one row and prints the whole chain from its runs to its verdict.
-pub fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
-    let selected = SelectedCode::find(row.code);
+/// Measures one row and prints every step from its runs to its verdict.
+pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
+    let codes = [SelectedCode::find(row.code)];
     let measurement = plan(row.code, &row.stack, row.code.convention());
     let settings = options.settings()?;
-    let reporter = Reporter::new();
-    let codes = [selected];
-    let campaign = Campaign::new(&codes, &settings, &reporter);
-    let judgements = campaign.carry_out(vec![measurement]);
+    let judgements = with_progress(|progress| {
+        Campaign::new(&codes, &settings, progress).carry_out(vec![measurement])
+    });
     let Some(judgement) = judgements.first() else {
         return Ok(ExitStatus::Interrupted);
     };
-    drop(campaign);
-    drop(reporter);
-    let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new())
+    let twin = with_progress(|progress| measure_with_twin(&judgement.study, &settings, progress))
         .map(|result| result.map_err(|error| error.to_string()));
-    let text = explanation(judgement, twin.as_ref());
-    super::print(text.as_bytes())?;
+    print(explanation(judgement, twin.as_ref()).as_bytes())?;
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

@@ -1,17 +1,17 @@
-//! `tristack guard`: how tristack starts foreign programs, not something to type.
+//! `tristack guard`: the wrapper in which tristack starts external codes; hidden from users.
 
 use super::tell;
 use crate::code::{end_like, guard};
 use clap::Args;
 use std::ffi::OsString;
 
-/// What shells return for a program that cannot be started.
+/// Exit status of shells for a program that cannot be started.
 const CANNOT_START: i32 = 127;
 
-/// Run a program until it ends or standard input is closed, and end all that it started
+/// Run a program until it ends or standard input is closed, and kill all its child processes
 #[derive(Debug, Args)]
-pub struct Arguments {
-    /// Without a network but a loopback of its own
+pub(super) struct Arguments {
+    /// Run it without a network, apart from a loopback interface of its own
     #[arg(long)]
     offline: bool,
     /// The program and its arguments
@@ -19,8 +19,8 @@ pub struct Arguments {
     command: Vec<OsString>,
 }
 
-/// Runs the program and ends like it.
-pub fn run(arguments: &Arguments) -> ! {
+/// Runs the program and ends with its exit status.
+pub(super) fn run(arguments: &Arguments) -> ! {
     let code = match guard(&arguments.command, arguments.offline) {
         Ok(status) => end_like(status),
         Err(error) => {

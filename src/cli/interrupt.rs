@@ -1,15 +1,15 @@
-//! What the user does to end it: Ctrl-C, `kill`, closing the terminal.
+//! Interrupts by the user: Ctrl-C, `kill`, closing the terminal.
 
 use super::{ExitStatus, tell};
 use crate::code::Interrupt;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
-/// The user's wish to stop.
+/// Set when the user interrupts the program.
 pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
 
-/// An interrupt stops the codes; what is done is printed, and kept in the store. A second one ends the program
-/// at once, and the guards of the codes with it.
+/// Starts to listen for interrupts. The first one stops the codes; finished runs are printed and kept in the store.
+/// A second one ends the program at once, and the guards of the codes with it.
 pub(super) fn listen() {
     match Signals::new(wanted()) {
         Ok(mut signals) => {
@@ -19,18 +19,27 @@ pub(super) fn listen() {
     }
 }
 
+/// Reports that a command ended with `done` of `planned` `subjects` complete.
+pub(super) fn interrupted_after(done: usize, planned: usize, subjects: &str) -> ExitStatus {
+    tell!(
+        "interrupted with {done} of {planned} {subjects} complete; every finished run is kept, and the same \
+         command goes on from here"
+    );
+    ExitStatus::Interrupted
+}
+
 fn interrupt() {
     if INTERRUPT.request() {
         std::process::exit(ExitStatus::Interrupted.code().into());
     }
-    // Whoever reads the messages may have stopped summary, and a second interrupt is not to wait for that.
+    // From a thread of its own: writing may block, and a second interrupt must not wait for that.
     std::thread::spawn(|| {
         tell!("interrupted: finished runs are kept; a second interrupt ends everything at once");
     });
 }
 
-/// The signals that interrupt. Closing the terminal does not, if whoever started this program wants that, as `nohup`
-/// does. (Shells also let what they start in the background ignore Ctrl-C, but whoever sends it there means it.)
+/// The signals that interrupt. SIGHUP is left alone if it was ignored at the start, as under `nohup`. SIGINT is not,
+/// although shells start background jobs with it ignored: there it is only sent on purpose.
 fn wanted() -> Vec<i32> {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let stays = ignored(&status) >> (SIGHUP - 1) & 1 == 1;
@@ -39,7 +48,7 @@ fn wanted() -> Vec<i32> {
     signals
 }
 
-/// The mask of ignored signals in what the system says of a process.
+/// The mask of ignored signals in the `status` of a process.
 fn ignored(status: &str) -> u64 {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())

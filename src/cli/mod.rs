@@ -1,4 +1,4 @@
-//! The command line: arguments in, library call, exit status out.
+//! The command line: one file per command.
 
 mod bench;
 mod codes;
@@ -16,30 +16,27 @@ mod record;
 mod regimes;
 mod report;
 mod simulate;
+mod streams;
 mod sweep;
-mod tell;
 mod theory;
 mod trajectories;
 
 pub use error::{CliError, ExitStatus};
 
 use crate::code::GUARD_COMMAND;
-use crate::files::FileError;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 pub(crate) use interrupt::INTERRUPT;
 use std::cell::RefCell;
 use std::ffi::OsString;
-use std::io::Write;
-use std::path::Path;
-pub(crate) use tell::tell;
+pub(crate) use streams::{print, tell};
 
-/// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes held to it.
+/// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes compared with it
 #[derive(Debug, Parser)]
 #[command(name = "tristack", version, max_term_width = 100)]
 #[command(
     after_help = "Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
     --stiffness is k_n r/(m g).\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
-    3 an code failed or is missing, 4 inconclusive, 130 interrupted."
+    3 a code failed or is missing, 4 inconclusive, 130 interrupted."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -64,13 +61,13 @@ enum Command {
     Guard(guard::Arguments),
 }
 
-/// Reads the command line `arguments`, the first of which is the program, and does nothing.
+/// Parses the command line `arguments`, the first of which is the program, without running it.
 ///
 /// # Errors
-/// What [`run`] would print, also where help is asked for.
+/// The message that [`run`] would print; a request for help is one too.
 pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::Error> {
     thread_local! {
-        // To lay it out takes much longer than to read a line by it.
+        // Building the grammar takes much longer than parsing one line.
         static GRAMMAR: RefCell<clap::Command> = RefCell::new(Cli::command());
     }
     GRAMMAR.with_borrow_mut(|grammar| {
@@ -82,7 +79,7 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::
 /// Runs the command line `arguments`, the first of which is the program.
 ///
 /// # Errors
-/// If the input is wrong or an code that was asked for does not deliver.
+/// If the input is wrong, or a code is missing or fails.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, CliError> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let cli = match Cli::try_parse_from(&arguments) {
@@ -108,17 +105,5 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
         Command::Guard(arguments) => guard::run(&arguments),
-    }
-}
-
-/// Writes results to standard output; a reader who has gone away is no error.
-fn print(bytes: &[u8]) -> Result<ExitStatus, CliError> {
-    let mut output = std::io::stdout().lock();
-    let written = output.write_all(bytes).and_then(|()| output.flush());
-    match written {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(FileError::writing(Path::new("standard output"))(error).into())
-        }
-        _ => Ok(ExitStatus::Success),
     }
 }

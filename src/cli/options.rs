@@ -1,7 +1,6 @@
 //! Options that several commands share.
 
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::{Code, ManifestError};
 use crate::files::{FileError, write_atomically};
 use crate::model::{
@@ -9,8 +8,7 @@ use crate::model::{
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::output::{DataTable, json};
-use crate::runs::Store;
-use crate::runs::{Recorded, SelectedCode, Settings, in_parallel};
+use crate::runs::{Recorded, SelectedCode, Settings, Store, in_parallel};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
@@ -19,44 +17,59 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Stacks that one command takes. Lists of frictions and stiffnesses of a thousand values each still go.
+/// Most stacks of one command: a thousand frictions by a thousand stiffnesses.
 const MOST_STACKS: usize = 1_000_000;
 
 /// The environment variable with the directory of recorded runs.
 const REFERENCE: &str = "TRISTACK_REFERENCE";
 
-/// How results are printed.
+/// The format of printed results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For people.
+pub(super) enum Format {
+    /// A table for a terminal.
     Table,
-    /// For programs.
+    /// JSON with units and command.
     Json,
-    /// For spreadsheets.
+    /// CSV for spreadsheets.
     Csv,
 }
 
 impl Format {
-    /// `tables`, the results of `command`, in this format; `people` makes the one for people, which is empty if
-    /// the tables are. CSV has the first table alone.
-    pub fn render(
+    /// Prints `tables`, the results of `command`. The text for a terminal comes from `people`, unless all tables are
+    /// empty; CSV is that of the first table alone.
+    pub fn print(
         self,
         tables: &[DataTable],
         command: &str,
         people: impl FnOnce() -> String,
-    ) -> Vec<u8> {
-        match self {
+    ) -> Result<ExitStatus, CliError> {
+        print(&match self {
             Self::Table if tables.iter().all(DataTable::is_empty) => Vec::new(),
             Self::Table => people().into_bytes(),
             Self::Json => json(tables, command),
             Self::Csv => tables.first().map_or_else(Vec::new, DataTable::csv),
-        }
+        })
     }
 }
 
-/// Everything of a stack but friction and stiffness.
+/// `--codes`: the codes that a command runs.
 #[derive(Debug, Clone, Args)]
-pub struct StackOptions {
+pub(super) struct CodeOptions {
+    /// Codes to run, separated by commas; each must be installed [default: all, recorded if necessary]
+    #[arg(id = "codes", long = "codes", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    pub named: Vec<Code>,
+}
+
+impl CodeOptions {
+    /// The codes named, each of which must be installed; all codes if none is named.
+    pub fn selected(&self) -> Result<Vec<SelectedCode>, CliError> {
+        selected_codes(&self.named)
+    }
+}
+
+/// The parameters of a stack other than floor friction and stiffness.
+#[derive(Debug, Clone, Args)]
+pub(super) struct StackOptions {
     /// Stiffness ratio k_n/k_t
     #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
     pub kappa: f64,
@@ -66,7 +79,7 @@ pub struct StackOptions {
 }
 
 impl StackOptions {
-    /// The stack with the given friction and stiffness, its values checked.
+    /// The checked stack with floor friction `mu` and this stiffness.
     pub fn stack(&self, mu: f64, stiffness: f64) -> Result<Stack, InvalidValue> {
         let stack = Stack {
             floor_friction: mu,
@@ -77,15 +90,28 @@ impl StackOptions {
         stack.validate().map_err(as_flag)?;
         Ok(stack)
     }
+}
 
-    /// The stacks with every combination of `frictions` and `stiffnesses`, friction by friction for each
-    /// stiffness, their values checked.
-    pub fn stacks(
-        &self,
-        frictions: &[f64],
-        stiffnesses: &[f64],
-    ) -> Result<Vec<Stack>, InvalidValue> {
-        let count = frictions.len().saturating_mul(stiffnesses.len());
+/// The parameters of several stacks other than floor friction.
+#[derive(Debug, Clone, Args)]
+pub(super) struct StackListOptions {
+    /// Stiffness k_n r/(m g); one or several, separated by commas
+    #[arg(
+        long = "stiffness",
+        required = true,
+        value_name = "S1,S2",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffnesses: Vec<f64>,
+    #[command(flatten)]
+    others: StackOptions,
+}
+
+impl StackListOptions {
+    /// The checked stacks of every combination of friction and stiffness; the friction varies fastest.
+    pub fn stacks(&self, frictions: &[f64]) -> Result<Vec<Stack>, InvalidValue> {
+        let count = frictions.len().saturating_mul(self.stiffnesses.len());
         if count > MOST_STACKS {
             return Err(InvalidValue {
                 key: "--mu, --stiffness".to_owned(),
@@ -93,33 +119,33 @@ impl StackOptions {
                 accepted: format!("at most {MOST_STACKS} combinations"),
             });
         }
-        let stacks = stiffnesses.iter().flat_map(|&stiffness| {
+        let stacks = self.stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
-            frictions.map(move |&mu| self.stack(mu, stiffness))
+            frictions.map(move |&mu| self.others.stack(mu, stiffness))
         });
         stacks.collect()
     }
 }
 
-/// Arms, where they are not the code's own.
+/// Arm coefficients that replace those of the code.
 #[derive(Debug, Clone, Args)]
-pub struct ArmOptions {
-    /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap
+pub(super) struct ArmOptions {
+    /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap [default: that of the code]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_arm: Option<f64>,
-    /// The same for the surface velocity alone, if it is not that of the torque
+    /// Arm coefficient r1 of the surface velocity at these contacts [default: as --pair-arm]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_kinematic_arm: Option<f64>,
-    /// Arm coefficient r1 of floor contacts
+    /// Arm coefficient r1 of floor contacts [default: that of the code]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_arm: Option<f64>,
-    /// The same for the surface velocity alone, if it is not that of the torque
+    /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_kinematic_arm: Option<f64>,
 }
 
 impl ArmOptions {
-    /// The convention of `code`, with the arms that were given in place of its own.
+    /// The convention of `code` with the given arms in place of its own.
     pub fn convention(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();
         let convention = ContactConvention {
@@ -135,8 +161,7 @@ impl ArmOptions {
     }
 }
 
-/// `own` with the coefficients that are given; a torque arm that is given is the kinematic arm too, unless that
-/// is given as well.
+/// `own` with the given coefficients; a given torque arm is the kinematic arm too, unless that is given as well.
 fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> ContactArms {
     // Adding zero turns -0 into 0, which is the same arm and must be the same case.
     ContactArms {
@@ -145,26 +170,26 @@ fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> Co
     }
 }
 
-/// Where runs are kept, and how they are carried out.
+/// The store of runs, and how runs are carried out.
 #[derive(Debug, Clone, Args)]
-pub struct RunOptions {
+pub(super) struct RunOptions {
     /// Store of finished runs [default: $TRISTACK_STORE, else tristack in the user's cache directory]
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
-    /// Ignore the runs in the store, and run everything again
+    /// Run everything again instead of reusing runs from the store
     #[arg(long)]
     pub fresh: bool,
-    /// Runs at the same time [default: the number of cores]
+    /// Number of runs at the same time [default: the number of cores]
     #[arg(long, value_name = "N")]
     pub jobs: Option<NonZeroUsize>,
-    /// Longest time in seconds without a finished run [default: 30 s and 100 us a step for external
+    /// Longest time without a finished run, in seconds [default: 30 s plus 100 us per step for external
     /// codes, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time_limit: Option<f64>,
 }
 
 impl RunOptions {
-    /// The settings of the library.
+    /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         Ok(Settings {
             store: Store::open(&self.store_directory()?)?,
@@ -196,7 +221,7 @@ impl RunOptions {
 }
 
 /// The checked value of `--time-limit`.
-pub fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue> {
+pub(super) fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue> {
     let Some(seconds) = seconds else {
         return Ok(None);
     };
@@ -214,9 +239,9 @@ fn recorded() -> Recorded {
     directory.map_or_else(Recorded::embedded, |directory| Recorded::new(&directory))
 }
 
-/// Where `record` writes: the directory that `TRISTACK_REFERENCE` names, or else that of the checkout the
-/// program was built from.
-pub fn recording_directory() -> Result<PathBuf, InvalidValue> {
+/// The directory that `record` writes to: the one that `TRISTACK_REFERENCE` names, or else that of the checkout
+/// from which the program was built.
+pub(super) fn recording_directory() -> Result<PathBuf, InvalidValue> {
     let of_checkout = || {
         let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
         reference.is_dir().then(|| reference.join("recorded"))
@@ -229,16 +254,16 @@ pub fn recording_directory() -> Result<PathBuf, InvalidValue> {
     })
 }
 
-/// The directory that an environment variable names; an empty one names none.
+/// The directory that an environment variable names, unless the variable is empty.
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
     value.map(PathBuf::from)
 }
 
-/// Reads a code: a name, or the path of a folder with a manifest, which has a `/` and, where the folder describes
-/// several codes, ends in `:NAME`.
+/// Reads a code: its name, or the path of a folder with its manifest. A path contains a `/` and ends in `:NAME` if
+/// the folder describes several codes.
 #[derive(Debug, Clone, Copy)]
-pub struct CodeParser;
+pub(super) struct CodeParser;
 
 impl TypedValueParser for CodeParser {
     type Value = Code;
@@ -279,7 +304,7 @@ fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
 }
 
 /// The codes named, each of which must be installed; all codes if none is named.
-pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
+pub(super) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
         return Ok(find_all(&Code::all()));
     }
@@ -287,19 +312,19 @@ pub fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     names.sort();
     names.dedup();
     let found = find_all(&names).into_iter().map(|selected| {
-        let missing = CliError::MissingEngine(selected.name);
+        let missing = CliError::MissingCode(selected.name);
         selected.code.is_some().then_some(selected).ok_or(missing)
     });
     found.collect()
 }
 
-/// The codes named, as they are installed here. All programs are asked for their versions at the same time.
+/// The codes `names` as they are installed here, looked up at the same time.
 fn find_all(names: &[Code]) -> Vec<SelectedCode> {
     in_parallel(names, names.len(), |name| SelectedCode::find(*name))
 }
 
-/// Says on standard error which codes are not installed, and whether recorded runs stand in for them.
-pub fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool) {
+/// Reports the codes that are not installed, and whether recorded runs stand in for them.
+pub(super) fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool) {
     for selected in codes.iter().filter(|selected| selected.code.is_none()) {
         let instead = match is_recorded(selected.name) {
             true => "recorded runs stand in for it",
@@ -313,22 +338,31 @@ pub fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool
     }
 }
 
-/// Creates `directory` and makes sure that files can be written there.
-pub fn writable(directory: &Path) -> Result<(), FileError> {
-    std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
-    tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
+/// Creates the directory, if one is given, and checks that files can be written there.
+pub(super) fn writable(directory: Option<&Path>) -> Result<(), FileError> {
+    if let Some(directory) = directory {
+        std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
+        tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
+    }
     Ok(())
 }
 
-/// Writes every one of `files`, by name and content, to `directory`.
-pub fn write_all(directory: &Path, files: &[(&str, Vec<u8>)]) -> Result<(), FileError> {
-    files
+/// Writes files, given by name and content, to the directory, if one is given. Nothing is written after an interrupt,
+/// when rows are missing.
+pub(super) fn write_all<'a, const N: usize>(
+    directory: Option<&Path>,
+    files: impl FnOnce() -> [(&'a str, Vec<u8>); N],
+) -> Result<(), FileError> {
+    let Some(directory) = directory.filter(|_| !INTERRUPT.requested()) else {
+        return Ok(());
+    };
+    files()
         .iter()
         .try_for_each(|(name, content)| write_atomically(&directory.join(name), content))
 }
 
 /// Reads `--mu`: a number, or the word `critical`.
-pub fn friction(text: &str) -> Result<f64, String> {
+pub(super) fn friction(text: &str) -> Result<f64, String> {
     if text == "critical" {
         return Ok(CRITICAL_FRICTION);
     }
@@ -337,8 +371,8 @@ pub fn friction(text: &str) -> Result<f64, String> {
     })
 }
 
-/// Prints what the parser of the command line has to say.
-pub fn report_usage(error: &clap::Error) -> Result<ExitStatus, CliError> {
+/// Prints help or a usage error.
+pub(super) fn report_usage(error: &clap::Error) -> Result<ExitStatus, CliError> {
     let printed = error.print();
     if printed.is_ok() && !error.use_stderr() {
         return Ok(ExitStatus::Success);
@@ -346,8 +380,8 @@ pub fn report_usage(error: &clap::Error) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::WrongInput)
 }
 
-/// The same error, naming the flag instead of the key of a case.
-pub fn as_flag(error: InvalidValue) -> InvalidValue {
+/// `error` with the flag in place of the key of a case file.
+pub(super) fn as_flag(error: InvalidValue) -> InvalidValue {
     let flag = match error.key.as_str() {
         "stack.floor_friction" => "--mu",
         "stack.cylinder_friction" => "--mu-d",

@@ -8,13 +8,13 @@ use crate::experiment::{
 use crate::output::{forecast_text, forecasts};
 use clap::{ArgGroup, Args};
 
-/// ε, regime and yield force of cylinders that one can hold, in SI units
+/// Predict ε, regime and yield force of real cylinders, in SI units
 #[derive(Debug, Args)]
 #[command(
     group(ArgGroup::new("heaviness").required(true).args(["density", "mass"])),
     after_help = "Example: tristack predict --youngs \"1 MPa\" --density \"1000 kg/m3\" --radius \"1 cm\" \
     --length \"1 cm\" --mu 0.3\n\n\
-    k_n of a contact is what an experimenter does not know, so that three estimates stand side by side:\n\n  \
+    The normal stiffness k_n of a real contact is rarely known, so three estimates are given side by side:\n\n  \
     paper-scaling  the paper's epsilon = L rho g/E, here with L = r, that is k_n = pi E l: its order of\n                 \
     magnitude, on the stiff side\n  \
     line-contact   k_n = (pi/4) E* l with E* = E/(2 (1 - nu^2)), the straight line through Hertz's law\n  \
@@ -27,8 +27,8 @@ use clap::{ArgGroup, Args};
     exact limit. The wooden cylinders of its movies:\n\n  \
     tristack predict --youngs \"1 GPa\" --mass \"21.9 g\" --radius \"20 mm\" --length \"40 mm\" --poisson 0.3 --mu 0.3"
 )]
-pub struct Arguments {
-    /// Young's modulus with unit, such as "1 MPa"; across the grain, for wood
+pub(super) struct Arguments {
+    /// Young's modulus with unit, such as "1 MPa"; for wood, across the grain
     #[arg(long, value_name = "E", value_parser = modulus, allow_negative_numbers = true)]
     youngs: f64,
     /// Density with unit, such as "1000 kg/m3" or "1 g/cm3"
@@ -46,7 +46,7 @@ pub struct Arguments {
     /// Floor friction; a number or the word `critical`
     #[arg(long, value_parser = friction, allow_negative_numbers = true)]
     mu: f64,
-    /// What the floor friction is known to, as ±
+    /// Uncertainty of the floor friction, as ±
     #[arg(
         long,
         value_name = "U",
@@ -62,18 +62,18 @@ pub struct Arguments {
         allow_negative_numbers = true
     )]
     poisson: f64,
-    /// The estimate of the contact that counts
+    /// Estimate of the contact stiffness to conclude from
     #[arg(long, value_enum, default_value_t = ContactEstimate::PaperScaling)]
     contact: ContactEstimate,
     #[command(flatten)]
     stack: StackOptions,
-    /// How to print the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 /// Prints the forecast.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let cylinder = Cylinder {
         youngs_modulus: arguments.youngs,
         poisson_ratio: arguments.poisson,
@@ -93,9 +93,6 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     };
     let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
     let people = || forecast_text(&found[0]);
-    super::print(
-        &arguments
-            .format
-            .render(&[forecasts(&found)], command, people),
-    )
+    let tables = [forecasts(&found)];
+    arguments.format.print(&tables, command, people)
 }

@@ -1,69 +1,58 @@
 //! `tristack probe`.
 
-use super::options::{CodeParser, Format, RunOptions, selected_codes};
-use super::progress::Reporter;
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::Code;
+use super::options::{CodeOptions, Format, RunOptions};
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::output::{probe, probe_by_code};
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
-use crate::study::convention::Finding;
-use crate::study::convention::{Probed, probe_all};
+use crate::study::convention::{Finding, Probed, probe_all};
 use clap::Args;
 
-/// Measure what each code means by a contact, and compare it with what its adapter declares
+/// Measure the contact convention of each code, and compare it with the declared one
 ///
-/// Runs micro-tests of a single contact (cylinder on cylinder, on the floor, on the top wall) and reads
+/// Runs micro-tests of a single contact (cylinder on cylinder, on the floor, on the top wall) and determines
 /// stiffness, damping, torque arm, kinematic arm, friction, Coulomb operand and the treatment of the
-/// tangential spring off the reported motion and forces. Codes that are not installed are represented by
-/// their recorded answers.
+/// tangential spring from the reported motion and forces. Recorded answers stand in for codes that are not
+/// installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack probe --codes native,lammps --format json")]
-pub struct Arguments {
-    /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+pub(super) struct Arguments {
+    #[command(flatten)]
+    codes: CodeOptions,
     #[command(flatten)]
     run: RunOptions,
-    /// How to print the findings
+    /// Format of the findings
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
-/// Probes, and prints the findings.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = selected_codes(&arguments.codes)?;
+/// Probes the codes and prints the findings.
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    let codes = arguments.codes.selected()?;
     let settings = arguments.run.settings()?;
-    let reporter = Reporter::new();
-    let probed = probe_all(&codes, &settings, &reporter);
-    drop(reporter);
+    let probed = with_progress(|progress| probe_all(&codes, &settings, progress));
     let findings: Vec<Finding> = probed
         .iter()
         .flatten()
         .flat_map(|probe| probe.findings.clone())
         .collect();
     let people = || probe_by_code(&findings).terminal();
-    super::print(
-        &arguments
-            .format
-            .render(&[probe(&findings)], command, people),
-    )?;
+    let tables = [probe(&findings)];
+    arguments.format.print(&tables, command, people)?;
     Ok(conclude(&codes, &probed, &findings))
 }
 
-/// Says on standard error what the findings amount to, and returns the exit status.
+/// Summarizes the findings on standard error, and returns the exit status.
 fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> ExitStatus {
-    for (who, result) in codes.iter().zip(probed) {
+    for (selected, result) in codes.iter().zip(probed) {
         if let Err(error) = result
             && !INTERRUPT.requested()
         {
-            tell!("{} was not probed: {error}", who.name);
-        } else if who.code.is_none() {
-            tell!(
-                "{} is not installed: its recorded answers stand in for it",
-                who.name
-            );
+            tell!("{} was not probed: {error}", selected.name);
+        } else if selected.code.is_none() {
+            let name = selected.name;
+            tell!("{name} is not installed: its recorded answers stand in for it");
         }
     }
     let count = |verdict: Verdict| {
@@ -81,7 +70,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
     } else if differing > 0 {
         ExitStatus::Disagreement
     } else if probed.iter().any(Result::is_err) {
-        ExitStatus::EngineFailed
+        ExitStatus::CodeFailed
     } else if agreeing < findings.len() {
         ExitStatus::Inconclusive
     } else {

@@ -1,8 +1,7 @@
 //! Progress on standard error: a bar on a terminal, plain lines elsewhere.
 
 use super::tell;
-use crate::code::Run;
-use crate::code::{Code, Failure};
+use crate::code::{Code, Failure, Run};
 use crate::model::Case;
 use crate::output::friction;
 use crate::runs::Progress;
@@ -11,12 +10,17 @@ use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time between two lines that say how far it is, where there is no bar.
+/// Time between two lines of progress, where there is no bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
-/// Tells the user how far it is.
-pub struct Reporter {
-    /// In nanoseconds of expected work. Not drawn where there is no terminal.
+/// Runs `work` with a progress report on standard error, and removes the bar when it is done.
+pub(super) fn with_progress<T>(work: impl FnOnce(&Reporter) -> T) -> T {
+    work(&Reporter::new())
+}
+
+/// Reports progress to the user.
+pub(super) struct Reporter {
+    /// In nanoseconds of expected work; hidden where there is no terminal.
     bar: ProgressBar,
     drawn: bool,
     counts: Mutex<Counts>,
@@ -29,8 +33,7 @@ struct Counts {
 }
 
 impl Reporter {
-    /// A reporter for the standard error of this process.
-    pub fn new() -> Self {
+    fn new() -> Self {
         let drawn = std::io::stderr().is_terminal();
         let target = if drawn {
             ProgressDrawTarget::stderr()
@@ -56,7 +59,7 @@ impl Reporter {
         }
     }
 
-    /// Counts are plain: whoever held them and died left them whole.
+    /// The counts, which stay valid even if a thread panicked while it held them.
     fn counts(&self) -> MutexGuard<'_, Counts> {
         self.counts.lock().unwrap_or_else(PoisonError::into_inner)
     }

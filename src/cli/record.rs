@@ -1,10 +1,9 @@
 //! `tristack record`.
 
 use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
-use super::progress::Reporter;
-use super::tell;
+use super::progress::with_progress;
 use super::trajectories::plans;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Run};
 use crate::model::shown;
 use crate::paper::reproduction::summaries_to_record;
@@ -19,7 +18,7 @@ use clap::{Args, ValueEnum};
 use std::path::Path;
 use thiserror::Error;
 
-/// A part of what is recorded.
+/// The recorded runs of one command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Set {
     /// The answers to `tristack probe`.
@@ -34,37 +33,34 @@ enum Set {
 
 /// Refresh the recorded runs that stand in for codes that are not installed
 ///
-/// Runs crosscheck, trajectories, probe and report with the external codes. Writes, for each, CODE.csv with
-/// what was read off every run and its provenance, and CODE.tar.gz with the series of the trajectories and the
-/// answers to the probe, into the directory that TRISTACK_REFERENCE names, or into reference/recorded of the
-/// checkout; what stands there is in the program once it has been built again.
+/// Runs crosscheck, trajectories, probe and report with the external codes. For each code, writes CODE.csv with
+/// a summary and the provenance of every run, and CODE.tar.gz with the series of the trajectories and the
+/// answers to the probe. They go to the directory that TRISTACK_REFERENCE names, or to reference/recorded of the
+/// checkout, from which the next build of the program embeds them.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
-pub struct Arguments {
-    /// Which codes, separated by commas; each must be installed [default: all external ones]
+pub(super) struct Arguments {
+    /// Codes to record, separated by commas; each must be installed [default: all external codes]
     #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
-    /// Only what one command needs, leaving the other recordings as they are [default: all, in place of
-    /// everything recorded before]
+    /// Record only the runs of this command and keep the others [default: replace all recorded runs]
     #[arg(long, value_enum, value_name = "COMMAND")]
     only: Option<Set>,
     #[command(flatten)]
     run: RunOptions,
 }
 
-/// Why a code is not recorded.
+/// The reason why a code is not recorded.
 #[derive(Debug, Error)]
 enum RecordingError {
-    /// A run failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The probe failed.
     #[error(transparent)]
     Probe(#[from] ProbeError),
 }
 
-/// Runs and records, code by code; a code with a failed run keeps its old recordings.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+/// Records code by code; a code with a failed run keeps its old recordings.
+pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let external: Vec<Code> = match arguments.codes.as_slice() {
         [] => Code::all()
             .into_iter()
@@ -97,22 +93,20 @@ fn record(
         Some(_) => Recorded::new(directory).recording(name)?,
         None => Recording::default(),
     };
-    let reporter = Reporter::new();
-    let made = make(&mut recording, selected, only, settings, &reporter);
-    drop(reporter);
+    let made = with_progress(|progress| make(&mut recording, selected, only, settings, progress));
     if let Err(error) = made {
         tell!("{name} is not recorded: {error}");
-        return Ok(ExitStatus::EngineFailed);
+        return Ok(ExitStatus::CodeFailed);
     }
     recording.save(directory, name)?;
     let (count, directory) = (recording.runs.len(), shown(directory));
     tell!(
-        "{count} runs of {name} are recorded in {directory}; a program built from it carries them"
+        "{count} runs of {name} are recorded in {directory}; the next build of the program embeds them"
     );
     Ok(ExitStatus::Success)
 }
 
-/// Makes what is wanted of one code, and puts it into `recording`.
+/// Runs the wanted parts with one code, and puts them into `recording`.
 fn make(
     recording: &mut Recording,
     selected: &SelectedCode,

@@ -1,10 +1,8 @@
 //! `tristack regimes`.
 
 use super::options::{Format, RunOptions, as_flag, writable, write_all};
-use super::progress::Reporter;
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
-use crate::files::FileError;
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
     boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
@@ -13,31 +11,31 @@ use crate::study::Verdict;
 use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
 use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Values on the axis and floor frictions of regimes.csv.
+/// Numbers of values on the axis and of floor frictions in regimes.csv.
 const GRID: (usize, usize) = (25, 40);
 const FEWEST_POINTS: usize = 2;
 const MOST_POINTS: usize = 1000;
 
-/// Which event comes first, and what it does
+/// Map which event comes first under load, and what it does
 ///
-/// Maps the events over floor friction and stiffness, cylinder friction, or stiffness ratio. The native DEM
-/// examines every boundary on both sides, at a relative distance of 5e-4, and the largest forces of stacks of
-/// every kind are compared with theory. Finished runs are reused.
+/// Maps the events over floor friction and stiffness, cylinder friction, or stiffness ratio. Native DEM runs test
+/// every boundary on both sides, at a relative distance of 5e-4, and the largest forces of stacks in every regime
+/// are compared with theory. Finished runs are reused.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack regimes --out regimes")]
-pub struct Arguments {
-    /// Stiffness ratio k_n/k_t where it does not vary
+pub(super) struct Arguments {
+    /// Stiffness ratio k_n/k_t in the maps over other parameters
     #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
     kappa: f64,
-    /// Points examined on each boundary
+    /// Number of points tested on each boundary
     #[arg(long, value_name = "N", default_value_t = 13)]
     points: usize,
     /// Directory for regimes.csv, boundaries.csv, largest_forces.csv, regimes.md and regimes.svg
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How to print boundaries and largest forces; csv prints the boundaries alone
+    /// Format of boundaries and largest forces; csv has the boundaries alone
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     #[command(flatten)]
@@ -45,31 +43,36 @@ pub struct Arguments {
 }
 
 /// Examines every boundary, prints and writes the result.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let maps = checked_maps(arguments)?;
-    if let Some(directory) = &arguments.out {
-        writable(directory)?;
-    }
+    writable(arguments.out.as_deref())?;
     let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
     let settings = arguments.run.settings()?;
     let plan = SurveyPlan::new(&points, &examined_stacks());
-    let reporter = Reporter::new();
-    let survey = survey(&plan, &settings, &reporter);
-    drop(reporter);
+    let survey = with_progress(|progress| survey(&plan, &settings, progress));
     if INTERRUPT.requested() {
         tell!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);
-    }
-    if let Some(directory) = &arguments.out {
-        write(directory, &maps, &survey, command)?;
     }
     let tables = [
         boundaries(&survey.confirmations),
         largest_forces(&survey.examinations),
     ];
+    write_all(arguments.out.as_deref(), || {
+        [
+            ("regimes.csv", regimes(&maps, GRID.0, GRID.1).csv()),
+            ("boundaries.csv", tables[0].csv()),
+            ("largest_forces.csv", tables[1].csv()),
+            (
+                "regimes.md",
+                regimes_markdown(&survey, command).into_bytes(),
+            ),
+            ("regimes.svg", regimes_svg(&maps, &survey).into_bytes()),
+        ]
+    })?;
     let people = || survey_text(&survey);
-    super::print(&arguments.format.render(&tables, command, people))?;
+    arguments.format.print(&tables, command, people)?;
     Ok(conclude(&survey))
 }
 
@@ -94,26 +97,7 @@ fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
     Ok(maps)
 }
 
-fn write(
-    directory: &Path,
-    maps: &[RegimeMap],
-    survey: &Survey,
-    command: &str,
-) -> Result<(), FileError> {
-    let files = [
-        ("regimes.csv", regimes(maps, GRID.0, GRID.1).csv()),
-        ("boundaries.csv", boundaries(&survey.confirmations).csv()),
-        (
-            "largest_forces.csv",
-            largest_forces(&survey.examinations).csv(),
-        ),
-        ("regimes.md", regimes_markdown(survey, command).into_bytes()),
-        ("regimes.svg", regimes_svg(maps, survey).into_bytes()),
-    ];
-    write_all(directory, &files)
-}
-
-/// Prints a summary on standard error, and returns the exit status.
+/// Summarizes the survey on standard error, and returns the exit status.
 fn conclude(survey: &Survey) -> ExitStatus {
     let verdicts: Vec<Verdict> = survey.verdicts().collect();
     let count = |verdict: Verdict| verdicts.iter().filter(|&&other| other == verdict).count();

@@ -1,35 +1,34 @@
 //! `tristack report`.
 
 use super::options::{CodeParser, RunOptions, selected_codes, writable};
-use super::progress::Reporter;
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
-use crate::files::{FileError, write_atomically};
+use crate::files::write_atomically;
 use crate::model::shown;
-use crate::output::{Origin, ReportFile, report_files};
+use crate::output::{Origin, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
 use crate::runs::SelectedCode;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Name of the directory that is written if none is given.
+/// The default of `--out`.
 const DEFAULT_DIRECTORY: &str = "report";
 
-/// The reproducibility report for the paper
+/// Write the reproducibility report for the paper
 ///
-/// Carries out everything behind the paper's figures, and some that it lacks, tests every statement of the
-/// paper, and writes report.html, report.md, claims.json, junit.xml, ro-crate-metadata.json, tables/ and
-/// figures/. Finished runs are reused, and codes that are not installed are represented by recorded runs.
+/// Runs everything behind the paper's figures and some further ones, tests every statement of the paper, and
+/// writes report.html, report.md, claims.json, junit.xml, ro-crate-metadata.json, tables/ and figures/. Finished
+/// runs are reused, and recorded runs stand in for codes that are not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack report --out report")]
-pub struct Arguments {
-    /// Which codes, separated by commas, native among them; each must be installed [default: all, recorded
-    /// if necessary]
+pub(super) struct Arguments {
+    /// Codes to run besides native, separated by commas; each must be installed [default: all, recorded if
+    /// necessary]
     #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
-    /// Also run all of figure 2(a) at the paper's literal wall speed and time step: some ten minutes
+    /// Also run all of figure 2(a) at the paper's literal wall speed and time step, for some ten minutes
     #[arg(long)]
     literal: bool,
     /// Directory of the report
@@ -40,24 +39,21 @@ pub struct Arguments {
 }
 
 /// Reproduces the paper and writes the report.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let mut codes = arguments.codes.clone();
     if !codes.is_empty() && !codes.contains(&Code::NATIVE) {
         codes.push(Code::NATIVE);
     }
     let codes = selected_codes(&codes)?;
     let register = Register::paper()?;
-    writable(&arguments.out)?;
+    writable(Some(&arguments.out))?;
     let settings = arguments.run.settings()?;
     let scope = Scope {
         codes: &codes,
         settings: &settings,
         literal: arguments.literal,
     };
-    let reporter = Reporter::new();
-    let reproduced = reproduce(&scope, &reporter);
-    drop(reporter);
-    let reproduced = match reproduced {
+    let reproduced = match with_progress(|progress| reproduce(&scope, progress)) {
         Ok(Some(reproduced)) => reproduced,
         _ if INTERRUPT.requested() => return Ok(interrupted()),
         Ok(None) => return Ok(interrupted()),
@@ -65,8 +61,9 @@ pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError>
     };
     let claims = judge(&register, &PaperTheory::printed(), &reproduced);
     let origin = origin(arguments, command, &codes);
-    let files = report_files(&reproduced, &claims, &origin);
-    write(&arguments.out, &files)?;
+    for file in report_files(&reproduced, &claims, &origin) {
+        write_atomically(&arguments.out.join(&file.name), &file.content)?;
+    }
     Ok(conclude(&arguments.out, &reproduced, &claims))
 }
 
@@ -77,25 +74,18 @@ fn interrupted() -> ExitStatus {
     ExitStatus::Interrupted
 }
 
-/// How the report came about.
+/// The origin of the report.
 fn origin(arguments: &Arguments, command: &str, codes: &[SelectedCode]) -> Origin {
-    let absent = codes.iter().filter(|who| who.code.is_none());
+    let absent = codes.iter().filter(|selected| selected.code.is_none());
     Origin {
         command: command.to_owned(),
-        recorded: absent.map(|who| who.name).collect(),
+        recorded: absent.map(|selected| selected.name).collect(),
         literal: arguments.literal,
     }
 }
 
-fn write(directory: &Path, files: &[ReportFile]) -> Result<(), FileError> {
-    for file in files {
-        let path = directory.join(&file.name);
-        write_atomically(&path, &file.content)?;
-    }
-    Ok(())
-}
-
-/// Says what was found, and returns the exit status of the runs: a claim that does not hold is a result.
+/// Summarizes the claims on standard error, and returns the exit status of the runs alone: a claim that does not
+/// hold is a result.
 fn conclude(
     directory: &Path,
     reproduction: &Reproduction,

@@ -4,8 +4,7 @@ use super::options::{
     ArmOptions, CodeParser, Format, StackOptions, as_flag, friction, time_limit, writable,
 };
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::Run;
-use crate::code::{Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
+use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence};
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
 use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
@@ -16,28 +15,29 @@ use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, pro
 use crate::theory::quasistatic_limit;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-/// Wall speed of a run for which none is given, in units of the predicted displacement z.
+/// Default wall speed, in units of the predicted displacement z at yield.
 const DEFAULT_SPEED: f64 = 1e-3;
 const DEFAULT_TIME_STEP: f64 = 0.1;
 
-/// How a stack is brought to rest before it is compressed.
+/// The preparation of the stack before the compression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum PreparationKind {
-    /// Gravity rises over 100 time units: no sliding, no force between the bottom cylinders
+    /// Gravity rises over 100 sqrt(m/k_n): no sliding, no force between the bottom cylinders
     GravityRamp,
-    /// The paper's: side walls pushed in by A, top cylinder lowered at 0.1, walls withdrawn at 1e-3
+    /// That of the paper: side walls pushed in by A, top cylinder lowered at 0.1, walls withdrawn at 1e-3 (speeds in r sqrt(k_n/m))
     SideWalls,
 }
 
-/// One compression run
+/// Run one compression
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples: tristack simulate --code native --mu 0.3 --stiffness 1e3 --out run\n          \
     tristack simulate --code native --mu 0.2 --stiffness 1e2 --preparation side-walls --push 0.005"
 )]
-pub struct Arguments {
-    /// Who runs it
+pub(super) struct Arguments {
+    /// Code that runs the case
     #[arg(long, value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
@@ -58,19 +58,19 @@ pub struct Arguments {
     stack: StackOptions,
     #[command(flatten)]
     arms: ArmOptions,
-    /// How the stack is brought to rest; a code without a deck for side walls refuses them
+    /// Preparation of the stack; a code without a deck for side walls refuses them
     #[arg(long, value_enum, default_value_t = PreparationKind::GravityRamp)]
     preparation: PreparationKind,
-    /// How far each side wall is pushed in, A in r [default: 0]
+    /// Distance A by which each side wall is pushed in, in r [default: 0]
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     push: Option<f64>,
-    /// Wall speed [default: 1e-3 of the predicted displacement at yield]
+    /// Wall speed in r sqrt(k_n/m) [default: 1e-3 of the predicted displacement at yield]
     #[arg(long, value_name = "V", allow_negative_numbers = true)]
     speed: Option<f64>,
-    /// Time step
+    /// Time step in sqrt(m/k_n)
     #[arg(long, default_value_t = DEFAULT_TIME_STEP, allow_negative_numbers = true)]
     dt: f64,
-    /// Approach the predicted yield up to ten times faster, and stop after it; native alone takes shortcuts
+    /// Approach the predicted yield up to ten times faster and stop after it; only native supports shortcuts
     #[arg(long)]
     shortcuts: bool,
     /// Directory for case, series, summary, deck and captured output
@@ -82,66 +82,76 @@ pub struct Arguments {
     /// Directory for a time series that ParaView opens (stack.pvd): cylinders and contact forces, at most some 500 rows
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
-    /// Longest time in seconds [default: 30 s and 100 us a step for external codes, none for native]
+    /// Time limit in seconds [default: 30 s plus 100 us per step for external codes, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     time_limit: Option<f64>,
-    /// How to print the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 /// Runs one case and prints both estimators.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
-    if let Some(directory) = &arguments.vtk {
-        writable(directory)?;
-    }
+    writable(arguments.vtk.as_deref())?;
     let name = arguments.code;
-    let code = name.find().ok_or(CliError::MissingEngine(name))?;
-    let scratch = match &arguments.out {
+    let code = name.find().ok_or(CliError::MissingCode(name))?;
+    let run = match &arguments.out {
         Some(directory) => {
-            writable(directory)?;
+            writable(Some(directory))?;
             begin(directory, &case)?;
-            None
+            execute(code.as_ref(), &case, limit, directory)?
         }
-        None => Some(
-            tempfile::Builder::new()
-                .prefix("tristack-")
-                .tempdir()
-                .map_err(FileError::writing(&std::env::temp_dir()))?,
-        ),
-    };
-    let directory = arguments
-        .out
-        .as_deref()
-        .or(scratch.as_ref().map(tempfile::TempDir::path));
-    let context = RunContext {
-        time_limit: limit,
-        ..RunContext::new(directory.unwrap_or(Path::new(".")), &INTERRUPT)
-    };
-    let run = match execute(code.as_ref(), &case, &context) {
-        Ok(run) => run,
-        Err(failure) => {
-            if failure.left_evidence()
-                && let Some(scratch) = scratch
-            {
-                keep_evidence(scratch);
-            }
-            return Err(failure.into());
-        }
+        None => execute_in_scratch(code.as_ref(), &case, limit)?,
     };
     let simulated = [Simulation::new(&run)];
     let tables = [simulations(&simulated)];
     if let Some(directory) = &arguments.out {
-        write(directory, &run, &json(&tables, command))?;
+        write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
+        write_atomically(&directory.join(SUMMARY), &json(&tables, command))?;
     }
     draw(arguments, &run)?;
     let people = || tables[0].transposed(&["value"]).terminal();
-    super::print(&arguments.format.render(&tables, command, people))
+    arguments.format.print(&tables, command, people)
 }
 
-/// Draws what was asked for.
+/// Runs the case in a temporary directory, which stays if it helps to explain a failure.
+fn execute_in_scratch(
+    code: &dyn InstalledCode,
+    case: &Case,
+    limit: Option<Duration>,
+) -> Result<Run, CliError> {
+    let scratch = tempfile::Builder::new().prefix("tristack-").tempdir();
+    let scratch = scratch.map_err(FileError::writing(&std::env::temp_dir()))?;
+    let outcome = execute(code, case, limit, scratch.path());
+    if let Err(failure) = &outcome
+        && failure.left_evidence()
+    {
+        keep_evidence(scratch);
+    }
+    Ok(outcome?)
+}
+
+fn execute(
+    code: &dyn InstalledCode,
+    case: &Case,
+    limit: Option<Duration>,
+    directory: &Path,
+) -> Result<Run, Box<Failure>> {
+    let context = RunContext {
+        time_limit: limit,
+        ..RunContext::new(directory, &INTERRUPT)
+    };
+    let mut outcome = None;
+    let case = std::slice::from_ref(case);
+    code.run(case, &context, &mut |_, result| outcome = Some(result));
+    outcome
+        .expect("a code reports every case")
+        .map_err(Box::new)
+}
+
+/// Writes the picture and the files for ParaView, if asked for.
 fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
     if arguments.svg.is_none() && arguments.vtk.is_none() {
         return Ok(());
@@ -173,8 +183,8 @@ fn remove_vtk_series(directory: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Every sampled moment of the run. The native DEM, whose series leaves out the forces between the cylinders,
-/// runs once more, to the same bits.
+/// Every sampled moment of the run. The native DEM runs again, with bitwise the same result, because its series
+/// leaves out the forces between the cylinders.
 fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
     if code != Code::NATIVE {
         return Ok(Frames::of_series(&run.series, run.case.protocol.wall_speed));
@@ -233,7 +243,7 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     Ok(case)
 }
 
-/// `protocol` with the preparation that was asked for.
+/// `protocol` with the preparation of the command line.
 fn prepared(
     protocol: &Protocol,
     arguments: &Arguments,
@@ -256,25 +266,11 @@ fn prepared(
     }
 }
 
-fn execute(
-    code: &dyn InstalledCode,
-    case: &Case,
-    context: &RunContext,
-) -> Result<Run, Box<Failure>> {
-    let mut outcome = None;
-    let case = std::slice::from_ref(case);
-    code.run(case, context, &mut |_, result| outcome = Some(result));
-    outcome
-        .expect("an code reports every case")
-        .map_err(Box::new)
-}
-
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const SUMMARY: &str = "summary.json";
 
-/// Replaces the case of an earlier run by this one and removes its results, which must not stand beside
-/// the deck of this run.
+/// Writes the case, and removes the results of an earlier run, which must not stand beside the deck of this run.
 fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
     write_atomically(&directory.join(CASE), case.to_json().as_bytes())?;
     for name in [SERIES, SUMMARY] {
@@ -284,9 +280,4 @@ fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
         }
     }
     Ok(())
-}
-
-fn write(directory: &Path, run: &Run, summary: &[u8]) -> Result<(), FileError> {
-    write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
-    write_atomically(&directory.join(SUMMARY), summary)
 }

@@ -2,66 +2,57 @@
 
 use super::crosscheck::conclude;
 use super::options::{
-    ArmOptions, CodeParser, Format, RunOptions, StackOptions, as_flag, friction, selected_codes,
-    writable,
+    ArmOptions, CodeParser, Format, RunOptions, StackListOptions, as_flag, friction,
+    selected_codes, writable, write_all,
 };
-use super::progress::Reporter;
+use super::progress::with_progress;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
-use crate::files::write_atomically;
+use crate::model::Stack;
 use crate::output::{crosscheck, crosscheck_text, json};
 use crate::study::Campaign;
-use crate::study::yield_force::{Judgement, Measurement, plan};
+use crate::study::yield_force::{Judgement, plan};
 use clap::Args;
 use std::path::PathBuf;
 
 const MOST_FRICTIONS: f64 = 1e4;
-/// Stacks that are planned and measured together. What their runs take of memory, some 10 kB a stack, is free
-/// again before the next.
+/// Stacks that are measured together. The memory of their runs, some 10 kB per stack, is freed before the next.
 const STACKS_AT_ONCE: usize = 2000;
 
-/// A yield curve: yield force against floor friction
+/// Measure a yield curve: yield force against floor friction
 ///
-/// Every point is measured and judged like a row of a crosscheck. Where theory finds something else than
-/// floor slip, nothing is run and the row says so.
+/// Every point is measured and judged like a row of a crosscheck. Where theory predicts another event than
+/// floor slip, nothing is run and the row gives the reason.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: tristack sweep --code native --mu 0.1:0.5:0.05 --stiffness 1e2,1e3 --out curve"
 )]
-pub struct Arguments {
-    /// Who measures
+pub(super) struct Arguments {
+    /// Code that runs the stacks
     #[arg(long, value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     /// Floor frictions from A to B in steps, or a single one
     #[arg(long, value_name = "A:B:STEP", value_parser = Frictions::parse, allow_negative_numbers = true)]
     mu: Frictions,
-    /// Stiffnesses k_n r/(m g), separated by commas
-    #[arg(
-        long,
-        required = true,
-        value_name = "S1,S2",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
-    stiffness: Vec<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: StackListOptions,
     #[command(flatten)]
     arms: ArmOptions,
     /// Directory for sweep.csv and sweep.json
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Approach the yield up to ten times faster and stop after it; a run without, for each row, says what
-    /// this changes. Native alone takes shortcuts
+    /// Let the wall approach the yield up to ten times faster and stop after it; for each row, one run without
+    /// shortcuts measures what this changes. Only native supports shortcuts
     #[arg(long)]
     shortcuts: bool,
     #[command(flatten)]
     run: RunOptions,
-    /// How to print the rows
+    /// Format of the rows
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
+/// The values of `--mu`.
 #[derive(Debug, Clone, PartialEq)]
 struct Frictions(Vec<f64>);
 
@@ -87,12 +78,12 @@ impl Frictions {
     }
 }
 
-/// Without the last digits, which the multiplication by the step leaves behind (0.1 + 2 × 0.1 is not 0.3).
+/// `value` to twelve decimals, without round-off from the multiplication by the step (0.1 + 2 × 0.1 is not 0.3).
 fn rounded(value: f64) -> f64 {
     (value * 1e12).round() / 1e12
 }
 
-/// The same without its runs and their cases, which are not printed and would fill the memory.
+/// `judgement` without its runs and their cases, which are not printed and would fill the memory.
 fn without_runs(mut judgement: Judgement) -> Judgement {
     judgement.study.cases = Vec::new();
     if let Some(finding) = &mut judgement.finding {
@@ -102,46 +93,39 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 }
 
 /// Measures the curve, prints and writes its rows.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(arguments.code)?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;
-    let stacks = arguments
-        .stack
-        .stacks(&arguments.mu.0, &arguments.stiffness)?;
-    if let Some(directory) = &arguments.out {
-        writable(directory)?;
-    }
+    let stacks = arguments.stack.stacks(&arguments.mu.0)?;
+    writable(arguments.out.as_deref())?;
     let settings = arguments.run.settings()?;
-    let reporter = Reporter::new();
-    let campaign = Campaign::new(&codes, &settings, &reporter);
-    let mut judgements = Vec::new();
-    for stacks in stacks.chunks(STACKS_AT_ONCE) {
-        let planned = stacks.iter();
-        let planned = planned.map(|stack| {
-            let measurement = plan(arguments.code, stack, convention);
-            match arguments.shortcuts {
-                true => measurement.shortened(),
-                false => measurement,
-            }
-        });
-        let planned: Vec<Measurement> = planned.collect();
-        let judged = campaign.carry_out(planned);
-        judgements.extend(judged.into_iter().map(without_runs));
-        if INTERRUPT.requested() {
-            break;
+    let planned = |stack: &Stack| {
+        let measurement = plan(arguments.code, stack, convention);
+        match arguments.shortcuts {
+            true => measurement.shortened(),
+            false => measurement,
         }
-    }
-    drop(campaign);
-    drop(reporter);
+    };
+    let judgements: Vec<Judgement> = with_progress(|progress| {
+        let campaign = Campaign::new(&codes, &settings, progress);
+        let parts = stacks.chunks(STACKS_AT_ONCE);
+        parts
+            .take_while(|_| !INTERRUPT.requested())
+            .flat_map(|stacks| campaign.carry_out(stacks.iter().map(planned).collect()))
+            .map(without_runs)
+            .collect()
+    });
     let tables = [crosscheck(&judgements)];
-    if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write_atomically(&directory.join("sweep.csv"), &tables[0].csv())?;
-        write_atomically(&directory.join("sweep.json"), &json(&tables, command))?;
-    }
+    write_all(arguments.out.as_deref(), || {
+        [
+            ("sweep.csv", tables[0].csv()),
+            ("sweep.json", json(&tables, command)),
+        ]
+    })?;
     let people = || crosscheck_text(&judgements);
-    super::print(&arguments.format.render(&tables, command, people))?;
+    arguments.format.print(&tables, command, people)?;
     Ok(conclude(&judgements, stacks.len(), &codes))
 }
 

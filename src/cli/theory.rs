@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ArmOptions, Format, StackOptions, friction};
+use super::options::{ArmOptions, Format, StackListOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -12,41 +12,31 @@ use clap::Args;
 #[command(
     after_help = "Example: tristack theory --mu 0.3 --stiffness 1e4 --pair-arm -0.5 --floor-arm -0.5"
 )]
-pub struct Arguments {
-    /// Floor friction; a number, the word `critical`, or several separated by commas
+pub(super) struct Arguments {
+    /// Floor friction: numbers or the word `critical`, separated by commas
     #[arg(long, required = true, value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
     mu: Vec<f64>,
-    /// Stiffness k_n r/(m g); one or several separated by commas
-    #[arg(
-        long,
-        required = true,
-        value_name = "S",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
-    stiffness: Vec<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: StackListOptions,
     #[command(flatten)]
     arms: ArmOptions,
-    /// How to print the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 /// Prints the predictions for every combination of friction and stiffness.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.arms.convention(Code::NATIVE)?;
-    let stacks = arguments
-        .stack
-        .stacks(&arguments.mu, &arguments.stiffness)?;
-    let predictions = stacks.iter();
-    let predictions = predictions.map(|stack| Predictions::new(stack, &convention.arms));
-    let predictions: Vec<Predictions> =
-        predictions.take_while(|_| !INTERRUPT.requested()).collect();
+    let stacks = arguments.stack.stacks(&arguments.mu)?;
+    let predictions: Vec<Predictions> = stacks
+        .iter()
+        .map(|stack| Predictions::new(stack, &convention.arms))
+        .take_while(|_| !INTERRUPT.requested())
+        .collect();
     let people = || theories_by_stack(&predictions);
     let tables = [theory(&predictions)];
-    super::print(&arguments.format.render(&tables, command, people))?;
+    arguments.format.print(&tables, command, people)?;
     Ok(match predictions.len() == stacks.len() {
         true => ExitStatus::Success,
         false => ExitStatus::Interrupted,

@@ -1,13 +1,10 @@
 //! `tristack trajectories`.
 
-use super::options::{
-    CodeParser, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
-};
-use super::progress::Reporter;
-use super::tell;
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::interrupt::interrupted_after;
+use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
+use super::progress::with_progress;
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
-use crate::files::FileError;
 use crate::model::InvalidValue;
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
@@ -16,55 +13,58 @@ use crate::study::trajectory::{
 };
 use crate::study::{Campaign, Verdict};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Whole series at a finite wall speed, beside native twins
+/// Compare whole time series of the codes with native twins
 ///
-/// Compresses one stack at the wall speed 1e-3 with every code, at three time steps each half the one
-/// before, and with native twins that take on the code's own contact convention; compares wall force,
-/// positions and angle row by row, through yield and collapse; and judges whether what is left falls with
-/// the time step as it must. Codes that are not installed are represented by their recorded runs.
+/// Compresses one stack at the wall speed 1e-3 r sqrt(k_n/m) with every code, at three time steps each half the
+/// one before, and with native twins under the code's own contact convention. Compares wall force, positions and
+/// angle row by row, through yield and collapse, and judges whether the differences fall with the time step as
+/// they must. Recorded runs stand in for codes that are not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out results")]
-pub struct Arguments {
-    /// Which codes, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+pub(super) struct Arguments {
+    #[command(flatten)]
+    codes: CodeOptions,
     /// Directory for trajectories.csv, trajectories.json and trajectories.md
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     run: RunOptions,
-    /// How to print the results; json and csv have one row for every time step
+    /// Format of the results; json and csv have one row for every time step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 /// Runs and compares, prints and writes the rows.
-pub fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    refuse_native(&arguments.codes)?;
-    let mut codes = selected_codes(&arguments.codes)?;
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    refuse_native(&arguments.codes.named)?;
+    let mut codes = arguments.codes.selected()?;
     codes.retain(|selected| selected.name != Code::NATIVE);
-    if let Some(directory) = &arguments.out {
-        writable(directory)?;
-    }
+    writable(arguments.out.as_deref())?;
     let plans = plans(codes.iter().map(|selected| selected.name));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
-    let reporter = Reporter::new();
     let planned = plans.len();
-    let judgements = Campaign::new(&codes, &settings, &reporter).carry_out(plans);
-    drop(reporter);
-    if let Some(directory) = arguments.out.as_deref().filter(|_| !INTERRUPT.requested()) {
-        write(directory, &judgements, command)?;
-    }
+    let judgements =
+        with_progress(|progress| Campaign::new(&codes, &settings, progress).carry_out(plans));
     let tables = [trajectories(&judgements)];
+    write_all(arguments.out.as_deref(), || {
+        [
+            ("trajectories.csv", tables[0].csv()),
+            ("trajectories.json", json(&tables, command)),
+            (
+                "trajectories.md",
+                trajectories_markdown(&judgements, command).into_bytes(),
+            ),
+        ]
+    })?;
     let people = || trajectories_text(&judgements);
-    super::print(&arguments.format.render(&tables, command, people))?;
+    arguments.format.print(&tables, command, people)?;
     Ok(conclude(&judgements, planned, &codes))
 }
 
-/// The plans of the codes, each beside the convention that is declared for it.
+/// The plans for the codes, each under its declared convention.
 pub(super) fn plans(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
     let stack = trajectory_stack();
     names
@@ -87,40 +87,13 @@ fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
     })
 }
 
-fn write(
-    directory: &Path,
-    judgements: &[TrajectoryJudgement],
-    command: &str,
-) -> Result<(), FileError> {
-    let rows = trajectories(judgements);
-    let page = trajectories_markdown(judgements, command).into_bytes();
-    let files = [
-        ("trajectories.csv", rows.csv()),
-        ("trajectories.json", json(&[rows], command)),
-        ("trajectories.md", page),
-    ];
-    write_all(directory, &files)
-}
-
-/// Says on standard error what the comparisons amount to, and returns the exit status.
+/// Summarizes the comparisons on standard error, and returns the exit status.
 fn conclude(
     judgements: &[TrajectoryJudgement],
     planned: usize,
     codes: &[SelectedCode],
 ) -> ExitStatus {
-    for judgement in judgements {
-        for note in judgement.notes() {
-            tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
-        }
-        for comparison in judgement.comparisons() {
-            for note in comparison.grounds.notes() {
-                let (code, verdict) = (judgement.code, comparison.verdict());
-                let twin = comparison.twin.as_str();
-                let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
-                tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
-            }
-        }
-    }
+    judgements.iter().for_each(tell_notes);
     tell_stand_ins(codes, |code| {
         let mut own = judgements.iter().filter(|one| one.code == code);
         own.any(|one| one.is_recorded())
@@ -138,12 +111,7 @@ fn conclude(
         verdicts.len()
     );
     if INTERRUPT.requested() {
-        tell!(
-            "interrupted with {} of {planned} codes complete; every finished run is kept, and the same \
-             command goes on from here",
-            judgements.len()
-        );
-        return ExitStatus::Interrupted;
+        return interrupted_after(judgements.len(), planned, "codes");
     }
     let contradicted = judgements.iter().any(|own| own.grounds.is_contradicted());
     let contradicted = contradicted.then_some(ExitStatus::Disagreement);
@@ -152,4 +120,19 @@ fn conclude(
         .chain(contradicted)
         .max()
         .unwrap_or(ExitStatus::Success)
+}
+
+/// Prints the notes on a code and on its comparisons.
+fn tell_notes(judgement: &TrajectoryJudgement) {
+    for note in judgement.notes() {
+        tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
+    }
+    for comparison in judgement.comparisons() {
+        for note in comparison.grounds.notes() {
+            let (code, verdict) = (judgement.code, comparison.verdict());
+            let twin = comparison.twin.as_str();
+            let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
+            tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
+        }
+    }
 }

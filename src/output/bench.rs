@@ -1,6 +1,6 @@
-//! What steps and yield forces cost, in every format.
+//! The cost of steps and yield forces.
 
-use super::number::plain;
+use super::number::{one_digit, plain};
 use super::table::{Columns, DataTable};
 use crate::code::{Code, machine};
 use crate::dem::LaneWidth;
@@ -20,13 +20,13 @@ pub(super) fn beside_lanes(costs: &[StackCost]) -> Vec<StackRow<'_>> {
     costs.iter().map(|cost| (cost, lanes)).collect()
 }
 
-/// How many times the cost of a step in native lanes this is.
+/// The cost of a step, as a multiple of that in native lanes.
 pub(super) fn times_lanes((cost, lanes): &StackRow) -> Option<f64> {
     lanes.map(|lanes| cost.median() / lanes.median())
 }
 
-/// What the stack costs, one row a target.
-pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
+/// The cost of the stack, one row per target.
+pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     Columns::<StackRow>::new(
         "bench",
         "A row is the cost of a step and of a yield force by one code on one core.",
@@ -92,7 +92,7 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "largest distance of these yield forces from the exact limit, relative to F + 3",
         |(cost, _)| cost.largest_error,
     )
-    .shown_as("largest error", |error| format!("{error:.0e}"))
+    .shown_as("largest error", one_digit)
     .number(
         "peak_megabytes",
         "MB",
@@ -106,14 +106,14 @@ pub fn bench(costs: &[StackCost]) -> DataTable<'_> {
     .rows(beside_lanes(costs))
 }
 
-/// The machine that everything is measured on, and how many cases its vectors hold.
-pub fn bench_machine() -> String {
+/// The machine, and the number of cases in its vectors.
+pub(crate) fn bench_machine() -> String {
     let lanes = LaneWidth::widest().lanes();
     format!("{}, {lanes} lanes a vector", machine())
 }
 
-/// How lanes scale.
-pub fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<'a> {
+/// The cost of a step over the number of cases and cores.
+pub(crate) fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<'a> {
     Columns::<&ScalingRow>::new(
         "scaling",
         "A row is the cost of a step in native lanes with some number of cases and cores.",
@@ -140,8 +140,8 @@ pub fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<
     .rows(rows)
 }
 
-/// Both tables with the machine and what they are, as Markdown.
-pub fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String {
+/// Both tables with the machine, as Markdown.
+pub(crate) fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String {
     format!(
         "Machine: {}.\n\n{}\nNumber of cases on one core, in lanes:\n\n{}\n\
          Number of cores, planned runs in lanes:\n\n{}",
@@ -152,7 +152,7 @@ pub fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String {
     )
 }
 
-/// What pyramids cost; in `costs` those of one pyramid stand together.
+/// The cost of a step of pyramids. In `costs`, those of one pyramid are adjacent.
 pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {
@@ -228,6 +228,11 @@ mod tests {
             .collect::<Vec<_>>();
         assert_eq!(ratios, [Some(1.0), Some(250.0)]);
         assert_eq!(times_lanes(&beside_lanes(&costs[1..])[0]), None);
-        assert!(bench(&costs[1..]).shown().markdown().contains("| liggghts |"));
+        assert!(
+            bench(&costs[1..])
+                .shown()
+                .markdown()
+                .contains("| liggghts |")
+        );
     }
 }

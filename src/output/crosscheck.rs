@@ -1,6 +1,6 @@
-//! The rows of a crosscheck in every format.
+//! The rows of a crosscheck.
 
-use super::number::{friction, one_digit, or_dash, relative, significant, small};
+use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable};
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
@@ -8,7 +8,7 @@ use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the paper's, relative to F + 3";
 
 /// The rows.
-pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
+pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     Columns::<&Judgement>::new(
         "crosscheck",
         "A row is the yield force of one stack by one code at vanishing wall speed, and the verdict on it.",
@@ -22,12 +22,12 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .shown("source")
     .arms(|row| row.study.convention.arms)
     .number("yield_force", "m g", "yield force F at vanishing wall speed", |row| row.yield_force())
-    .shown_as("yield force", |force| significant(force, 9))
+    .shown_as("yield force", digits::<9>)
     .number("uncertainty", "m g", "its numerical uncertainty (see `budget`)", |row| row.uncertainty())
     .shown_as("±", one_digit)
     .text("reference", "the theory that it is compared with", |_| "quasistatic")
     .number("reference_force", "m g", "F by that theory, with the arms of the code", |row| row.reference_force())
-    .shown_as("exact limit", |force| significant(force, 9))
+    .shown_as("exact limit", digits::<9>)
     .number("error", "1", "(yield_force − reference_force)/(reference_force + 3)", |row| row.error())
     .shown_as("error", relative)
     .number("tolerance", "1", "largest error that agrees", |row| row.tolerance())
@@ -38,8 +38,8 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .rows(judgements)
 }
 
-/// What the uncertainty of every row that has one consists of, and how its runs converge.
-pub fn budget(judgements: &[Judgement]) -> DataTable<'_> {
+/// The parts of the uncertainty of every row, and the convergence of its runs.
+pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
     let mut columns = Columns::<(&Judgement, &Extrapolation)>::new(
         "budget",
         "A row is what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` consists of, and how \
@@ -84,12 +84,12 @@ fn evidence() -> String {
 }
 
 /// The codes and the rows for a terminal.
-pub fn crosscheck_text(judgements: &[Judgement]) -> String {
+pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
     codes(judgements).shown().terminal() + &crosscheck(judgements).shown().terminal()
 }
 
-/// A page with the rows, what they mean, and what explains every verdict that is not `agrees`.
-pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
+/// A page with the rows, their meaning, and the notes on rows that do not agree.
+pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     let mut page = format!(
         "# Crosscheck of the three-cylinder stack\n\n\
          Made by tristack {} with `{command}`.\n\n\
@@ -107,31 +107,22 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
              runs behind a row: `tristack crosscheck --explain CODE/MU/STIFFNESS`.\n\n";
     page += &budget(judgements).shown().markdown();
     page += &evidence();
-    let explained = judgements
-        .iter()
-        .filter(|judgement| !judgement.notes().is_empty());
-    for (index, judgement) in explained.enumerate() {
-        if index == 0 {
-            page += "\n## Remarks\n\n";
-        }
-        page += &remark(judgement);
+    let noted = judgements.iter().filter(|row| !row.notes().is_empty());
+    let remarks: String = noted.map(remark).collect();
+    if !remarks.is_empty() {
+        page += "\n## Remarks\n\n";
     }
-    page
+    page + &remarks
 }
 
-fn remark(judgement: &Judgement) -> String {
-    let subject = format!(
-        "{}, mu = {}, stiffness = {}: {}",
-        judgement.code,
-        friction(judgement.mu()),
-        judgement.stiffness(),
-        judgement.verdict()
-    );
-    let notes = judgement.notes().join("\n").replace('\n', "\n  ");
-    format!("- **{subject}**\n\n  {notes}\n")
+fn remark(row: &Judgement) -> String {
+    let (mu, stiffness) = (friction(row.mu()), row.stiffness());
+    let (code, verdict) = (row.code, row.verdict());
+    let notes = row.notes().join("\n").replace('\n', "\n  ");
+    format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }
 
-/// The codes in the order of their first rows, with what all their rows share.
+/// For people: one row per code, with the version, source and arms that its rows share.
 fn codes(judgements: &[Judgement]) -> DataTable<'_> {
     let shared = |row: &Judgement| {
         let arms = row.study.convention.arms;
@@ -144,9 +135,11 @@ fn codes(judgements: &[Judgement]) -> DataTable<'_> {
         }
     }
     Columns::<&Judgement>::for_people()
-        .left("code", |row| row.code.to_string())
-        .left("version", |row| or_dash(&row.version))
-        .left("source", |row| row.source.as_str().to_owned())
+        .code(|row| row.code)
+        .version(|row| &row.version)
+        .shown("version")
+        .source(|row| row.source)
+        .shown("source")
         .right("pair arm", |row| row.study.convention.arms.pair.to_string())
         .right("floor arm", |row| {
             row.study.convention.arms.floor.to_string()

@@ -1,6 +1,6 @@
-//! The whole chain from runs to verdict for one row.
+//! The explanation of one row: every step from its runs to its verdict.
 
-use super::number::{friction, optional, relative, significant};
+use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
 use crate::model::{Case, Preparation};
 use crate::runs::RunSummary;
@@ -10,22 +10,20 @@ use crate::study::yield_force::{
 };
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-/// What stands behind `judgement`, for a terminal. `twin` is the same number computed with more digits.
-pub fn explanation(judgement: &Judgement, twin: Option<&Result<TwinForce, String>>) -> String {
-    let mut text = question(judgement);
-    text += &runs(judgement);
-    if let Some(slip) = judgement.slip() {
+/// The steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more digits.
+pub(crate) fn explanation(row: &Judgement, twin: Option<&Result<TwinForce, String>>) -> String {
+    let mut text = reference(row);
+    text += &runs(row);
+    if let Some(slip) = row.slip() {
         text += &extrapolation(slip);
-        text += &budget(judgement, slip);
+        text += &budget(row, slip);
         text += &round_off(slip, twin);
     }
-    text += &conclusion(judgement);
-    text
+    text + &conclusion(row)
 }
 
-fn question(judgement: &Judgement) -> String {
-    let row = judgement;
-    let convention = &judgement.study.convention;
+fn reference(row: &Judgement) -> String {
+    let arms = row.study.convention.arms;
     format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
          1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
@@ -37,21 +35,21 @@ fn question(judgement: &Judgement) -> String {
         friction(row.mu()),
         row.stiffness(),
         row.study.stack.stiffness_ratio,
-        judgement.study.stack.cylinder_friction,
-        convention.arms.pair,
-        convention.arms.floor,
-        if judgement.arms_are_measured {
+        row.study.stack.cylinder_friction,
+        arms.pair,
+        arms.floor,
+        if row.arms_are_measured {
             "measured: tristack probe"
         } else {
             "declared"
         },
-        optional(row.reference_force(), |force| significant(force, 12)),
+        optional(row.reference_force(), digits::<12>),
         optional(row.model_form(), relative),
     )
 }
 
-fn runs(judgement: &Judgement) -> String {
-    let runs = judgement.study.cases.iter().zip(judgement.runs());
+fn runs(row: &Judgement) -> String {
+    let runs = row.study.cases.iter().zip(row.runs());
     let runs = runs.enumerate();
     let force =
         |estimate: Option<Estimate>| optional(estimate, |estimate| significant(estimate.force, 11));
@@ -103,10 +101,9 @@ fn extrapolation(slip: &Extrapolation) -> String {
     )
 }
 
-fn budget(judgement: &Judgement, slip: &Extrapolation) -> String {
-    let load = judgement
-        .reference_force()
-        .map_or(f64::NAN, |force| force + 3.0);
+fn budget(row: &Judgement, slip: &Extrapolation) -> String {
+    let reference = row.reference_force();
+    let load = reference.map_or(f64::NAN, |force| force + 3.0);
     let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
     let total = ("total", "sum, as if all conspired", slip.budget.total());
     let table = Columns::<(&str, &str, f64)>::for_people()
@@ -137,8 +134,7 @@ fn round_off(slip: &Extrapolation, twin: Option<&Result<TwinForce, String>>) -> 
     format!("5. Round-off, measured: {text}\n\n")
 }
 
-fn conclusion(judgement: &Judgement) -> String {
-    let row = judgement;
+fn conclusion(row: &Judgement) -> String {
     let evidence = Evidence::of(row);
     let mut text = format!(
         "6. Comparison error E = S - D: {} of F + 3; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
@@ -147,7 +143,7 @@ fn conclusion(judgement: &Judgement) -> String {
         optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),
         row.verdict()
     );
-    for note in &judgement.notes() {
+    for note in &row.notes() {
         text += &format!("   {note}\n");
     }
     text + &format!(

@@ -1,13 +1,13 @@
-//! What an experiment will show, in SI units.
+//! The forecast for an experiment, in SI units.
 
-use super::number::{friction, rounded, significant};
+use super::number::{digits, friction, rounded, significant};
 use super::table::{Columns, DataTable, Value};
 use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
 
 type Row<'a> = (&'a Forecast, &'a Forecasted);
 
-/// One row an estimate of the contact.
-pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
+/// One row per estimate of the contact.
+pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     let rows = forecasts.iter().flat_map(|all| {
         let estimates = all.estimates.iter();
         estimates.map(move |own| (all, own))
@@ -21,36 +21,36 @@ pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
         "`tristack predict`",
     ))
     .text("contact", "the estimate of the contact", |(_, own)| own.contact.as_str())
-    .text("chosen", "whether it is the one that was asked for", |(all, own)| {
+    .text("chosen", "whether it is the chosen estimate", |(all, own)| {
         all.contact == own.contact
     })
     .number("normal_stiffness", "N/m", "k_n", |(_, own)| own.normal_stiffness)
-    .shown_as("k_n", |number| significant(number, 4))
+    .shown_as("k_n", digits::<4>)
     .number("epsilon", "1", "ε = m g/(k_n r)", |(_, own)| own.epsilon)
-    .shown_as("epsilon = m g/(k_n r)", |number| significant(number, 4))
+    .shown_as("epsilon = m g/(k_n r)", digits::<4>)
     .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |(_, own)| own.stiffness)
-    .shown_as("stiffness 1/epsilon", |number| significant(number, 4))
+    .shown_as("stiffness 1/epsilon", digits::<4>)
     .text("event", "what comes first on the path of equilibria", |(_, own)| own.event.to_string())
     .shown("first event")
     .text("reason", "what that means, where it is no yield", |(_, own)| own.reason.clone())
     .number("overlap", "r", "overlap of the contacts between the cylinders then", |(_, own)| own.overlap)
-    .shown_as("overlap then", |number| significant(number, 3))
+    .shown_as("overlap then", digits::<3>)
     .number("yield_force", "m g", "exact quasi-static yield force", move |(_, own)| {
         weights(own.yield_force)
     })
-    .shown_as("yield force, exact limit", |number| significant(number, 6))
+    .shown_as("yield force, exact limit", digits::<6>)
     .number("yield_force_newton", "N", "the same", move |(_, own)| newton(own.yield_force))
-    .shown_as("yield force, exact limit", |number| significant(number, 4))
+    .shown_as("yield force, exact limit", digits::<4>)
     .number("perturbation", "m g", "the paper's perturbation result", move |(_, own)| {
         weights(own.perturbation)
     })
     .number("perturbation_newton", "N", "the same", move |(_, own)| newton(own.perturbation))
-    .shown_as("paper's perturbation", |number| significant(number, 4))
+    .shown_as("paper's perturbation", digits::<4>)
     .number("paper_formula", "m g", "the paper's f = m g/ε, meant for μ > μ_c", |(_, own)| {
         own.paper_formula.weights
     })
     .number("paper_formula_newton", "N", "the same", |(_, own)| own.paper_formula.newton)
-    .shown_as("paper's f = m g/epsilon, mu > mu_c", |number| significant(number, 4))
+    .shown_as("paper's f = m g/epsilon, mu > mu_c", digits::<4>)
     .number(
         "largest_force",
         "m g",
@@ -58,7 +58,7 @@ pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
         move |(_, own)| weights(own.largest_force),
     )
     .number("largest_force_newton", "N", "the same", move |(_, own)| newton(own.largest_force))
-    .shown_as("largest force", |number| significant(number, 4))
+    .shown_as("largest force", digits::<4>)
     .number(
         "range_lowest",
         "N",
@@ -71,7 +71,7 @@ pub fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     .rows(rows)
 }
 
-/// What is known of the cylinders.
+/// The columns of the cylinders.
 fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let own = |(forecast, _): &Row| -> Experiment { forecast.experiment };
     columns
@@ -116,7 +116,7 @@ fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
 }
 
 /// The estimates side by side, for people.
-pub fn forecast_text(forecast: &Forecast) -> String {
+pub(crate) fn forecast_text(forecast: &Forecast) -> String {
     let names: Vec<&str> = forecast
         .estimates
         .iter()
@@ -161,12 +161,10 @@ fn plus_minus(uncertainty: f64) -> String {
     }
 }
 
-/// The force by the estimate that counts, between those by all of them.
+/// The yield force by the chosen estimate, and the range over all estimates.
 fn conclusion(forecast: &Forecast) -> String {
-    let chosen = forecast
-        .estimates
-        .iter()
-        .find(|estimate| estimate.contact == forecast.contact);
+    let mut estimates = forecast.estimates.iter();
+    let chosen = estimates.find(|estimate| estimate.contact == forecast.contact);
     let reason = chosen.and_then(|estimate| estimate.reason.as_deref());
     let said = match (forecast.yield_force, reason) {
         (Some(force), _) => format!("yield force {} N", significant(force.newton, 4)),

@@ -1,4 +1,4 @@
-//! docs/formats.md, made from the declared columns.
+//! docs/formats.md, generated from the declared columns.
 
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
@@ -32,7 +32,7 @@ objects with `schema`, `units` and `rows`.
 Units: mass m, radius r and normal stiffness k_n of the cylinders, and gravity g; forces F = f/(m g) are in m g.
 ";
 
-/// The page: every table that programs may read, with the unit and the meaning of every column.
+/// The content of docs/formats.md: every machine-readable table, with the unit and the meaning of its columns.
 pub fn formats_page() -> String {
     let mut tables = vec![
         crosscheck(&[]),
@@ -58,7 +58,7 @@ pub fn formats_page() -> String {
     TOP.to_owned() + &described.collect::<String>()
 }
 
-/// The columns of a time series, which is written where it is made.
+/// The columns of a time series, which `series` itself writes as CSV.
 fn series() -> DataTable<'static> {
     let mut columns = Columns::<Sample>::new(
         "series",

@@ -1,11 +1,11 @@
-//! The codes that tristack knows, as they are installed here.
+//! The codes that tristack knows, as they are installed on this machine.
 
 use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity, TaskKind};
 use crate::model::ContactArms;
 
-/// One code, and its program where it is installed.
-pub struct Inventory {
+/// One code, and its program if it is installed.
+pub(crate) struct Inventory {
     code: Code,
     identity: Option<Identity>,
 }
@@ -30,7 +30,7 @@ impl Inventory {
         identity.and_then(|identity| identity.package.clone())
     }
 
-    /// Arms for people; of a code that takes any, they are a default.
+    /// Arms for people, marked where they are only the default of a code that accepts any.
     fn arms(&self, arms: ContactArms) -> String {
         match self.code.accepts_any_convention() {
             true => format!("{arms} (any)"),
@@ -39,8 +39,8 @@ impl Inventory {
     }
 }
 
-/// One row a code.
-pub fn inventory(codes: &[Inventory]) -> DataTable<'_> {
+/// One row per code.
+pub(crate) fn inventory(codes: &[Inventory]) -> DataTable<'_> {
     Columns::<&Inventory>::new(
         "codes",
         "A row is a code that tristack knows, as it is installed on this machine.",

@@ -1,4 +1,4 @@
-//! What people see: tables of rows, in every format.
+//! Output for people and programs: tables in every format, figures, pages.
 
 mod bench;
 mod crosscheck;
@@ -17,22 +17,24 @@ mod theory;
 mod trajectory;
 mod vtk;
 
-pub use bench::{bench, bench_machine, bench_markdown, pyramids, scaling};
-pub use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
-pub use explain::explanation;
-pub use figures::{
-    Figure, StackPanel, figures, performance_svg, regimes_svg, representative_panels, run_svg,
-};
-pub use forecast::{forecast_text, forecasts};
+pub use bench::pyramids;
+pub use figures::{StackPanel, representative_panels, run_svg};
 pub use formats::formats_page;
-pub use inventory::{Inventory, inventory};
-pub use number::{friction, significant};
-pub use page::{Origin, ReportFile, report_files};
-pub use probe::{probe, probe_by_code};
-pub use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
-pub use simulation::{Simulation, simulations};
-pub(crate) use table::json;
 pub use table::{DataTable, Table};
-pub use theory::{theories_by_stack, theory};
-pub use trajectory::{trajectories, trajectories_markdown, trajectories_text};
-pub use vtk::{VtkFile, is_vtk_row, vtk_series};
+pub use vtk::{VtkFile, vtk_series};
+
+pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
+pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
+pub(crate) use explain::explanation;
+pub(crate) use figures::{Figure, performance_svg, regimes_svg};
+pub(crate) use forecast::{forecast_text, forecasts};
+pub(crate) use inventory::{Inventory, inventory};
+pub(crate) use number::{friction, significant};
+pub(crate) use page::{Origin, report_files};
+pub(crate) use probe::{probe, probe_by_code};
+pub(crate) use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
+pub(crate) use simulation::{Simulation, simulations};
+pub(crate) use table::json;
+pub(crate) use theory::{theories_by_stack, theory};
+pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};
+pub(crate) use vtk::is_vtk_row;

@@ -1,9 +1,9 @@
-//! Numbers for people.
+//! Numbers as people read them.
 
 use crate::model::CRITICAL_FRICTION;
 
 /// `value` with `digits` significant digits, in plain notation where that is short.
-pub fn significant(value: f64, digits: usize) -> String {
+pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
@@ -16,8 +16,13 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// `value` with `N` significant digits.
+pub(crate) fn digits<const N: usize>(value: f64) -> String {
+    significant(value, N)
+}
+
 /// `value` rounded to four significant digits, in the shorter notation.
-pub fn rounded(value: f64) -> String {
+pub(crate) fn rounded(value: f64) -> String {
     let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let (plain, scientific) = (value.to_string(), format!("{value:e}"));
     if scientific.len() < plain.len() {
@@ -28,21 +33,21 @@ pub fn rounded(value: f64) -> String {
 }
 
 /// `value` rounded to three significant digits, in plain notation without trailing zeros.
-pub fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let value: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     value.to_string()
 }
 
 /// A relative deviation: sign, two digits, exponent.
-pub fn relative(value: f64) -> String {
+pub(crate) fn relative(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
     format!("{value:+.1e}")
 }
 
-/// A friction coefficient, with the critical one by its name.
-pub fn friction(value: f64) -> String {
+/// A friction coefficient; the critical one by its name.
+pub(crate) fn friction(value: f64) -> String {
     if value == CRITICAL_FRICTION {
         "mu_c".to_owned()
     } else {
@@ -51,7 +56,7 @@ pub fn friction(value: f64) -> String {
 }
 
 /// A small distance: two digits and an exponent.
-pub fn small(value: f64) -> String {
+pub(crate) fn small(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -59,22 +64,22 @@ pub fn small(value: f64) -> String {
 }
 
 /// An uncertainty: one digit and an exponent.
-pub fn one_digit(value: f64) -> String {
+pub(crate) fn one_digit(value: f64) -> String {
     format!("{value:.0e}")
 }
 
 /// A fraction in percent, with its sign.
-pub fn percent(value: f64) -> String {
+pub(crate) fn percent(value: f64) -> String {
     format!("{:+.2} %", 100.0 * value)
 }
 
 /// A cell for a text that may be empty.
-pub fn or_dash(text: &str) -> String {
+pub(crate) fn or_dash(text: &str) -> String {
     if text.is_empty() { "-" } else { text }.to_owned()
 }
 
 /// A cell for a value that may be absent.
-pub fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
+pub(crate) fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), format)
 }
 

@@ -1,4 +1,4 @@
-//! What the probe found, in every format.
+//! The findings of the probe.
 
 use super::number::significant;
 use super::table::{Columns, DataTable, Table};
@@ -6,8 +6,8 @@ use crate::code::Code;
 use crate::study::Verdict;
 use crate::study::convention::Finding;
 
-/// One row a finding.
-pub fn probe(findings: &[Finding]) -> DataTable<'_> {
+/// One row per finding.
+pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
     Columns::<&Finding>::new(
         "probe",
         "A row is one property of the contacts of a code, as micro-tests measure it and as the code declares it.",
@@ -24,8 +24,8 @@ pub fn probe(findings: &[Finding]) -> DataTable<'_> {
     .verdict(|own| own.verdict).rows(findings)
 }
 
-/// For people: one line a property, one column a code.
-pub fn probe_by_code(findings: &[Finding]) -> Table {
+/// For people: one line per property, one column per code.
+pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
     let mut codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
     codes.sort();
     codes.dedup();
@@ -47,7 +47,7 @@ pub fn probe_by_code(findings: &[Finding]) -> Table {
     columns.rows(properties).shown()
 }
 
-/// Measured value and, in brackets, its uncertainty; the declaration where they are not the same.
+/// The measured value with its uncertainty in brackets, and the declared value where they disagree.
 fn cell(finding: &Finding) -> String {
     let (Some(measured), Some(uncertainty)) = (finding.measured, finding.uncertainty) else {
         return format!("unknown, declared {}", finding.declared);
@@ -68,7 +68,7 @@ fn cell(finding: &Finding) -> String {
     }
 }
 
-/// To six decimals, without trailing zeros.
+/// `value` to six decimals, without trailing zeros.
 fn short(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6 + 0.0;
     rounded.to_string()

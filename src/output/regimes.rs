@@ -1,6 +1,6 @@
-//! The regime map and what the DEM says of it, in every format.
+//! The regime map, and its comparison with the DEM.
 
-use super::number::{optional, relative, significant};
+use super::number::{digits, one_digit, optional, relative, significant};
 use super::table::{Columns, DataTable, Table, Value};
 use crate::model::Stack;
 use crate::study::Verdict;
@@ -11,8 +11,8 @@ use crate::theory::{
     RegimeMap,
 };
 
-/// The map as a grid of `columns` values on the axis by `rows` floor frictions.
-pub fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
+/// The maps as grids of `columns` values on the axis by `rows` floor frictions.
+pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
     Columns::<(Axis, Stack, LoadingOutcome)>::new(
         "regimes",
         "A row is one stack of a regime map and what happens first on its way up in load.",
@@ -55,7 +55,7 @@ fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, Loadi
 }
 
 /// The boundary points.
-pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
+pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     let claimed = |own: &Confirmation, side: usize| own.point.sides[side].regime().to_string();
     let observed = |own: &Confirmation, side: usize| {
         let regime = own.sides[side].observed;
@@ -75,7 +75,7 @@ pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     .number("distance", "1", "relative distance of the neighbours below and above", |own| {
         own.point.distance
     })
-    .text("below", "what theory says of the neighbour below", move |own| claimed(own, 0))
+    .text("below", "regime of the neighbour below, by theory", move |own| claimed(own, 0))
     .text("above", "the same of the one above", move |own| claimed(own, 1))
     .text("below_observed", "what the DEM shows below; absent if nothing happened", move |own| {
         observed(own, 0)
@@ -88,13 +88,13 @@ pub fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
 }
 
 /// The largest forces.
-pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
+pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     let or_why = |own: &Examination, force: Option<f64>| {
         let without = || match own.claimed.failure_mode {
             FailureMode::Collapses => "falls".to_owned(),
             _ => "grows".to_owned(),
         };
-        force.map_or_else(without, |force| significant(force, 7))
+        force.map_or_else(without, digits::<7>)
     };
     let observed = |own: &Examination| own.peak.map(|peak| peak.force);
     Columns::<&Examination>::new(
@@ -104,7 +104,7 @@ pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     )
     .stack(|own| own.stack)
     .again("mu")
-    .digits(|mu| significant(mu, 4))
+    .digits(digits::<4>)
     .again("mu_d")
     .shown("mu_d")
     .again("kappa")
@@ -136,7 +136,7 @@ pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     .number("uncertainty", "m g", "uncertainty of the peak", |own| {
         own.uncertainty
     })
-    .shown_as("±", |uncertainty| format!("{uncertainty:.0e}"))
+    .shown_as("±", one_digit)
     .number(
         "error",
         "1",
@@ -149,28 +149,28 @@ pub fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
 }
 
 /// Boundaries and largest forces for a terminal.
-pub fn survey_text(survey: &Survey) -> String {
+pub(crate) fn survey_text(survey: &Survey) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.terminal());
     format!(
-        "Boundaries in mu, and how many of their neighbours at a relative distance of {THREE_DIGITS:e} are in \
-         the DEM what they should be\n{friction}\n\
-         Boundaries that do not depend on mu, looked at from mu on\n{lines}\n\
-         Largest force F that a stack bears, theory and peak of the DEM at vanishing wall speed\n{forces}"
+        "Boundaries in mu, and the number of neighbours at a relative distance of {THREE_DIGITS:e} for which \
+         the DEM agrees\n{friction}\n\
+         Boundaries that do not depend on mu, tested from mu on\n{lines}\n\
+         Largest force F of a stack: theory, and peak of the DEM at vanishing wall speed\n{forces}"
     )
 }
 
-/// The same as a page, with what each event does and the figure.
-pub fn regimes_markdown(survey: &Survey, command: &str) -> String {
+/// A page with boundaries, largest forces, the effect of each event, and the figure.
+pub(crate) fn regimes_markdown(survey: &Survey, command: &str) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.markdown());
     format!(
         "# Which event comes first\n\nMade by tristack {} with `{command}`.\n\n\
          ![The three maps](regimes.svg)\n\n\
          Colours say how a stack ends, full lines where another event comes first, dashed lines where the \
-         end changes while the events come in the same order. A marker is a point that was looked at with the \
-         native DEM on both sides; it is filled if the DEM shows on both what it should.\n\n\
+         end changes while the events come in the same order. A marker is a point with native DEM runs on \
+         both sides; it is a dot if both agree with theory, and a cross if not.\n\n\
          ## What each event does\n\n{}\n\
-         ## Boundaries in mu\n\nOn both sides, at a relative distance of {THREE_DIGITS:e}, the DEM was asked \
-         what happens first.\n\n{friction}\n\
+         ## Boundaries in mu\n\nNative DEM runs on both sides, at a relative distance of {THREE_DIGITS:e}, show \
+         which event comes first.\n\n{friction}\n\
          ## Boundaries that do not depend on mu\n\n{lines}\n\
          ## Largest force\n\nThe peak of the wall force in the DEM, extrapolated to vanishing wall speed; \
          the error is relative to F + 3.\n\n{forces}\n\
@@ -213,7 +213,7 @@ fn tables(survey: &Survey) -> [Table; 3] {
     ]
 }
 
-/// Confirmations of the same kind that follow each other.
+/// Runs of successive confirmations with the same key; those without a key are left out.
 fn groups<Key: PartialEq>(
     survey: &Survey,
     key: impl Fn(&Confirmation) -> Option<Key>,
@@ -300,7 +300,7 @@ fn line_table(survey: &Survey) -> Table {
         .shown()
 }
 
-/// How many of the neighbours are what they should be.
+/// The number of neighbours for which the DEM agrees with theory.
 fn tally(members: &[&Confirmation]) -> String {
     let sides = members.iter().flat_map(|member| &member.sides);
     let agree = sides.filter(|side| side.verdict == Verdict::Agrees).count();

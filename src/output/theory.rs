@@ -1,12 +1,12 @@
 //! The yield force by every theory.
 
-use super::number::{friction, optional, significant};
+use super::number::{digits, friction, optional};
 use super::table::{Columns, DataTable, Table};
 use crate::model::Stack;
 use crate::theory::Predictions;
 
-/// One row a stack.
-pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
+/// One row per stack.
+pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     Columns::<&Predictions>::new(
         "theory",
         "A row is one stack with its yield force F by every theory.",
@@ -99,8 +99,8 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .rows(predictions)
 }
 
-/// A line a theory, for people.
-pub fn theories_by_stack(predictions: &[Predictions]) -> String {
+/// For people: a table per stack, with a line per theory.
+pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
         let heading = format!(
             "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, arms {}, {}\n",
@@ -146,7 +146,7 @@ fn one_case(case: &Predictions) -> Table {
     Columns::<Line>::for_people()
         .left("theory", |(name, ..)| name.to_string())
         .right("yield force F", |(_, force, _)| {
-            optional(*force, |force| significant(force, 10))
+            optional(*force, digits::<10>)
         })
         .left("remark", |(.., remark)| remark.clone())
         .rows(lines)

@@ -1,13 +1,14 @@
-//! Trajectories compared, in every format.
+//! Trajectories of codes compared with those of native twins.
 
-use super::number::{optional, or_dash, small};
+use super::number::{optional, small};
 use super::table::{Columns, DataTable};
+use crate::study::Verdict;
 use crate::study::trajectory::{
     Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
     WALL_SPEED, trajectory_stack,
 };
 
-/// One distance of one comparison; a code without comparisons has one row without them.
+/// One distance of one comparison. A code without comparisons has one row without a distance.
 #[derive(Clone, Copy)]
 struct Row<'a> {
     judgement: &'a TrajectoryJudgement,
@@ -40,8 +41,8 @@ fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
     rows.collect()
 }
 
-/// One row a distance.
-pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
+/// One row per distance.
+pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     let first_above = |row: &Row, level: usize| row.own?.first_above[level];
     Columns::<Row>::new(
         "trajectories",
@@ -92,12 +93,12 @@ pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
 }
 
 /// The codes and the comparisons for a terminal.
-pub fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
+pub(crate) fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
     codes(judgements).shown().terminal() + &comparisons(judgements).shown().terminal()
 }
 
-/// A page with the comparisons, what they mean, why they fall as they do, and what they do not prove.
-pub fn trajectories_markdown(judgements: &[TrajectoryJudgement], command: &str) -> String {
+/// A page with the comparisons, their meaning, the reasons for their orders, and their limits.
+pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut page = format!(
         "# Trajectories beside native twins\n\nMade by tristack {version} with `{command}`.\n\n"
@@ -150,17 +151,11 @@ const NO_PROOF: &str = "\n## What this does not prove\n\n\
 fn reasons(judgements: &[TrajectoryJudgement]) -> String {
     let mut text = "\n## Why the distances fall as they do\n\n".to_owned();
     let mut seen = Vec::new();
-    for comparison in judgements
-        .iter()
-        .flat_map(|judgement| judgement.comparisons())
-    {
-        let documented = &comparison.documented;
+    let comparisons = judgements.iter().flat_map(|own| own.comparisons());
+    for documented in comparisons.map(|comparison| &comparison.documented) {
         if !seen.contains(&documented) {
-            text += &format!(
-                "- `{}`: {}.\n",
-                documented.order.as_str(),
-                documented.reason
-            );
+            let (order, reason) = (documented.order.as_str(), &documented.reason);
+            text += &format!("- `{order}`: {reason}.\n");
             seen.push(documented);
         }
     }
@@ -172,11 +167,8 @@ fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     for judgement in judgements {
         let notes = judgement.notes().join("\n").replace('\n', "\n  ");
         if !notes.is_empty() {
-            lines += &format!(
-                "- **{}: {}**\n\n  {notes}\n",
-                judgement.code,
-                judgement.verdict()
-            );
+            let (code, verdict) = (judgement.code, judgement.verdict());
+            lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");
         }
         for comparison in judgement.comparisons() {
             for note in comparison.grounds.notes() {
@@ -206,9 +198,11 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         optional(own.times(), |times| format!("{:.0}", times[index]))
     };
     Columns::<&TrajectoryJudgement>::for_people()
-        .left("code", |own| own.code.to_string())
-        .left("version", |own| or_dash(&own.version))
-        .left("source", |own| own.source.as_str().to_owned())
+        .code(|own| own.code)
+        .version(|own| &own.version)
+        .shown("version")
+        .source(|own| own.source)
+        .shown("source")
         .right("peak at", move |own| time(own, 0))
         .right("wall lost at", move |own| time(own, 1))
         .right("landed at", move |own| time(own, 2))
@@ -216,21 +210,17 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         .rows(judgements)
 }
 
-/// The verdict that stands in place of comparisons, or how many of them agree.
+/// The number of comparisons that agree, or the verdict of a code without comparisons.
 fn tally(judgement: &TrajectoryJudgement) -> String {
     if judgement.comparisons().is_empty() {
         return judgement.verdict().to_string();
     }
-    let agreeing = judgement.comparisons().iter();
-    let agreeing = agreeing.filter(|comparison| comparison.verdict().as_str() == "agrees");
-    format!(
-        "{} of {} agree",
-        agreeing.count(),
-        judgement.comparisons().len()
-    )
+    let all = judgement.comparisons();
+    let agreeing = all.iter().filter(|own| own.verdict() == Verdict::Agrees);
+    format!("{} of {} agree", agreeing.count(), all.len())
 }
 
-/// For people: one row a comparison, with its distances side by side.
+/// For people: one row per comparison, with its distances side by side.
 fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     type Row<'a> = (&'a TrajectoryJudgement, &'a Comparison);
     let largest = |own: &Comparison, index: usize| {

@@ -1,19 +1,19 @@
-//! The stack as a time series for ParaView: points with data in VTK's XML format, as text.
+//! The stack as a time series for ParaView, in the XML format of VTK.
 
-use crate::series::{Frame, Frames, Partner};
+use crate::series::{ContactPoint, Frame, Frames, Partner};
 use std::fmt::Write;
 
-/// Rows that are written at most, apart from the last one and the one of the largest force.
+/// Most rows written, apart from the last one and the one of the largest force.
 const MOST_ROWS: usize = 500;
 const CYLINDERS: &str = "cylinders";
 const CONTACTS: &str = "contacts";
 
-/// A file to be written, by its name.
+/// A file of the series.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VtkFile {
     /// Name within the directory of the series.
     pub name: String,
-    /// Content.
+    /// Content of the file.
     pub content: String,
 }
 
@@ -59,8 +59,8 @@ pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
     files
 }
 
-/// Whether a file of that name is a row of such a series.
-pub fn is_vtk_row(name: &str) -> bool {
+/// Whether a file of this name is a row of such a series.
+pub(crate) fn is_vtk_row(name: &str) -> bool {
     [CYLINDERS, CONTACTS].iter().any(|kind| {
         let number = name
             .strip_prefix(kind)
@@ -101,7 +101,6 @@ fn cylinders(frame: &Frame, epsilon: f64) -> String {
 
 fn contacts(frame: &Frame, epsilon: f64) -> String {
     let contacts = &frame.contacts;
-    let weights = |force: [f64; 2]| force.map(|component| component / epsilon);
     let mut data = PointData::new(contacts.iter().map(|contact| contact.position));
     let numbers = contacts.iter().map(|contact| contact.cylinder as i64 + 1);
     data.integers("cylinder", numbers);
@@ -112,22 +111,24 @@ fn contacts(frame: &Frame, epsilon: f64) -> String {
         Partner::TopWall => -1,
     });
     data.integers("partner", partners);
-    let forces = contacts.iter().map(|contact| weights(contact.force()));
-    data.vectors("force", forces);
-    let normal = contacts.iter();
-    data.numbers(
-        "normal_force",
-        normal.map(|contact| contact.normal_force / epsilon),
+    let weights = |force: fn(&ContactPoint) -> f64| {
+        let forces = contacts.iter().map(force);
+        forces.map(|force| force / epsilon)
+    };
+    let vectors = contacts.iter().map(ContactPoint::force);
+    data.vectors(
+        "force",
+        vectors.map(|force| force.map(|part| part / epsilon)),
     );
-    let tangential = contacts.iter();
+    data.numbers("normal_force", weights(|contact| contact.normal_force));
     data.numbers(
         "tangential_force",
-        tangential.map(|contact| contact.tangential_force / epsilon),
+        weights(|contact| contact.tangential_force),
     );
     data.finish(&[("TimeValue", frame.time)])
 }
 
-/// Points, each a vertex, and what is known of them.
+/// Points, each a vertex, and their data.
 struct PointData {
     count: usize,
     points: String,
@@ -144,13 +145,11 @@ impl PointData {
     }
 
     fn numbers(&mut self, name: &str, values: impl Iterator<Item = f64>) {
-        let values: Vec<String> = values.map(|value| value.to_string()).collect();
-        self.array("Float64", name, 1, &values.join(" "));
+        self.array("Float64", name, 1, &joined(values));
     }
 
     fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) {
-        let values: Vec<String> = values.map(|value| value.to_string()).collect();
-        self.array("Int64", name, 1, &values.join(" "));
+        self.array("Int64", name, 1, &joined(values));
     }
 
     fn vectors(&mut self, name: &str, values: impl Iterator<Item = [f64; 2]>) {
@@ -165,13 +164,9 @@ impl PointData {
         .expect("text is written to memory");
     }
 
-    /// The document, with the numbers that belong to the whole frame.
+    /// The document, with numbers for the whole frame.
     fn finish(self, of_the_frame: &[(&str, f64)]) -> String {
         let count = self.count;
-        let numbers = |from: usize| -> String {
-            let numbers: Vec<String> = (from..from + count).map(|one| one.to_string()).collect();
-            numbers.join(" ")
-        };
         let fields: String = of_the_frame
             .iter()
             .map(|(name, value)| {
@@ -193,14 +188,18 @@ impl PointData {
              </Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n",
             arrays = self.arrays,
             points = self.points,
-            connectivity = numbers(0),
-            offsets = numbers(1),
+            connectivity = joined(0..count),
+            offsets = joined(1..=count),
         )
     }
 }
 
-/// Vectors of the plane as VTK wants them, in three dimensions.
+/// Vectors of the plane in three dimensions.
 fn components(vectors: impl Iterator<Item = [f64; 2]>) -> String {
-    let triples: Vec<String> = vectors.map(|[x, y]| format!("{x} {y} 0")).collect();
-    triples.join(" ")
+    joined(vectors.map(|[x, y]| format!("{x} {y} 0")))
+}
+
+fn joined(values: impl Iterator<Item = impl ToString>) -> String {
+    let values: Vec<String> = values.map(|value| value.to_string()).collect();
+    values.join(" ")
 }

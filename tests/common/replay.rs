@@ -57,6 +57,11 @@ fn quick_profile() -> &'static [(Case, String)] {
     &RUNS
 }
 
+/// A case of the quick profile.
+pub fn first_case() -> Case {
+    quick_profile()[0].0
+}
+
 fn recorded_series() -> impl Iterator<Item = (Case, String)> {
     let runs = recording(yade()).runs.into_iter();
     runs.filter_map(|run| Some((run.summary.case, text(&run.series?))))

@@ -1,24 +1,24 @@
-//! An axis: what it measures, from where to where.
+//! An axis: label, range, ticks.
 
-/// What an axis measures, and from where to where.
+/// An axis of a panel.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     /// Symbol and unit.
     pub label: String,
     /// Lowest and highest value.
     pub range: (f64, f64),
-    /// Where its ticks are.
+    /// Its ticks.
     pub scale: Scale,
 }
 
-/// Where the ticks of an axis are.
+/// The ticks of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Scale {
-    /// At multiples of a step, printed with so many decimals.
+    /// At multiples of a step, printed with this number of decimals.
     Linear(f64, usize),
-    /// At powers of ten or, on short axes, also at 2 and 5 times these.
+    /// At powers of ten and, on short axes, at 2 and 5 times these.
     Log,
-    /// Nowhere.
+    /// None.
     Bare,
 }
 
@@ -32,7 +32,7 @@ impl Axis {
         }
     }
 
-    /// An axis around `range` with five ticks or so.
+    /// An axis over `range` with about five ticks.
     pub fn around(label: &str, range: (f64, f64)) -> Self {
         let span = range.1 - range.0;
         let rough = if span > 0.0 { span / 5.0 } else { 1.0 };
@@ -53,7 +53,7 @@ impl Axis {
         }
     }
 
-    /// An axis of things that are named elsewhere, one at each whole number from 1 on.
+    /// An axis without ticks, for things named elsewhere, one at each whole number from 1 on.
     pub fn bare(range: (f64, f64)) -> Self {
         Self {
             label: String::new(),
@@ -67,7 +67,7 @@ impl Axis {
         Self::linear("floor friction μ", (0.08, 0.52), 0.1, 1)
     }
 
-    /// Where `value` lies: 0 at the lower end, 1 at the upper end.
+    /// The position of `value`: 0 at the lower end, 1 at the upper end.
     pub fn part(&self, value: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
@@ -76,7 +76,7 @@ impl Axis {
         }
     }
 
-    /// The value that lies at `part`.
+    /// The value at the position `part`.
     pub fn at(&self, part: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
@@ -85,17 +85,17 @@ impl Axis {
         }
     }
 
-    /// Whether `value` is on it. Not so if it is not a number.
+    /// Whether `value` is on the axis; false for NaN.
     pub fn contains(&self, value: f64) -> bool {
         (self.range.0..=self.range.1).contains(&value)
     }
 
-    /// `value`, or the end of the axis that it is beyond.
+    /// `value`, limited to the range of the axis.
     pub fn clamp(&self, value: f64) -> f64 {
         value.clamp(self.range.0, self.range.1)
     }
 
-    /// Its ticks and what is printed there.
+    /// The ticks on the axis with their labels.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         let (low, high) = self.range;
         let log_range = (libm::log10(low).floor(), libm::log10(high));
@@ -121,7 +121,7 @@ impl Axis {
 
 /// A logarithmic axis whose ends differ by less than this factor is short.
 const SHORT: f64 = 1e3;
-/// How far round-off may move a tick beyond an end of its axis, in parts of the axis.
+/// Largest distance of a tick beyond the end of its axis by round-off, relative to the axis.
 const SLACK: f64 = 1e-9;
 
 /// The multiples of `step` in `range`.
@@ -131,12 +131,12 @@ fn multiples((low, high): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
     first..=((high + slack) / step).floor() as i64
 }
 
-/// The number that is printed so, which is not always the product.
+/// The double nearest to `digit` times ten to the `exponent`, which the product of two doubles may miss.
 fn scientific(digit: u8, exponent: i64) -> f64 {
     format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// `value` as a power of ten with the exponent raised; nothing for the values between.
+/// `value` as a power of ten with raised exponent; empty for any other value.
 pub(super) fn power_of_ten(value: f64) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let exponent = libm::log10(value);

@@ -1,13 +1,13 @@
-//! What the codes measured, as marks.
+//! Marks for the measurements of the codes.
 
 use super::axis::Axis;
-use super::panel::{Panel, Point, Sample};
+use super::panel::{Panel, Point, Sample, Stroke};
 use super::style::{GUIDE, Mark};
 use crate::code::Code;
 use crate::study::MAX_TOLERANCE;
 use crate::study::yield_force::Judgement;
 
-/// Errors below the lower end stand at it.
+/// Range of shown errors; those below are drawn at its lower end.
 const ERRORS: (f64, f64) = (1e-10, 3e-2);
 
 /// The axis of F + 3.
@@ -21,7 +21,7 @@ pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
     Code::all().into_iter().filter(has_row).collect()
 }
 
-/// F + 3 of every row that has a yield force. Variants of a code that repeat the contacts of another are left out.
+/// Marks at F + 3 of every row with a yield force, except for variants of a code with the contacts of another.
 pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Judgement) -> f64) {
     mark(panel, judgements, Mark::small, |row| {
         let shown = !row.code.repeats_another();
@@ -29,7 +29,7 @@ pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Jud
     });
 }
 
-/// |error| of every row that has one, and the bar.
+/// A panel with |error| of every row and the largest tolerance.
 pub(super) fn error_panel(
     axis: Axis,
     judgements: &[Judgement],
@@ -48,15 +48,15 @@ pub(super) fn error_panel(
     panel
 }
 
-/// The marks of the codes, in the key of `panel`.
+/// Lists the codes of `judgements` in the key of `panel`.
 pub(super) fn key(panel: &mut Panel, judgements: &[Judgement], (right, down): Point) {
     panel.key_at(right, down);
     for code in present(judgements) {
-        panel.key(Sample::Mark(Mark::of(code)), &code.label());
+        name(panel, code);
     }
 }
 
-/// The sentence on the codes of `judgements` that [`loads`] leaves out, if there are any.
+/// A sentence on the codes that [`loads`] leaves out, if there are any.
 pub(super) fn left_out(judgements: &[Judgement]) -> String {
     let repeating = present(judgements).into_iter();
     let repeating = repeating.filter(|code| code.repeats_another());
@@ -68,6 +68,20 @@ pub(super) fn left_out(judgements: &[Judgement]) -> String {
         " Left out of (a), because another variant of the code has the same contacts: {}.",
         names.join("; ")
     )
+}
+
+/// Adds `code` to the key of `panel`.
+pub(super) fn name(panel: &mut Panel, code: Code) {
+    panel.key(Sample::Mark(Mark::of(code)), &code.label());
+}
+
+/// The runs of `code` as marks, joined by a line for the native DEM.
+pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: Code, points: &[(f64, Option<f64>)]) {
+    let points = points.iter().copied();
+    if code == Code::NATIVE {
+        panel.line(stroke, points.clone());
+    }
+    panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
 }
 
 fn mark(

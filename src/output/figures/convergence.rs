@@ -2,8 +2,9 @@
 
 use super::Figure;
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Point, Sample, Stroke, draw};
-use super::style::{GUIDE, Mark, THIN, THIN_DASHED};
+use super::codes;
+use super::panel::{Anchor, Panel, Point, Stroke};
+use super::style::{GUIDE, THIN, THIN_DASHED};
 use crate::code::Code;
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
@@ -11,14 +12,14 @@ use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
 const EXCESS: (f64, f64) = (1e-8, 1e2);
 const CHANGE: (f64, f64) = (1e-6, 1e1);
 
-/// Down to here the key reaches.
+/// Lower end of the key on the axis.
 const BELOW_KEY: f64 = 2e-3;
 
-/// A setting, and what is shown of the run with it.
+/// A setting, and the force shown of the run with it.
 type Run = (f64, Option<f64>);
 type Force = fn(&ConvergencePoint) -> Option<f64>;
 
-/// How far peak and slip onset are from the limit, and what the time step changes of them.
+/// Distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
 pub(super) fn convergence(study: &Convergence) -> Figure {
     let mut peaks = steps(study, "F_{peak}", |point| point.peak_force);
     let slips = steps(study, "F_{slip}", |point| point.slip_force);
@@ -34,15 +35,11 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
     peaks.key_at(0.03, 0.02);
     for code in Code::all() {
         if study.time_steps.iter().any(|point| point.code == code) {
-            peaks.key(Sample::Mark(Mark::of(code)), &code.label());
+            codes::name(&mut peaks, code);
         }
     }
     let panels = [speeds(study), peaks, slips];
-    Figure::new(
-        "convergence",
-        caption,
-        draw(&panels, 3, super::THIRD_OF_PAGE),
-    )
+    Figure::of_thirds("convergence", caption, &panels)
 }
 
 fn speeds(study: &Convergence) -> Panel {
@@ -81,8 +78,8 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
     panel
 }
 
-/// What the time step changes of a force of `code`, relative to its force at the paper's time step; nothing
-/// there itself.
+/// The change of a force of `code` with the time step, relative to the force at the paper's time step, which is left
+/// out.
 fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
     let own = || points.iter().filter(|point| point.code == code);
     let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
@@ -99,16 +96,12 @@ fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
         .collect()
 }
 
-/// Marks for every code, and a line for the native one.
+/// The runs of every code.
 fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
     for code in Code::all() {
         let mut points = runs(code);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        if code == Code::NATIVE {
-            panel.line(stroke, points.iter().copied());
-        }
-        let points = points.into_iter();
-        panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
+        codes::runs(panel, stroke, code, &points);
     }
 }
 

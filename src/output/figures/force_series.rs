@@ -1,19 +1,19 @@
-//! The supplement's figure of f(t).
+//! The supplement's figure of the wall force over time.
 
 use super::Figure;
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Point, Sample, draw};
+use super::panel::{Anchor, Panel, Point, Sample};
 use super::style::{EXACT, GUIDE, ONSET, PEAK};
 use crate::paper::reproduction::ForceSeries;
 
-/// Time is printed in these units.
+/// Unit of printed times.
 const LONG: f64 = 1e4;
-/// The second panel shows this many times what the peak exceeds the limit by, below the limit …
+/// Range of the second panel below the limit, in units of the excess of the peak over the limit.
 const BELOW: f64 = 12.0;
-/// … and above it.
+/// The same above the limit.
 const ABOVE: f64 = 3.0;
 
-/// The wall force over the time, whole and around its peak.
+/// The wall force over time, as a whole and around its peak.
 pub(super) fn force_series(series: &ForceSeries) -> Figure {
     let panels = [whole(series), around_the_peak(series)];
     let caption = format!(
@@ -23,7 +23,7 @@ pub(super) fn force_series(series: &ForceSeries) -> Figure {
              circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
         series.wall_speed, series.time_step
     );
-    Figure::new("force-series", caption, draw(&panels, 2, super::HALF_PAGE))
+    Figure::of_halves("force-series", caption, &panels)
 }
 
 fn whole(series: &ForceSeries) -> Panel {
@@ -44,20 +44,13 @@ fn whole(series: &ForceSeries) -> Panel {
 fn around_the_peak(series: &ForceSeries) -> Panel {
     let peak = highest(&series.rows);
     let limit = series.limit.unwrap_or(peak.1);
-    let excess = (peak.1 - limit)
-        .abs()
-        .max(1e-9 * peak.1.abs())
-        .max(f64::MIN_POSITIVE);
+    let smallest = f64::max(1e-9 * peak.1.abs(), f64::MIN_POSITIVE);
+    let excess = (peak.1 - limit).abs().max(smallest);
     let (low, high) = (limit - BELOW * excess, limit + ABOVE * excess);
-    let near: Vec<f64> = visible(&series.rows, peak, low);
-    let reach = near
-        .iter()
-        .fold(1.0, |reach: f64, time| reach.max(time.abs()));
+    let reach = reach(&series.rows, peak, low);
+    let time = "time after the peak (t − t_{peak})/√(m/kₙ)";
     let mut panel = Panel::new(
-        Axis::around(
-            "time after the peak (t − t_{peak})/√(m/kₙ)",
-            (-reach, reach),
-        ),
+        Axis::around(time, (-reach, reach)),
         Axis::around("wall force F = f/(m g)", (low, high)),
     );
     panel.level(GUIDE, limit);
@@ -66,12 +59,9 @@ fn around_the_peak(series: &ForceSeries) -> Panel {
         EXACT,
         rows.map(|&(time, force)| (time - peak.0, Some(force))),
     );
-    if let Some(slip) = series
-        .slip_force
-        .and_then(|force| first_reaching(&series.rows, force))
-    {
-        panel.marks(ONSET, [(slip.0 - peak.0, slip.1)]);
-    }
+    let slip = series.slip_force;
+    let slip = slip.and_then(|force| first_reaching(&series.rows, force));
+    panel.marks(ONSET, slip.map(|slip| (slip.0 - peak.0, slip.1)));
     panel.marks(PEAK, [(0.0, peak.1)]);
     panel.key(Sample::Mark(PEAK), "peak");
     panel.key(Sample::Mark(ONSET), "slip onset");
@@ -85,16 +75,16 @@ fn highest(rows: &[Point]) -> Point {
     highest.copied().unwrap_or((0.0, 0.0))
 }
 
-/// Times after the peak, of the rows around it that are above `low`.
-fn visible(rows: &[Point], peak: Point, low: f64) -> Vec<f64> {
+/// The largest distance in time from the peak among the rows around it that are above `low`, at least 1.
+fn reach(rows: &[Point], peak: Point, low: f64) -> f64 {
     let (before, after) = rows.split_at(rows.partition_point(|row| row.0 < peak.0));
     let above = |row: &&Point| row.1 > low;
     let before = before.iter().rev().take_while(above);
     let rows = before.chain(after.iter().take_while(above));
-    rows.map(|row| row.0 - peak.0).collect()
+    rows.map(|row| (row.0 - peak.0).abs()).fold(1.0, f64::max)
 }
 
-/// Where the force first reaches `force`, between two rows.
+/// The point at which the wall force first reaches `force`, by interpolation between two rows.
 fn first_reaching(rows: &[Point], force: f64) -> Option<Point> {
     let mut pairs = rows.windows(2);
     let pair = pairs.find(|pair| (pair[0].1..pair[1].1).contains(&force))?;

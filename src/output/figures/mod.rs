@@ -1,4 +1,4 @@
-//! The figures: each computed from runs and theory, none from a stored picture.
+//! The figures, each computed from runs and theory.
 
 mod axis;
 mod codes;
@@ -18,27 +18,28 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
-pub use performance::performance_svg;
-pub use regimes::regimes_svg;
+pub(crate) use performance::performance_svg;
+pub(crate) use regimes::regimes_svg;
 pub use stack::{StackPanel, representative_panels, run_svg};
 
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::Reproduction;
 use axis::Axis;
 use drawing::Drawing;
+use panel::{Panel, draw};
 use serde::Serialize;
 
-/// A panel that shares the width of a page with another one, in pixels.
+/// Size in pixels of a panel that shares the width of a page with another one.
 const HALF_PAGE: (f64, f64) = (350.0, 320.0);
-/// A panel that shares the width of a page with two others.
+/// Size in pixels of a panel that shares the width of a page with two others.
 const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
 
-/// A figure.
+/// A figure with its caption.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Figure {
-    /// The name of its files, without extension.
+pub(crate) struct Figure {
+    /// Name of its files, without extension.
     pub name: &'static str,
-    /// What it shows, from which runs, and how to make it again.
+    /// The content of the figure, its runs, and the command that makes it.
     pub caption: String,
     #[serde(skip)]
     drawing: Drawing,
@@ -57,6 +58,16 @@ impl Figure {
         }
     }
 
+    /// A figure of panels, two side by side.
+    fn of_halves(name: &'static str, caption: impl Into<String>, panels: &[Panel]) -> Self {
+        Self::new(name, caption, draw(panels, 2, HALF_PAGE))
+    }
+
+    /// A figure of panels, three side by side.
+    fn of_thirds(name: &'static str, caption: impl Into<String>, panels: &[Panel]) -> Self {
+        Self::new(name, caption, draw(panels, 3, THIRD_OF_PAGE))
+    }
+
     /// The figure as SVG.
     pub fn svg(&self) -> String {
         self.drawing.svg()
@@ -68,31 +79,21 @@ impl Figure {
     }
 }
 
-/// Every figure: those of the paper first, then what the paper lacks.
-pub fn figures(reproduction: &Reproduction) -> Vec<Figure> {
-    let Reproduction {
-        yield_curves: curves_measured,
-        scaling: scaling_measured,
-        exponents,
-        curves,
-        ..
-    } = reproduction;
+/// All figures: first those of the paper, then further ones.
+pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
+    let (rows, curves) = (&reproduction.yield_curves, &reproduction.curves);
     let mut figures = vec![
-        yield_curves::yield_curves(curves_measured, curves),
-        scaling::scaling(scaling_measured, exponents, curves),
+        yield_curves::yield_curves(rows, curves),
+        scaling::scaling(&reproduction.scaling, &reproduction.exponents, curves),
         force_series::force_series(&reproduction.force_series),
         convergence::convergence(&reproduction.convergence),
         theory_error::theory_error(curves),
-        model_form::model_form(curves_measured, curves),
+        model_form::model_form(rows, curves),
         regimes::regimes(&reproduction.maps, &reproduction.survey),
         stack::stack(&reproduction.snapshots),
     ];
-    figures.extend(
-        reproduction
-            .preparation
-            .first()
-            .map(preparation::preparation),
-    );
+    let first = reproduction.preparation.first();
+    figures.extend(first.map(preparation::preparation));
     figures
 }
 
@@ -100,7 +101,7 @@ fn stiffness_axis() -> Axis {
     Axis::log("stiffness kₙ r/(m g)", (6e0, 2e6))
 }
 
-/// A friction in a figure, the critical one by its name.
+/// A floor friction in words; the critical one by its name.
 fn friction_words(mu: f64) -> String {
     if mu == CRITICAL_FRICTION {
         "μ = μ_{c}".to_owned()

@@ -1,18 +1,19 @@
-//! What the contact convention of a code does to the yield force.
+//! The effect of the torque arms of the codes on the yield force.
 
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
-use super::panel::{Anchor, Panel, Sample, draw};
+use super::codes;
+use super::panel::{Anchor, Panel, Sample};
 use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::{Curves, codes_by_arms};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
-/// Panels whose curves stay above this, in percent, have the finer axis.
+/// Panels with curves above this value, in percent, have the finer axis.
 const SMALL: f64 = -2.5;
 
-/// Difference to the paper's convention, as theory has it and as the codes measured it: a panel for every pair of
+/// Difference to the yield force under the paper's convention, by theory and by the codes: a panel for every pair of
 /// arms.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
     let groups = codes_by_arms();
@@ -35,7 +36,7 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
          wall speed. {}; the paper has r₁ = 0.",
         letters.join(", ")
     );
-    Figure::new("model-form", caption, draw(&panels, 2, super::HALF_PAGE))
+    Figure::of_halves("model-form", caption, &panels)
 }
 
 /// The arm coefficients of pair and floor in words.
@@ -93,7 +94,7 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
         let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
         panel.marks(Mark::of(code), own.filter_map(measured));
-        panel.key(Sample::Mark(Mark::of(code)), &code.label());
+        codes::name(&mut panel, code);
     }
     panel
 }

@@ -1,4 +1,4 @@
-//! A panel: axes, and what is drawn between them.
+//! A panel: axes and everything drawn between them.
 
 use super::axis::{Axis, Scale};
 use super::drawing::{Drawing, Paint, Place};
@@ -12,7 +12,7 @@ pub(super) use super::drawing::{Anchor, Stroke};
 /// A point, in units of the axes.
 pub(super) type Point = (f64, f64);
 
-/// What is in a panel.
+/// A panel and its content.
 pub(super) struct Panel {
     x: Axis,
     y: Axis,
@@ -30,7 +30,7 @@ struct Words {
     anchor: Anchor,
 }
 
-/// What stands in a key beside its words.
+/// The sample beside the words of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sample {
     Line(Stroke),
@@ -53,7 +53,7 @@ impl Panel {
         }
     }
 
-    /// A line through `points`, interrupted where there is no value.
+    /// A line through `points`, interrupted at missing values.
     pub fn line(&mut self, stroke: Stroke, points: impl IntoIterator<Item = (f64, Option<f64>)>) {
         let mut part = Vec::new();
         for (x, y) in points {
@@ -66,7 +66,7 @@ impl Panel {
         self.lines.retain(|(_, points)| points.len() > 1);
     }
 
-    /// A coloured area with its corners at `points`, behind everything else; what is beyond the axes is cut off.
+    /// A coloured area with its corners at `points`, behind everything else and limited to the axes.
     pub fn area(&mut self, colour: &'static str, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
         let points = points.map(|(x, y)| (self.x.clamp(x), self.y.clamp(y)));
@@ -91,7 +91,7 @@ impl Panel {
         self.line(stroke, [(x, Some(from)), (x, Some(to))]);
     }
 
-    /// A mark at each of `points`. Those beyond the upper or lower end of the axis stand at that end.
+    /// A mark at each of `points`; those above or below the axis are drawn at its end.
     pub fn marks(&mut self, mark: Mark, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
         let points = points.filter(|point| self.x.contains(point.0) && !point.1.is_nan());
@@ -110,18 +110,18 @@ impl Panel {
         });
     }
 
-    /// Where the key stands: its upper left corner, in parts of the panel from its own upper left corner.
+    /// Sets the upper left corner of the key, in parts of the panel from the panel's upper left corner.
     pub fn key_at(&mut self, right: f64, down: f64) {
         self.key_place = (right, down);
     }
 
-    /// A further line in the key.
+    /// Adds a line to the key.
     pub fn key(&mut self, sample: Sample, words: &str) {
         self.key.push((sample, words.to_owned()));
     }
 }
 
-/// Panels side by side, row by row, each of a size in pixels.
+/// Draws panels row by row, each of the given size in pixels.
 pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)) -> Drawing {
     let whole = |count: usize, size: f64| {
         2.0 * PADDING + count as f64 * size + count.saturating_sub(1) as f64 * SPACING
@@ -142,7 +142,7 @@ pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)
     drawing
 }
 
-/// A panel and the rectangle between its axes, in pixels.
+/// A panel with the rectangle between its axes, in pixels.
 struct View<'a> {
     panel: &'a Panel,
     left: f64,
@@ -176,8 +176,8 @@ impl View<'_> {
     /// Frame, ticks, labels, and the letter that names the panel.
     fn axes(&self, drawing: &mut Drawing, letter: char) {
         let ([left, top], [right, bottom]) = (self.at((0.0, 0.0)), self.at((1.0, 1.0)));
-        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        drawing.polygon(corners, Paint::Outlined(FRAME));
+        let frame = rectangle([left, top], [right, bottom]);
+        drawing.polygon(frame, Paint::Outlined(FRAME));
         for (value, printed) in self.panel.x.ticks() {
             let x = left + self.panel.x.part(value) * self.width;
             drawing.line([[x, bottom], [x, bottom + TICK]], FRAME);
@@ -230,6 +230,10 @@ impl View<'_> {
     }
 }
 
+fn rectangle([left, top]: Place, [right, bottom]: Place) -> [Place; 4] {
+    [[left, top], [right, top], [right, bottom], [left, bottom]]
+}
+
 fn draw_mark(drawing: &mut Drawing, mark: Mark, [x, y]: Place) {
     let stroke = Stroke::new(mark.colour, 1.0, &[]);
     let (left, right, top, bottom) = (x - mark.size, x + mark.size, y - mark.size, y + mark.size);
@@ -238,8 +242,7 @@ fn draw_mark(drawing: &mut Drawing, mark: Mark, [x, y]: Place) {
         Shape::Dot => drawing.circle([x, y], mark.size, Paint::Filled(mark.colour)),
         Shape::Circle => drawing.circle([x, y], mark.size, outline),
         Shape::Square => {
-            let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-            drawing.polygon(corners, outline);
+            drawing.polygon(rectangle([left, top], [right, bottom]), outline);
         }
         Shape::Diamond => {
             drawing.polygon([[left, y], [x, top], [right, y], [x, bottom]], outline);

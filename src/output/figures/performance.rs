@@ -1,4 +1,4 @@
-//! What a step costs each target, and how native lanes scale.
+//! The cost of a step, and the scaling of native lanes.
 
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, draw};
@@ -7,11 +7,11 @@ use crate::output::bench::{beside_lanes, times_lanes};
 use crate::output::number::plain;
 use crate::study::cost::{Scaling, ScalingRow, StackCost};
 
-/// Distance of the words of a bar from the bar, in bars.
+/// Distance of a bar from its words, in units of the distance between bars.
 const ABOVE: f64 = 0.27;
 
 /// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
-pub fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
+pub(crate) fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
     let panels = [bars(costs), speedups(&scaling.cases)];
     draw(&panels, 2, super::HALF_PAGE).svg()
 }
@@ -60,7 +60,7 @@ mod tests {
     use crate::study::cost::BenchTarget;
 
     #[test]
-    fn every_contestant_has_a_bar_and_every_number_of_cases_a_mark() {
+    fn every_target_has_a_bar_and_every_number_of_cases_a_mark() {
         let cost = |target, ns_per_step| StackCost {
             target,
             version: String::new(),

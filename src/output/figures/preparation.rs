@@ -1,13 +1,14 @@
-//! What the preparation does to the force between the bottom cylinders and to the yield force.
+//! The effect of the preparation on the force between the bottom cylinders and on the yield force.
 
 use super::Figure;
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, Point, Sample, draw};
-use super::style::{EXACT, GUIDE, Mark, THIN};
+use super::codes;
+use super::panel::{Anchor, Panel};
+use super::style::{EXACT, GUIDE, THIN};
 use crate::code::Code;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
-/// c(A) and F(A) of every code that can prepare the stack so, at the first stack of the study.
+/// c(A) and F(A) of every code with a deck for side walls, at the first stack of the study.
 pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     let epsilon = study.stack.epsilon();
     let axis = || Axis::around("push A/(ε r)", (-0.15, 5.3));
@@ -32,17 +33,15 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
         if rows().next().is_none() {
             continue;
         }
-        draw_rows(
-            &mut contact,
-            code,
-            rows().filter_map(|row| point(row, epsilon, row.contact_force)),
-        );
-        draw_rows(
-            &mut force,
-            code,
-            rows().filter_map(|row| point(row, epsilon, row.yield_force)),
-        );
-        contact.key(Sample::Mark(Mark::of(code)), &code.label());
+        let points = |value: fn(&PreparationRow) -> Option<f64>| -> Vec<_> {
+            let known = rows().filter(|row| value(row).is_some());
+            known
+                .filter_map(|row| Some((row.push? / epsilon, value(row))))
+                .collect()
+        };
+        codes::runs(&mut contact, THIN, code, &points(|row| row.contact_force));
+        codes::runs(&mut force, THIN, code, &points(|row| row.yield_force));
+        codes::name(&mut contact, code);
     }
     contact.key_at(0.6, 0.5);
     let caption = format!(
@@ -53,22 +52,5 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
          same. Lines join the native runs.",
         study.stack.floor_friction, study.stack.stiffness, study.stack.stiffness_ratio
     );
-    Figure::new(
-        "preparation",
-        caption,
-        draw(&[contact, force], 2, super::HALF_PAGE),
-    )
-}
-
-fn point(row: &PreparationRow, epsilon: f64, value: Option<f64>) -> Option<Point> {
-    Some((row.push? / epsilon, value?))
-}
-
-/// Marks, and a line for the native DEM.
-fn draw_rows(panel: &mut Panel, code: Code, points: impl Iterator<Item = Point>) {
-    let points: Vec<Point> = points.collect();
-    if code == Code::NATIVE {
-        panel.line(THIN, points.iter().map(|&(x, y)| (x, Some(y))));
-    }
-    panel.marks(Mark::of(code), points);
+    Figure::of_halves("preparation", caption, &[contact, force])
 }

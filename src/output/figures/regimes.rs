@@ -1,4 +1,4 @@
-//! The three maps as a figure: how a stack ends, over floor friction and one more property.
+//! The figure of the three regime maps: the end of a stack over floor friction and one more parameter.
 
 use super::axis::Axis as Ruler;
 use super::drawing::Drawing;
@@ -15,16 +15,16 @@ use crate::theory::{
     released_frictions,
 };
 
-/// Points on a curve, between two lines that cut the axis.
+/// Number of points on a curve between two lines that cut the axis.
 const SAMPLES: usize = 61;
 /// Size of a panel in pixels, axes and labels included.
 const PANEL: (f64, f64) = (350.0, 330.0);
-/// How far a region reaches into the next strip, as a factor on the axis.
+/// Overlap of a region with the next strip, as a factor on the axis.
 const OVERLAP: f64 = 1.004;
 /// Distance of two lines of text, in units of μ.
 const LINE_HEIGHT: f64 = 0.042;
 
-/// How a stack ends: what the regions of the figure are.
+/// The end of a stack, by which the figure is divided into regions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ending {
     Falls,
@@ -33,7 +33,7 @@ enum Ending {
     NoPeak,
 }
 
-/// An ending, and whether contact 2–3 closes before.
+/// An ending, and whether contact 2–3 closes before it.
 type Region = (Ending, bool);
 
 /// The maps with the verdicts of the native DEM.
@@ -47,7 +47,7 @@ pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
 }
 
 /// The figure as SVG.
-pub fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
+pub(crate) fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
     drawn(maps, survey).svg()
 }
 
@@ -62,7 +62,7 @@ fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
     let strips = strips(map);
     for strip in &strips {
         for band in &strip.bands {
-            panel.area(colour(band.region), band.outline(strip));
+            panel.area(look(band.region).0, band.outline(strip));
         }
         for curve in &strip.curves {
             let frictions = curve.frictions.iter().map(|&friction| Some(friction));
@@ -89,7 +89,7 @@ fn ruler(map: &RegimeMap) -> Ruler {
     }
 }
 
-/// A part of the axis between two lines, on which the regions follow each other in the same order.
+/// A part of the axis between two lines, along which the order of the regions is the same.
 struct Strip {
     values: Vec<f64>,
     bands: Vec<Band>,
@@ -123,13 +123,13 @@ impl Band {
         self.upper[SAMPLES / 2] - self.lower[SAMPLES / 2]
     }
 
-    /// High enough for a line of text.
+    /// Whether it is high enough for a line of text.
     fn is_visible(&self) -> bool {
         self.height() > LINE_HEIGHT
     }
 
     fn outline(&self, strip: &Strip) -> impl Iterator<Item = Point> {
-        // A little into the next strip, which is drawn over it: adjoining edges would let the paper through.
+        // It overlaps with the next strip, which is drawn over it: between adjoining edges a gap would show.
         let end = strip.values[SAMPLES - 1] * OVERLAP;
         let values: Vec<f64> = strip.values.iter().copied().chain([end]).collect();
         let edge = |heights: &[f64]| -> Vec<Point> {
@@ -143,10 +143,9 @@ impl Band {
 
 impl Curve {
     fn stroke(&self) -> Stroke {
-        if self.of_events {
-            BOUNDARY
-        } else {
-            BOUNDARY_OF_ENDINGS
+        match self.of_events {
+            true => BOUNDARY,
+            false => BOUNDARY_OF_ENDINGS,
         }
     }
 }
@@ -162,7 +161,7 @@ fn strips(map: &RegimeMap) -> Vec<Strip> {
 }
 
 fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
-    // Off the lines themselves, on which the order of the events is not decided.
+    // Not on the lines themselves, where the order of the events is undecided.
     let part = RegimeMap {
         range: (from * (1.0 + 1e-9), to * (1.0 - 1e-9)),
         ..*map
@@ -198,7 +197,8 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
     }
 }
 
-/// The boundaries at a value on the axis, lowest first, and whether another event comes first beyond them.
+/// The floor frictions of the boundaries at a value on the axis, lowest first, and whether another event comes first
+/// beyond them.
 fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, bool)> {
     let stack = map.axis.set(&map.base, value);
     let path = EquilibriumPath::new(&stack);
@@ -227,31 +227,29 @@ fn region(stack: &Stack) -> Option<Region> {
     Some((ending, shares))
 }
 
-fn colour((ending, shares): Region) -> &'static str {
+/// Colour and words of a region.
+fn look((ending, shares): Region) -> (&'static str, &'static [&'static str]) {
     match (ending, shares) {
-        (Ending::Falls, _) => FALLS,
-        (Ending::Yields, false) => YIELDS,
-        (Ending::Yields, true) => YIELDS_TOUCHING,
-        (Ending::Saturates, false) => SATURATES,
-        (Ending::Saturates, true) => SATURATES_TOUCHING,
-        (Ending::NoPeak, false) => NO_PEAK,
-        (Ending::NoPeak, true) => NO_PEAK_TOUCHING,
+        (Ending::Falls, _) => (FALLS, &["falls under own weight"]),
+        (Ending::Yields, false) => (YIELDS, &["floor slips:", "yield force"]),
+        (Ending::Yields, true) => (
+            YIELDS_TOUCHING,
+            &["2–3 touch,", "floor slips:", "yield force"],
+        ),
+        (Ending::Saturates, false) => (SATURATES, &["cylinders slip:", "saturated"]),
+        (Ending::Saturates, true) => (
+            SATURATES_TOUCHING,
+            &["2–3 touch,", "cylinders slip:", "saturated"],
+        ),
+        (Ending::NoPeak, false) => (NO_PEAK, &["wall contact:", "no peak"]),
+        (Ending::NoPeak, true) => (
+            NO_PEAK_TOUCHING,
+            &["2–3 touch,", "wall contact:", "no peak"],
+        ),
     }
 }
 
-fn words((ending, shares): Region) -> &'static [&'static str] {
-    match (ending, shares) {
-        (Ending::Falls, _) => &["falls under own weight"],
-        (Ending::Yields, false) => &["floor slips:", "yield force"],
-        (Ending::Yields, true) => &["2–3 touch,", "floor slips:", "yield force"],
-        (Ending::Saturates, false) => &["cylinders slip:", "saturated"],
-        (Ending::Saturates, true) => &["2–3 touch,", "cylinders slip:", "saturated"],
-        (Ending::NoPeak, false) => &["wall contact:", "no peak"],
-        (Ending::NoPeak, true) => &["2–3 touch,", "wall contact:", "no peak"],
-    }
-}
-
-/// Each region is named once, in the middle of the widest part of the axis that it spans without a gap.
+/// Names each region once, in the middle of the widest part of the axis that it spans without a gap.
 fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     let mut named: Vec<(Region, (f64, f64))> = Vec::new();
     for (index, strip) in strips.iter().enumerate() {
@@ -272,7 +270,7 @@ fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     }
 }
 
-/// The part of the axis around the strip `index` on which `region` goes on.
+/// The part of the axis around the strip `index` that `region` spans without a gap.
 fn span(strips: &[Strip], index: usize, region: Region) -> (f64, f64) {
     let has = |strip: &&Strip| strip.visible(region).is_some();
     let before = strips[..index].iter().rev().take_while(has).last();
@@ -293,7 +291,7 @@ fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
 
 /// Writes the words of `region` in lines around a point.
 fn name(panel: &mut Panel, region: Region, (x, y): Point) {
-    let words = words(region);
+    let (_, words) = look(region);
     let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 2.0);
     for (index, &line) in words.iter().enumerate() {
         let place = (x, top - LINE_HEIGHT * index as f64);
@@ -319,12 +317,8 @@ fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
     );
 }
 
-/// Points of a panel: value on the axis and floor friction.
-type Places = Vec<Point>;
-
-/// The places on the dashed lines whose neighbours were examined: those where both end as they should, and
-/// the others.
-fn released_places(map: &RegimeMap, survey: &Survey) -> (Places, Places) {
+/// The examined points on the dashed lines: those where both neighbours agree with theory, and the others.
+fn released_places(map: &RegimeMap, survey: &Survey) -> (Vec<Point>, Vec<Point>) {
     let (mut agreeing, mut others) = (Vec::new(), Vec::new());
     for pair in survey.examinations.windows(2) {
         let [below, above] = [&pair[0], &pair[1]];
@@ -339,14 +333,9 @@ fn released_places(map: &RegimeMap, survey: &Survey) -> (Places, Places) {
         if beside != below.stack || !close || !on_map {
             continue;
         }
-        if [below, above]
-            .iter()
-            .all(|side| side.verdict == Verdict::Agrees)
-        {
-            agreeing.push((value, friction));
-        } else {
-            others.push((value, friction));
-        }
+        let agree = [below, above].map(|side| side.verdict) == [Verdict::Agrees; 2];
+        let points = if agree { &mut agreeing } else { &mut others };
+        points.push((value, friction));
     }
     (agreeing, others)
 }

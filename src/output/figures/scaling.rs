@@ -1,14 +1,14 @@
 //! Fig. 2(b): the yield force over the stiffness, below, at and above the critical friction.
 
 use super::codes::{self, error_panel};
-use super::panel::{Anchor, Panel, Sample, draw};
+use super::panel::{Anchor, Panel, Sample};
 use super::style::{EXACT, PERTURBATION};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::code::Code;
 use crate::paper::reproduction::{Curves, Exponent, SCALING_FRICTIONS, TheoryPoint};
 use crate::study::yield_force::Judgement;
 
-/// Yield force over the stiffness with the fitted exponents, and how far the codes are from their own limits.
+/// Yield force over the stiffness with the fitted exponents, and the errors of the codes.
 pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Figure {
     let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness());
     codes::key(&mut errors, judgements, (0.05, 0.01));
@@ -23,23 +23,19 @@ pub(super) fn scaling(judgements: &[Judgement], exponents: &[Exponent], curves: 
                   10⁻¹⁰ stand at the lower edge.{}",
         codes::left_out(judgements)
     );
-    Figure::new("scaling", caption, draw(&panels, 2, super::HALF_PAGE))
+    Figure::of_halves("scaling", caption, &panels)
 }
 
 fn forces(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> Panel {
     let mut panel = Panel::new(stiffness_axis(), codes::load_axis((0.1, 3e6)));
     for (mu, place) in SCALING_FRICTIONS.into_iter().zip(CURVE_ENDS) {
-        let points = || {
-            curves
-                .over_stiffness
-                .iter()
-                .filter(move |point| point.mu == mu)
-        };
+        let all = curves.over_stiffness.iter();
+        let points = all.filter(|point| point.mu == mu);
         let load = |force: Option<f64>| force.map(|force| force + 3.0);
         let exact = |point: &TheoryPoint| (point.stiffness, load(point.exact));
         let perturbation = |point: &TheoryPoint| (point.stiffness, load(point.perturbation));
-        panel.line(EXACT, points().map(exact));
-        panel.line(PERTURBATION, points().map(perturbation));
+        panel.line(EXACT, points.clone().map(exact));
+        panel.line(PERTURBATION, points.map(perturbation));
         panel.words(friction_words(mu), place, Anchor::End);
     }
     codes::loads(&mut panel, judgements, |row| row.stiffness());
@@ -49,7 +45,7 @@ fn forces(judgements: &[Judgement], exponents: &[Exponent], curves: &Curves) -> 
     panel
 }
 
-/// Above the right end of each curve, where its name stands.
+/// Places of the names of the curves, above their right ends.
 const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 50.0), (3e5, 2.2e3), (8e4, 5e4)];
 
 /// A table of the fitted exponents, below the curves.

@@ -15,17 +15,17 @@ use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 const SCALE: f64 = 60.0;
 /// Length of the arrow of the largest force of a panel, in r.
 const LONGEST_ARROW: f64 = 1.0;
-/// Forces smaller than this part of the largest are too short to be drawn.
+/// Forces below this part of the largest are not drawn.
 const SMALLEST_SHARE: f64 = 0.02;
-/// How far the arrows of action and reaction are drawn apart, in r.
+/// Distance between the arrows of action and reaction, in r.
 const SIDESTEP: f64 = 0.055;
-/// From the tip of an arrow to its letter, in r.
+/// Distance from the tip of an arrow to its letter, in r.
 const LETTER_DISTANCE: f64 = 0.13;
-/// Half the width of a panel at least, in r.
+/// Smallest half-width of a panel, in r.
 const NARROWEST: f64 = 2.35;
-/// Half the width of a panel at most. A stack that is wider has exploded, and its cylinders are far outside.
+/// Largest half-width of a panel, in r. A wider stack has exploded, and its cylinders are far outside.
 const WIDEST: f64 = 20.0;
-/// A stack whose force is below this part of the largest collapses.
+/// A stack is in collapse when its force is below this part of the largest.
 const FALLEN: f64 = 0.75;
 const ABOVE_WALL: f64 = 0.3;
 const BELOW_FLOOR: f64 = 0.3;
@@ -38,10 +38,10 @@ const SMALL: f64 = 11.0;
 const MEDIUM: f64 = 12.0;
 const LARGE: f64 = 14.0;
 
-/// One moment of a stack, and what it is.
+/// One moment of a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackPanel<'a> {
-    /// What is special about it, such as "at rest".
+    /// The name of the moment, such as "at rest".
     pub title: String,
     /// The stack.
     pub frame: &'a Frame,
@@ -49,8 +49,8 @@ pub struct StackPanel<'a> {
     pub pair_forces_known: bool,
 }
 
-/// The stack of a run at rest, at its largest force, and in collapse, when the force has fallen to about half of
-/// that; where a run ends before, at its end.
+/// The stack of a run at rest, at its largest force, and in collapse, at about half that force, or else at the end of
+/// the run.
 pub fn representative_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
     let all = &frames.frames;
     let force = |index: usize| all[index].wall_force;
@@ -79,7 +79,7 @@ pub fn representative_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
     panels
 }
 
-/// The picture of one run as SVG: its [`representative_panels`] with a caption that says what was run.
+/// The picture of one run as SVG: its [`representative_panels`] with a caption on code and stack.
 pub fn run_svg(code: &str, case: &Case, frames: &Frames) -> String {
     let stack = &case.stack;
     let mut caption = vec![format!(
@@ -149,7 +149,7 @@ fn drawn(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> Drawing {
     drawing
 }
 
-/// How far to the side the cylinders of a frame are.
+/// The largest horizontal distance of a cylinder's edge from the middle.
 fn reach(frame: &Frame) -> f64 {
     let sides = frame.cylinders.iter();
     sides
@@ -177,7 +177,7 @@ fn legend(drawing: &mut Drawing, y: f64) {
     drawing.text(words, [164.0, y], SMALL, Anchor::Start);
 }
 
-/// Where a panel is on the drawing.
+/// The place of a panel on the drawing.
 struct View {
     middle: f64,
     floor: f64,
@@ -241,7 +241,7 @@ impl View {
     fn cylinder(&self, drawing: &mut Drawing, index: usize, cylinder: &PlacedCylinder) {
         let [x, y] = cylinder.position;
         drawing.circle(self.at([x, y]), SCALE, Paint::Tinted(BODY_OUTLINE, BODY));
-        // Where no contact is at rest.
+        // Directions without a contact at rest.
         let rest = [0.0, 0.8, std::f64::consts::PI - 0.8][index % 3];
         for (angle, stroke) in [
             (rest, ORIENTATION_AT_START),
@@ -414,7 +414,7 @@ fn letters(partner: Partner) -> (&'static str, &'static str) {
     }
 }
 
-/// Whether the arrows on one side of a contact get their letters: those on cylinder 2, and the wall's.
+/// Whether the arrows on one side of a contact carry letters: those on cylinder 2, and those of the wall.
 fn is_named(contact: &ContactPoint, side: f64) -> bool {
     let on = match contact.partner {
         Partner::Cylinder(other) if side < 0.0 => other,

@@ -1,10 +1,10 @@
-//! The look of every figure: fonts, axes, colours, lines and marks, told apart without colour.
+//! The look of every figure: fonts, axes, colours, lines and marks, which differ without colour too.
 
 use super::drawing::Stroke;
 pub(super) use crate::code::Shape;
 use crate::code::{Code, Colour};
 
-/// Fonts of an SVG, the first that a viewer has. A PDF carries DejaVu Sans.
+/// Fonts of an SVG, in order of preference. A PDF embeds DejaVu Sans.
 pub(super) const FONT_FAMILY: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Size of letters in a panel, at ticks and in captions, in pixels.
 pub(super) const TEXT_SIZE: f64 = 11.0;
@@ -15,24 +15,24 @@ pub(super) const LETTER_SIZE: f64 = 16.0;
 /// Half the height of a small letter of [`TEXT_SIZE`].
 pub(super) const HALF_LETTER: f64 = 3.8;
 
-/// Around the axes of a panel: left, right, top, bottom.
+/// Margins around the axes of a panel: left, right, top, bottom.
 pub(super) const MARGINS: (f64, f64, f64, f64) = (62.0, 12.0, 24.0, 44.0);
-/// Between two panels.
+/// Distance of two panels.
 pub(super) const SPACING: f64 = 10.0;
-/// Around all panels.
+/// Margin around all panels.
 pub(super) const PADDING: f64 = 4.0;
 /// The frame of a panel and its ticks.
 pub(super) const FRAME: Stroke = Stroke::new(INK, 1.0, &[]);
 /// Length of a tick, outwards.
 pub(super) const TICK: f64 = 5.0;
-/// Lines of a key are this far apart.
+/// Distance of lines in a key.
 pub(super) const KEY_LINE: f64 = 15.0;
 /// Length of a line in a key.
 pub(super) const KEY_SAMPLE: f64 = 26.0;
 
-/// Black enough for print.
+/// Near-black for text and lines.
 pub(super) const INK: &str = "#1a1a1a";
-/// For what is only a help to the eye.
+/// For guides to the eye.
 pub(super) const GREY: &str = "#8c8c8c";
 /// Colours that stay apart for the colour-blind (Okabe and Ito), darkest first.
 const BLUE: &str = "#0072b2";
@@ -41,9 +41,9 @@ const PURPLE: &str = "#9c4f86";
 const GREEN: &str = "#007d5c";
 const ORANGE: &str = "#c98500";
 
-/// A help to the eye.
+/// A guide to the eye.
 pub(super) const THIN: Stroke = Stroke::new(INK, 0.8, &[]);
-/// The same for what is the smaller of two.
+/// The same for the smaller of two quantities.
 pub(super) const THIN_DASHED: Stroke = Stroke::new(INK, 0.8, &[5.0, 3.0]);
 /// A level or a place.
 pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, &[3.0, 3.0]);
@@ -67,7 +67,7 @@ pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
 /// The boundaries in a regime map: another event comes first beyond it, or the same one ends otherwise.
 pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
 pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
-/// The regions of a regime map, light enough for black print and of different lightness.
+/// Colours of regions in a regime map: light enough for black text, of different lightness.
 pub(super) const FALLS: &str = "#bdbdbd";
 pub(super) const YIELDS: &str = "#fdf6dc";
 pub(super) const YIELDS_TOUCHING: &str = "#e3f1dc";
@@ -87,7 +87,7 @@ pub(super) const ORIENTATION: Stroke = Stroke::new(INK, 1.8, &[]);
 pub(super) const NORMAL_FORCE: Stroke = Stroke::new(INK, 2.0, &[]);
 pub(super) const TANGENTIAL_FORCE: Stroke = Stroke::new("#c2410c", 2.0, &[]);
 
-/// What marks a point.
+/// The mark of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mark {
     pub shape: Shape,
@@ -134,7 +134,7 @@ impl Mark {
         }
     }
 
-    /// The same smaller, where many stand close together.
+    /// A smaller mark, for crowded panels.
     pub const fn small(self) -> Self {
         Self {
             size: 0.7 * self.size,
@@ -142,7 +142,7 @@ impl Mark {
         }
     }
 
-    /// The mark of a code: that of its manifest, or the next of those that are left.
+    /// The mark of a code: that of its manifest, or else one of [`UNCHOSEN`] in turn.
     pub fn of(code: Code) -> Self {
         let (shape, own) = code.mark().map_or_else(
             || {
@@ -161,6 +161,6 @@ pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle
 /// The onset of slip and the peak on a curve.
 pub(super) const ONSET: Mark = Mark::new(Shape::Circle, BLUE, 4.5);
 pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);
-/// Points of a regime map at which native runs confirm the theory, and at which they do not.
+/// Points of a regime map at which native runs agree with theory, and at which they do not.
 pub(super) const CONFIRMED: Mark = Mark::new(Shape::Dot, INK, 2.2);
 pub(super) const NOT_CONFIRMED: Mark = Mark::new(Shape::Cross, "#c00000", 2.2);

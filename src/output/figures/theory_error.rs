@@ -1,7 +1,7 @@
-//! How far the paper's theories are from the exact limit.
+//! The errors of the paper's theories against the exact limit.
 
-use super::axis::Axis;
-use super::panel::{Anchor, Panel, Sample, Stroke, draw};
+use super::axis::{Axis, power_of_ten};
+use super::panel::{Anchor, Panel, Sample, Stroke};
 use super::style::{ELASTIC, GUIDE, NAIVE, PERTURBATION};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::model::CRITICAL_FRICTION;
@@ -19,7 +19,7 @@ pub(super) fn theory_error(curves: &Curves) -> Figure {
         let points = curves.over_friction.iter().filter(own);
         let mut panel = panel(Axis::friction(), points, |point| point.mu);
         panel.upright(GUIDE, CRITICAL_FRICTION);
-        let heading = format!("kₙ r/(m g) = {}", super::axis::power_of_ten(stiffness));
+        let heading = format!("kₙ r/(m g) = {}", power_of_ten(stiffness));
         panel.words(heading, (0.5, HEADING), Anchor::End);
         panel
     });
@@ -39,11 +39,7 @@ pub(super) fn theory_error(curves: &Curves) -> Figure {
                   quasi-static limit F = f/(m g) of its model, at κ = 2.5. (a–c) Over the floor friction μ for \
                   three stiffnesses kₙ r/(m g); (d–f) over the stiffness below, at and above μ_c. Gaps: the \
                   theory gives no number there, or the floor does not slip first. Theory alone, no runs.";
-    Figure::new(
-        "theory-error",
-        caption,
-        draw(&panels, 3, super::THIRD_OF_PAGE),
-    )
+    Figure::of_thirds("theory-error", caption, &panels)
 }
 
 type Force = fn(&TheoryPoint) -> Option<f64>;

@@ -3,13 +3,13 @@
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::codes::{self, error_panel};
-use super::panel::{Anchor, Panel, Sample, draw};
+use super::panel::{Anchor, Panel, Sample};
 use super::style::{EXACT, GUIDE, PERTURBATION, RIGID};
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::{Curves, TheoryPoint};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
-/// Yield force of every code and theory, and how far the codes are from their own limits.
+/// Yield force by every code and theory, and the errors of the codes.
 pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure {
     let mut errors = error_panel(Axis::friction(), judgements, |row| row.mu());
     codes::key(&mut errors, judgements, (0.05, 0.01));
@@ -23,7 +23,7 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
              10⁻¹⁰ stand at the lower edge. Runs of the standard profile.{}",
         codes::left_out(judgements)
     );
-    Figure::new("yield-curves", caption, draw(&panels, 2, super::HALF_PAGE))
+    Figure::of_halves("yield-curves", caption, &panels)
 }
 
 fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {

@@ -5,84 +5,85 @@ use serde::Serialize;
 
 /// The whole report.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Document {
-    /// Its title.
+pub(super) struct Document {
     pub title: String,
-    /// Lines below the title.
+    /// Paragraphs below the title.
     pub lead: Vec<String>,
-    /// Its sections, in order.
     pub sections: Vec<Section>,
 }
 
-/// A section.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Section {
-    /// Its anchor.
+pub(super) struct Section {
+    /// Anchor in the page.
     pub id: &'static str,
-    /// Its title.
     pub title: &'static str,
-    /// Its content, in order.
     pub blocks: Vec<Block>,
+}
+
+impl Section {
+    pub fn new(id: &'static str, title: &'static str, blocks: Vec<Block>) -> Self {
+        Self { id, title, blocks }
+    }
 }
 
 /// A piece of a section. In texts `…` between backticks is code.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Block {
-    /// A paragraph.
-    Paragraph {
-        /// Its text.
-        text: String,
-    },
-    /// A list.
-    List {
-        /// Its items.
-        items: Vec<String>,
-    },
-    /// A table, which is also a file of its own.
+pub(super) enum Block {
+    Paragraph { text: String },
+    List { items: Vec<String> },
     Table(PageTable),
-    /// A figure, which is also a file of its own.
     Figure(Figure),
 }
 
 impl Block {
-    /// A paragraph.
     pub fn paragraph(text: impl Into<String>) -> Self {
         Self::Paragraph { text: text.into() }
     }
+
+    /// `data` under the name `name`.
+    pub fn table(name: &'static str, caption: impl Into<String>, data: &DataTable) -> Self {
+        Self::Table(PageTable::new(name, caption, data, data.shown()))
+    }
+
+    /// A table that is folded if `long`.
+    pub fn long_table(
+        long: bool,
+        name: &'static str,
+        caption: impl Into<String>,
+        data: &DataTable,
+    ) -> Self {
+        Self::Table(PageTable {
+            long,
+            ..PageTable::new(name, caption, data, data.shown())
+        })
+    }
 }
 
-/// A table with a name.
+/// A table of the page, which is also written to files of its own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PageTable {
-    /// Name of its files, without ending.
+pub(super) struct PageTable {
+    /// Name of its files, without extension.
     pub name: &'static str,
-    /// What it shows.
     pub caption: String,
-    /// Its cells, as they are shown.
     #[serde(skip)]
     pub table: Table,
     /// The same rows with every digit.
     #[serde(skip)]
     pub csv: Vec<u8>,
-    /// Whether it is long, and stands folded on the page until it is opened or printed.
+    /// Whether it is folded on the page until it is opened or printed.
     pub long: bool,
-    /// How many rows are shown.
+    /// Number of rows shown.
     pub rows: usize,
 }
 
 impl PageTable {
-    /// `data` under the name `name`.
-    pub fn new(name: &'static str, caption: impl Into<String>, data: &DataTable) -> Self {
-        Self::showing(data.shown(), name, caption, data)
-    }
-
     /// `data` under the name `name`, shown as `table`.
-    pub fn showing(
-        table: Table,
+    pub fn new(
         name: &'static str,
         caption: impl Into<String>,
         data: &DataTable,
+        table: Table,
     ) -> Self {
         Self {
             name,
@@ -93,20 +94,14 @@ impl PageTable {
             table,
         }
     }
-
-    /// The same, folded if `long`.
-    pub fn folded(self, long: bool) -> Self {
-        Self { long, ..self }
-    }
 }
 
 impl Document {
-    /// All its blocks, in order.
     fn blocks(&self) -> impl Iterator<Item = &Block> {
         self.sections.iter().flat_map(|section| &section.blocks)
     }
 
-    /// All its tables, in order.
+    /// All tables, in order.
     pub fn tables(&self) -> impl Iterator<Item = &PageTable> {
         self.blocks().filter_map(|block| match block {
             Block::Table(table) => Some(table),
@@ -114,7 +109,7 @@ impl Document {
         })
     }
 
-    /// All its figures, in order.
+    /// All figures, in order.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.blocks().filter_map(|block| match block {
             Block::Figure(figure) => Some(figure),

@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else: style and figures are inside.
+//! The report as a self-contained HTML page, with style and figures inside.
 
 use super::document::Document;
 use crate::output::Figure;
@@ -6,8 +6,7 @@ use crate::output::table::html_text;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 
-/// The page.
-pub fn html(document: &Document) -> String {
+pub(super) fn html(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -19,7 +18,7 @@ pub fn html(document: &Document) -> String {
         .expect("the template is part of the program and tested");
     let template = environment
         .get_template("report")
-        .expect("it has just been added");
+        .expect("the template has just been added");
     let figures: Vec<String> = document.figures().map(Figure::svg).collect();
     let tables: Vec<String> = document.tables().map(|data| data.table.html()).collect();
     template

@@ -1,4 +1,4 @@
-//! Everything that was judged, as JUnit XML for continuous integration.
+//! All verdicts as JUnit XML, for continuous integration.
 
 use crate::output::friction;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
@@ -7,51 +7,45 @@ use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-/// One suite a kind of judgement. A claim that does not hold is no failure of the tests but their result: it
-/// passes, and says so; a claim that cannot be tested is skipped.
-pub fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
+/// One suite for each kind of verdict. A claim that does not hold is a result, not a failed test: its case passes and
+/// names the verdict. A claim that cannot be tested is skipped.
+pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
     let mut report = Report::new("tristack report");
+    let mut add_suite = |name: &str, cases: Vec<TestCase>| {
+        let mut suite = TestSuite::new(name);
+        suite.add_test_cases(cases);
+        report.add_test_suite(suite);
+    };
     let parts = [
         ("yield_curves", &reproduction.yield_curves),
         ("scaling", &reproduction.scaling),
         ("literal", &reproduction.literal),
     ];
     for (name, judgements) in parts {
-        let mut suite = TestSuite::new(name);
-        suite.add_test_cases(judgements.iter().map(row));
-        report.add_test_suite(suite);
+        add_suite(name, judgements.iter().map(row).collect());
     }
-    let mut suite = TestSuite::new("exponents");
-    suite.add_test_cases(reproduction.exponents.iter().map(|exponent| {
+    let exponents = reproduction.exponents.iter().map(|exponent| {
         let name = format!("{} at mu = {}", exponent.code, friction(exponent.mu));
         let text = format!("fitted {}, exact {}", exponent.exponent, exponent.exact);
         TestCase::new(name, status(exponent.verdict, &text))
-    }));
-    report.add_test_suite(suite);
-    let mut suite = TestSuite::new("trajectories");
-    for judgement in &reproduction.trajectories {
+    });
+    add_suite("exponents", exponents.collect());
+    let trajectories = reproduction.trajectories.iter().flat_map(|judgement| {
         let verdicts = judgement.verdicts().into_iter().enumerate();
-        suite.add_test_cases(verdicts.map(|(index, verdict)| {
+        verdicts.map(|(index, verdict)| {
             let name = format!("{} comparison {}", judgement.code, index + 1);
             TestCase::new(name, status(verdict, &judgement.notes().join("; ")))
-        }));
-    }
-    report.add_test_suite(suite);
-    let mut suite = TestSuite::new("claims");
-    suite.add_test_cases(claims.iter().map(claim));
-    report.add_test_suite(suite);
+        })
+    });
+    add_suite("trajectories", trajectories.collect());
+    add_suite("claims", claims.iter().map(claim).collect());
     report.to_string().expect("plain text has an XML form") + "\n"
 }
 
-fn row(judgement: &Judgement) -> TestCase {
-    let row = judgement;
-    let name = format!(
-        "{} at mu = {}, stiffness = {}",
-        row.code,
-        friction(row.mu()),
-        row.stiffness()
-    );
-    TestCase::new(name, status(row.verdict(), &judgement.notes().join("; ")))
+fn row(row: &Judgement) -> TestCase {
+    let (mu, stiffness) = (friction(row.mu()), row.stiffness());
+    let name = format!("{} at mu = {mu}, stiffness = {stiffness}", row.code);
+    TestCase::new(name, status(row.verdict(), &row.notes().join("; ")))
 }
 
 fn status(verdict: Verdict, text: &str) -> TestCaseStatus {
@@ -76,10 +70,7 @@ fn claim(claim: &ClaimJudgement) -> TestCase {
     };
     let mut case = TestCase::new(claim.id.clone(), status);
     case.set_classname(claim.place.clone());
-    case.set_system_out(format!(
-        "{}: {}",
-        super::sections::in_words(claim.verdict),
-        claim.evidence
-    ));
+    let verdict = super::sections::in_words(claim.verdict);
+    case.set_system_out(format!("{verdict}: {}", claim.evidence));
     case
 }

@@ -2,8 +2,7 @@
 
 use super::document::{Block, Document};
 
-/// The page.
-pub fn markdown(document: &Document) -> String {
+pub(super) fn markdown(document: &Document) -> String {
     let mut page = format!("# {}\n", document.title);
     for line in &document.lead {
         page += &format!("\n{line}\n");

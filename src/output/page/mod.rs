@@ -7,8 +7,7 @@ mod markdown;
 mod ro_crate;
 mod sections;
 
-pub use sections::Origin;
-pub(crate) use sections::declared_tables;
+pub(crate) use sections::{Origin, declared_tables};
 
 use crate::output::json;
 use crate::paper::claims::ClaimJudgement;
@@ -17,10 +16,9 @@ use document::Document;
 
 /// A file of the report.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReportFile {
-    /// Its path below the directory of the report, with `/`.
+pub(crate) struct ReportFile {
+    /// Path below the directory of the report, with `/`.
     pub name: String,
-    /// Its content.
     pub content: Vec<u8>,
 }
 
@@ -33,8 +31,8 @@ impl ReportFile {
     }
 }
 
-/// All files of the report. The same runs give the same bytes.
-pub fn report_files(
+/// All files of the report, with the same bytes for the same runs.
+pub(crate) fn report_files(
     reproduction: &Reproduction,
     claims: &[ClaimJudgement],
     origin: &Origin,

@@ -1,4 +1,4 @@
-//! What the files are, for machines: RO-Crate 1.1 metadata (w3id.org/ro/crate/1.1).
+//! Metadata of the files as an RO-Crate 1.1 (w3id.org/ro/crate/1.1).
 
 use super::ReportFile;
 use super::document::Document;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 const PAPER: &str = "https://arxiv.org/abs/2511.06807";
 
 /// The content of `ro-crate-metadata.json` for `files`.
-pub fn ro_crate(
+pub(super) fn ro_crate(
     document: &Document,
     files: &[ReportFile],
     provenances: &[Provenance],
@@ -18,6 +18,11 @@ pub fn ro_crate(
 ) -> String {
     let parts: Vec<Value> = files.iter().map(|file| json!({"@id": file.name})).collect();
     let last = provenances.iter().map(|run| run.date.as_str()).max();
+    let programs = programs(provenances);
+    let instruments: Vec<Value> = programs
+        .iter()
+        .map(|own| json!({"@id": own["@id"]}))
+        .collect();
     let mut graph = vec![
         json!({
             "@id": "ro-crate-metadata.json",
@@ -46,11 +51,11 @@ pub fn ro_crate(
             "@type": "CreateAction",
             "name": origin.command,
             "endTime": last,
-            "instrument": programs(provenances),
+            "instrument": instruments,
             "result": {"@id": "./"},
         }),
     ];
-    graph.extend(described_programs(provenances));
+    graph.extend(programs);
     graph.extend(files.iter().map(described));
     let crate_ = json!({"@context": "https://w3id.org/ro/crate/1.1/context", "@graph": graph});
     serde_json::to_string_pretty(&crate_).expect("plain data has a JSON form") + "\n"
@@ -80,38 +85,23 @@ fn media_type(name: &str) -> &'static str {
     }
 }
 
-/// Identifiers and versions of the programs that ran.
-fn names(provenances: &[Provenance]) -> Vec<(String, String, String)> {
-    let mut names = vec![(
-        "#tristack".to_owned(),
-        "tristack".to_owned(),
-        env!("CARGO_PKG_VERSION").to_owned(),
-    )];
+/// The programs that ran, each once.
+fn programs(provenances: &[Provenance]) -> Vec<Value> {
+    let program = |name: &str, version: &str| {
+        json!({
+            "@id": format!("#{name}"),
+            "@type": "SoftwareApplication",
+            "name": name,
+            "softwareVersion": version,
+        })
+    };
+    let mut programs = vec![program("tristack", env!("CARGO_PKG_VERSION"))];
     for run in provenances {
         let identity = &run.identity;
-        let version = identity.package.as_ref().unwrap_or(&identity.version);
-        let name = (
-            format!("#{}", identity.code),
-            identity.code.clone(),
-            version.clone(),
-        );
-        if !names.iter().any(|(id, ..)| *id == name.0) {
-            names.push(name);
+        if !programs.iter().any(|known| known["name"] == identity.code) {
+            let version = identity.package.as_ref().unwrap_or(&identity.version);
+            programs.push(program(&identity.code, version));
         }
     }
-    names
-}
-
-fn programs(provenances: &[Provenance]) -> Vec<Value> {
-    let names = names(provenances).into_iter();
-    names.map(|(id, ..)| json!({"@id": id})).collect()
-}
-
-fn described_programs(provenances: &[Provenance]) -> Vec<Value> {
-    let names = names(provenances).into_iter();
-    names
-        .map(|(id, name, version)| {
-            json!({"@id": id, "@type": "SoftwareApplication", "name": name, "softwareVersion": version})
-        })
-        .collect()
+    programs
 }

@@ -3,16 +3,16 @@
 use super::{DataTable, Value};
 use crate::code::Code;
 use crate::model::{Arms, Stack};
-use crate::output::number::friction;
+use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 
-/// Name, version and origin of a table that programs may read.
+/// Name, version and origin of a machine-readable table.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Schema {
     pub(crate) name: &'static str,
     /// Raised when a column is removed or changes its meaning.
     pub(crate) version: u32,
-    /// One sentence: what a row is.
+    /// One sentence on the meaning of a row.
     pub(crate) what: &'static str,
     /// The commands and files that carry it.
     pub(crate) found_in: &'static str,
@@ -29,11 +29,11 @@ pub(crate) struct Column<'a, R> {
     pub(crate) unit: &'static str,
     pub(crate) meaning: &'static str,
     pub(crate) value: ValueOf<'a, R>,
-    /// Name in tables for people; `None` if they do without this column.
+    /// Name in tables for people; `None` for a column that they leave out.
     pub(crate) heading: Option<&'static str>,
-    /// Digits of its numbers in these tables.
+    /// Format of its numbers in these tables.
     pub(crate) digits: fn(f64) -> String,
-    /// What stands there in place of the value.
+    /// Text for people in place of the value.
     pub(crate) cell: Option<CellOf<'a, R>>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct Columns<'a, R> {
 }
 
 impl<'a, R: 'a> Columns<'a, R> {
-    /// No columns yet, of a table in version 1.
+    /// No columns yet, for version 1 of a table.
     pub(crate) fn new(name: &'static str, what: &'static str, found_in: &'static str) -> Self {
         let version = 1;
         Self {
@@ -63,7 +63,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         }
     }
 
-    /// No columns yet, of a table that only people read.
+    /// No columns yet, for a table that only people read.
     pub(crate) fn for_people() -> Self {
         Self::new("", "", "")
     }
@@ -89,7 +89,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    /// A column of words.
+    /// A column of words or flags.
     pub(crate) fn text<V: Into<Value>>(
         self,
         name: &'static str,
@@ -109,7 +109,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.number("", "1", "", cell).shown(heading)
     }
 
-    /// Shows the column to people as `heading`, its numbers with these digits.
+    /// Shows the column to people as `heading`, its numbers formatted by `digits`.
     pub(crate) fn shown_as(self, heading: &'static str, digits: fn(f64) -> String) -> Self {
         self.shown(heading).digits(digits)
     }
@@ -120,13 +120,13 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    /// Writes its numbers for people with these digits.
+    /// Formats its numbers for people by `digits`.
     pub(crate) fn digits(mut self, digits: fn(f64) -> String) -> Self {
         self.current().digits = digits;
         self
     }
 
-    /// Shows people something else than the value.
+    /// Shows people this text in place of the value.
     pub(crate) fn cell(mut self, cell: impl Fn(&R) -> String + 'a) -> Self {
         self.current().cell = Some(Box::new(cell));
         self
@@ -187,19 +187,20 @@ impl<'a, R: 'a> Columns<'a, R> {
         })
     }
 
-    /// The code that a row is about.
+    /// The code of a row.
     pub(crate) fn code(self, code: impl Fn(&R) -> Code + 'a) -> Self {
         let name = move |row: &R| code(row).as_str();
         self.text("code", "name of the code", name).shown("code")
     }
 
-    /// The version of the code; people see it elsewhere.
-    pub(crate) fn version(self, version: impl Fn(&R) -> &str + 'a) -> Self {
+    /// The version of the code, which is hidden from people until `shown` is called.
+    pub(crate) fn version(self, version: impl Fn(&R) -> &str + Copy + 'a) -> Self {
         let text = move |row: &R| Value::from(version(row));
         self.text("version", "version of the code", text)
+            .cell(move |row| or_dash(version(row)))
     }
 
-    /// Where the runs of a row come from; people see it on request.
+    /// The source of the runs of a row, which is hidden from people until `shown` is called.
     pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
         let meaning =
             "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";

@@ -4,7 +4,7 @@ use super::columns::{Columns, Schema};
 use super::{Table, Value};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// What a column is, apart from its values.
+/// A column without its values.
 #[derive(Debug, Clone)]
 struct Heading {
     name: &'static str,
@@ -48,24 +48,23 @@ impl<'a> DataTable<'a> {
         }
     }
 
-    /// Name and version, as JSON gives them.
+    /// Name and version, as in JSON.
     pub(crate) fn schema(&self) -> String {
         format!("tristack/{}/{}", self.schema.name, self.schema.version)
     }
 
-    /// Whether there is no row.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows == 0
     }
 
-    /// The columns that programs read, by index.
+    /// The machine-readable columns, with their index.
     fn named(&self) -> impl Iterator<Item = (usize, &Heading)> {
         let all = self.columns.iter().enumerate();
         all.filter(|(_, column)| !column.name.is_empty())
     }
 
-    /// Every value with every digit, for a spreadsheet.
-    pub fn csv(&self) -> Vec<u8> {
+    /// The machine-readable columns as CSV, with every digit.
+    pub(crate) fn csv(&self) -> Vec<u8> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let names: Vec<&str> = self.named().map(|(_, column)| column.name).collect();
         let header = writer.write_record(names);
@@ -78,7 +77,7 @@ impl<'a> DataTable<'a> {
         writer.into_inner().expect("memory is flushed")
     }
 
-    /// The columns that people read.
+    /// The columns for people.
     pub fn shown(&self) -> Table {
         let all = self.columns.iter().enumerate();
         let shown = all.filter_map(|(at, column)| Some((at, column.heading?, column.unit)));
@@ -94,7 +93,7 @@ impl<'a> DataTable<'a> {
         table
     }
 
-    /// The same on its side: a line a column, with its unit; the rows as columns, named `names`.
+    /// The columns for people as lines with their units, and the rows as columns with the given names.
     pub(crate) fn transposed(&self, names: &[&str]) -> Table {
         let numbers = names.iter().map(|name| (name.to_string(), true));
         let first = [("quantity".to_owned(), false)].into_iter();
@@ -111,7 +110,7 @@ impl<'a> DataTable<'a> {
         table
     }
 
-    /// What docs/formats.md says of the table.
+    /// The section of docs/formats.md on the table.
     pub(crate) fn described(&self) -> String {
         let Schema {
             name,
@@ -132,8 +131,8 @@ impl<'a> DataTable<'a> {
     }
 }
 
-/// `tables` as a JSON object with the `command` that made them: its own `units` and `rows` if it is one, an object
-/// a table under `tables` if they are several.
+/// `tables` as a JSON object with the `command` that made them. A single table has its `units` and `rows` in this
+/// object, several are objects in a list `tables`.
 pub(crate) fn json(tables: &[DataTable], command: &str) -> Vec<u8> {
     let object = Object { tables, command };
     let mut json = serde_json::to_vec_pretty(&object).expect("plain values have a JSON form");

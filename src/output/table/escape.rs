@@ -1,11 +1,11 @@
-//! Text between the marks of each format.
+//! Escapes of text for Markdown, HTML and TeX.
 
 /// `text` in one cell of a Markdown table.
 pub(super) fn markdown_cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
-/// `text` for HTML: what stands between backticks as code, everything else escaped.
+/// `text` escaped for HTML, with the parts between backticks as code.
 pub(crate) fn html_text(text: &str) -> String {
     code_marked(text, "<code>", "</code>", |part| {
         part.replace('&', "&amp;")
@@ -15,8 +15,7 @@ pub(crate) fn html_text(text: &str) -> String {
     })
 }
 
-/// `text` for TeX: its special characters escaped, symbols as commands, what stands between backticks in
-/// typewriter.
+/// `text` for TeX: special characters escaped, symbols as commands, parts between backticks in typewriter.
 pub(super) fn latex_text(text: &str) -> String {
     code_marked(text, "\\texttt{", "}", |part| {
         part.chars().map(character).collect()
@@ -58,13 +57,11 @@ fn character(character: char) -> String {
 
 /// The TeX command of a symbol.
 fn symbol(character: char) -> Option<String> {
-    const DIGITS: [&str; 2] = ["⁰¹²³⁴⁵⁶⁷⁸⁹", "₀₁₂₃₄₅₆₇₈₉"];
-    let digit = |row: usize| DIGITS[row].chars().position(|digit| digit == character);
-    if let Some(value) = digit(0) {
-        return Some(format!("^{value}"));
-    }
-    if let Some(value) = digit(1) {
-        return Some(format!("_{value}"));
+    for (digits, mark) in [("⁰¹²³⁴⁵⁶⁷⁸⁹", '^'), ("₀₁₂₃₄₅₆₇₈₉", '_')]
+    {
+        if let Some(value) = digits.chars().position(|digit| digit == character) {
+            return Some(format!("{mark}{value}"));
+        }
     }
     let name = match character {
         'α' => "\\alpha",
@@ -113,7 +110,6 @@ fn symbol(character: char) -> Option<String> {
         'ᵣ' => "_r",
         '½' => "\\tfrac12",
         '°' => "^\\circ",
-        '|' => "|",
         _ => return None,
     };
     Some(name.to_owned())

@@ -1,4 +1,4 @@
-//! A table of text cells, as people see it, in every format.
+//! A table of text cells for people, in every format.
 
 use super::escape::{html_text, latex_text, markdown_cell};
 use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
@@ -7,13 +7,13 @@ use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     headings: Vec<String>,
-    /// Which columns are numbers, aligned to the right.
+    /// Whether a column holds numbers, aligned to the right.
     numeric: Vec<bool>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// An empty table with these headings, each with whether it stands above numbers.
+    /// An empty table; each column has a heading and may hold numbers.
     pub(crate) fn new(columns: impl IntoIterator<Item = (String, bool)>) -> Self {
         let (headings, numeric) = columns.into_iter().unzip();
         Self {
@@ -29,18 +29,17 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// How many rows there are.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// For a terminal.
+    /// The table for a terminal.
     pub fn terminal(&self) -> String {
         self.drawn(presets::UTF8_FULL_CONDENSED, str::to_owned)
     }
 
-    /// For Markdown.
-    pub fn markdown(&self) -> String {
+    /// The table in Markdown.
+    pub(crate) fn markdown(&self) -> String {
         self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
     }
 
@@ -67,8 +66,7 @@ impl Table {
         lines.join("\n") + "\n"
     }
 
-    /// For a paper: LaTeX with booktabs and, for `long` tables, longtable; a comment says what it is. Every
-    /// character is plain TeX.
+    /// LaTeX for a paper, in ASCII: booktabs, for `long` tables longtable, the caption as a comment.
     pub(crate) fn latex(&self, caption: &str, long: bool) -> String {
         let numeric = self.numeric.iter();
         let alignment: String = numeric
@@ -91,7 +89,7 @@ impl Table {
         )
     }
 
-    /// For a page.
+    /// The table in HTML.
     pub(crate) fn html(&self) -> String {
         let line = |cells: &[String], tag: &str, scope: &str| {
             let cells = cells.iter().zip(&self.numeric).map(|(cell, numeric)| {

@@ -13,7 +13,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// The word that stands for `name` in files, such as `floor-slip`.
+    /// The word of an enum variant in files, such as `floor-slip`.
     pub(crate) fn word(name: impl Serialize) -> Self {
         match serde_json::to_value(name) {
             Ok(serde_json::Value::String(word)) => Self::Text(word),

@@ -1,4 +1,4 @@
-//! The glyphs of DejaVu Sans that a PDF uses, embedded in it.
+//! DejaVu Sans, of which a PDF embeds the glyphs that it uses.
 
 use super::markup::Style;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
@@ -12,14 +12,14 @@ const IDENTITY: SystemInfo = SystemInfo {
     ordering: Str(b"Identity"),
     supplement: 0,
 };
-/// Objects of a font in a PDF.
+/// Number of PDF objects of a font.
 pub(super) const OBJECTS: usize = 5;
 /// Thickness of the stems of DejaVu Sans, in thousandths of its size.
 const STEM: f32 = 90.0;
 
-/// One face of the font, and which of its glyphs are used.
+/// One face of the font, and its glyphs in use.
 pub(super) struct Font {
-    /// Its name in the PDF, with the six letters before it that say it is a part of the font.
+    /// Its name in the PDF, with the prefix of six letters that marks a subset.
     name: &'static str,
     data: &'static [u8],
     face: Face<'static>,
@@ -71,8 +71,8 @@ impl Font {
         }
     }
 
-    /// `text` as numbers of glyphs in the embedded font, and its width in multiples of its size. A character that
-    /// the font lacks becomes its empty box.
+    /// `text` as glyph numbers of the embedded font, and its width in multiples of the font size. A character that the
+    /// font lacks becomes an empty box.
     pub fn encode(&mut self, text: &str) -> (Vec<u8>, f64) {
         let (mut numbers, mut width) = (Vec::new(), 0.0);
         for character in text.chars() {
@@ -85,7 +85,7 @@ impl Font {
         (numbers, width)
     }
 
-    /// Writes the font as the objects from `first` on, of which the first is the one that a page refers to.
+    /// Writes the font as the objects from `first` on; pages refer to the first of them.
     pub fn write(&self, pdf: &mut Pdf, first: i32) {
         let objects: [Ref; OBJECTS] = std::array::from_fn(|index| Ref::new(first + index as i32));
         let [composite, glyphs, descriptor, file, unicode] = objects;
@@ -109,7 +109,7 @@ impl Font {
         glyph_font.finish();
         self.describe(pdf, descriptor, name, file);
         let subset = subsetter::subset(self.data, 0, &self.glyphs)
-            .expect("the font is part of the program, and its own glyphs are asked for");
+            .expect("the font is part of the program, and the glyphs are its own");
         pdf.stream(file, &compressed(&subset))
             .filter(Filter::FlateDecode);
         let mut map = UnicodeCmap::new(Name(b"Custom"), IDENTITY);
@@ -139,7 +139,7 @@ impl Font {
             .font_file2(file);
     }
 
-    /// The width of a glyph in thousandths of the size of the font.
+    /// The width of a glyph in thousandths of the font size.
     fn advance(&self, glyph: u16) -> f32 {
         let advance = self.face.glyph_hor_advance(GlyphId(glyph)).unwrap_or(0);
         f32::from(advance) * 1000.0 / f32::from(self.face.units_per_em())

@@ -1,6 +1,6 @@
 //! Text with italics and subscripts.
 
-/// How a part of a text is printed.
+/// The style of a part of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Style {
     Plain,
@@ -10,7 +10,7 @@ pub(super) enum Style {
 
 /// Size of a subscript, relative to its text.
 pub(super) const SUBSCRIPT_SIZE: f64 = 0.75;
-/// How far a subscript is lowered, in pixels.
+/// Distance by which a subscript is lowered, in pixels.
 pub(super) const SUBSCRIPT_DROP: f64 = 3.0;
 
 /// `text` in parts of one style each: `_x_` is one letter in italics, `_{…}` a subscript.
@@ -32,7 +32,7 @@ pub(super) fn spans(text: &str) -> Vec<(Style, &str)> {
     spans
 }
 
-/// The marked words at the beginning of what follows an underscore, and what comes after them.
+/// The marked words at the start of `text`, which follows an underscore, and the rest.
 fn marked(text: &str) -> Option<(Style, &str, &str)> {
     if let Some(inside) = text.strip_prefix('{') {
         let (words, rest) = inside.split_once('}')?;

@@ -1,4 +1,4 @@
-//! The one drawing layer: lines, areas, circles and text in pixels, written as SVG or as PDF.
+//! Drawings of lines, areas, circles and text in pixels, written as SVG or as PDF.
 
 mod font;
 mod markup;
@@ -8,7 +8,7 @@ mod svg;
 /// A place in pixels, to the right of and below the upper left corner.
 pub(super) type Place = [f64; 2];
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
     /// As `#rrggbb`.
@@ -36,12 +36,12 @@ pub(super) enum Paint {
     Filled(&'static str),
     /// An outline alone.
     Outlined(Stroke),
-    /// An outline, and an inside of this colour through which one sees what is behind.
+    /// An outline, and a translucent inside of this colour.
     Tinted(Stroke, &'static str),
 }
 
 impl Paint {
-    /// Colour of the inside, and how much it hides of what is behind it.
+    /// Colour and opacity of the inside.
     fn fill(self) -> Option<(&'static str, f64)> {
         match self {
             Self::Filled(colour) => Some((colour, 1.0)),
@@ -58,10 +58,10 @@ impl Paint {
     }
 }
 
-/// How much a tint hides of what is behind it.
+/// Opacity of a tint.
 const TINT: f64 = 0.22;
 
-/// Which part of a text is at its place.
+/// The part of a text that is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -69,12 +69,12 @@ pub(super) enum Anchor {
     End,
 }
 
-/// How a text stands.
+/// Weight and direction of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Setting {
     Normal,
     Bold,
-    /// Running from below upwards.
+    /// Upwards.
     Upwards,
 }
 
@@ -105,7 +105,6 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    /// An empty drawing.
     pub fn new(width: f64, height: f64) -> Self {
         Self {
             width: width.ceil(),
@@ -126,7 +125,6 @@ impl Drawing {
             .push(Element::Path(points.into(), true, paint));
     }
 
-    /// A circle.
     pub fn circle(&mut self, centre: Place, radius: f64, paint: Paint) {
         self.elements.push(Element::Circle(centre, radius, paint));
     }
@@ -141,7 +139,7 @@ impl Drawing {
         self.set(words.to_string(), place, size, Anchor::Start, Setting::Bold);
     }
 
-    /// A text around `place` that runs from below upwards.
+    /// A text that runs upwards, centred at `place`.
     pub fn upward_text(&mut self, words: impl ToString, place: Place, size: f64) {
         let words = words.to_string();
         self.set(words, place, size, Anchor::Middle, Setting::Upwards);

@@ -1,4 +1,4 @@
-//! A drawing as a PDF page of its size, with a font of its own, so that every machine writes the same bytes.
+//! A drawing as a PDF page of its size, with an embedded font, so that every machine writes the same bytes.
 
 use super::font::{Fonts, OBJECTS, compressed};
 use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
@@ -16,7 +16,7 @@ const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 const FIRST_FONT: i32 = 5;
-/// The state in which what is filled is a tint.
+/// The graphics state for tints.
 const TINTED: Name = Name(b"Tinted");
 
 impl Drawing {
@@ -133,7 +133,8 @@ impl Page {
     }
 }
 
-/// Where a text of some width begins, and its directions along and up, in pixels to the right and down.
+/// The text matrix of a text of some width: its directions along and up and its start, in pixels to the right and
+/// down.
 fn matrix(text: &Text, width: f64) -> [f32; 6] {
     let before = match text.anchor {
         Anchor::Start => 0.0,

@@ -1,24 +1,19 @@
-//! What the paper says, and what is to be said of it.
+//! The claims of the paper, and its errata.
 
-use super::super::document::{Block, PageTable, Section};
+use super::super::document::{Block, Section};
 use crate::output::DataTable;
 use crate::output::table::{Columns, Value};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 
-/// The errata.
-pub fn errata(claims: &[ClaimJudgement]) -> Section {
+pub(super) fn errata(claims: &[ClaimJudgement]) -> Section {
     let blocks = vec![
         Block::paragraph(
             "Displayed equations and numbers of the paper that do not hold as printed. A corrected form stands \
              here only because the same check holds with it.",
         ),
-        Block::Table(PageTable::new("errata", "Errata.", &errata_table(claims))),
+        Block::table("errata", "Errata.", &errata_table(claims)),
     ];
-    Section {
-        id: "errata",
-        title: "Errata",
-        blocks,
-    }
+    Section::new("errata", "Errata", blocks)
 }
 
 pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
@@ -47,19 +42,15 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
 }
 
 /// All claims.
-pub fn register(claims: &[ClaimJudgement]) -> Section {
+pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
              is derived by running the check; the register is `reference/claims.toml`.",
         ),
-        Block::Table(PageTable::new("claims", "Claims.", &claims_table(claims))),
+        Block::table("claims", "Claims.", &claims_table(claims)),
     ];
-    Section {
-        id: "claims",
-        title: "Claims",
-        blocks,
-    }
+    Section::new("claims", "Claims", blocks)
 }
 
 pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
@@ -74,7 +65,7 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         own.place.clone()
     })
     .shown("place")
-    .text("statement", "what it says", |own| own.statement.clone())
+    .text("statement", "its text", |own| own.statement.clone())
     .shown("statement")
     .text("kind", "what kind of statement it is", |own| {
         Value::word(own.kind)
@@ -85,7 +76,7 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         |own| own.verdict.as_str(),
     )
     .shown("verdict")
-    .cell(|own| verdict(own.verdict).to_owned())
+    .cell(|own| in_words(own.verdict).to_owned())
     .text("evidence", "what was compared, and the numbers", |own| {
         own.evidence.clone()
     })
@@ -98,8 +89,8 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
     .rows(claims)
 }
 
-/// A verdict in words.
-pub fn verdict(verdict: ClaimVerdict) -> &'static str {
+/// The verdict in words.
+pub(crate) fn in_words(verdict: ClaimVerdict) -> &'static str {
     match verdict {
         ClaimVerdict::Holds => "holds",
         ClaimVerdict::Approximately => "holds approximately",

@@ -1,14 +1,12 @@
-//! What each code means by a contact.
+//! The contact conventions of the codes, as measured.
 
 use super::super::document::{Block, PageTable, Section};
 use crate::output::{probe, probe_by_code};
 use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
-use crate::study::convention::Finding;
-use crate::study::convention::contradictions;
+use crate::study::convention::{Finding, contradictions};
 
-/// The section.
-pub fn section(reproduction: &Reproduction) -> Section {
+pub(super) fn section(reproduction: &Reproduction) -> Section {
     let found = findings(reproduction);
     let agreeing = found
         .iter()
@@ -21,12 +19,12 @@ pub fn section(reproduction: &Reproduction) -> Section {
              declares. r₁ in R = r + r₁ × overlap is the arm; the paper’s is 0.",
             found.len()
         )),
-        Block::Table(PageTable::showing(
-            probe_by_code(&found),
+        Block::Table(PageTable::new(
             "conventions",
             "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, share and pull \
              are 1 for yes, 0 for no.",
             &probe(&found),
+            probe_by_code(&found),
         )),
     ];
     let doubts = reproduction.probes.iter().flat_map(|(code, probed)| {
@@ -37,11 +35,7 @@ pub fn section(reproduction: &Reproduction) -> Section {
     if !doubts.is_empty() {
         blocks.push(Block::List { items: doubts });
     }
-    Section {
-        id: "conventions",
-        title: "What each code means by a contact",
-        blocks,
-    }
+    Section::new("conventions", "What each code means by a contact", blocks)
 }
 
 fn findings(reproduction: &Reproduction) -> Vec<Finding> {

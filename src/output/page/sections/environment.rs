@@ -1,20 +1,18 @@
-//! With what, where and when.
+//! The environment of the runs: programs, machines, dates, hashes.
 
-use super::super::document::{Block, PageTable, Section};
+use super::super::document::{Block, Section};
 use super::Origin;
-use crate::code::{Code, TaskKind};
-use crate::code::{Identity, Provenance};
+use crate::code::{Code, Identity, Provenance, TaskKind};
 use crate::model::sha256_hex;
 use crate::output::DataTable;
 use crate::output::table::Columns;
 use crate::paper::reproduction::Reproduction;
 use crate::study::Source;
 
-/// Digits of a hash that are shown.
+/// Number of shown digits of a hash.
 const SHORT: usize = 12;
 
-/// The section.
-pub fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
+pub(super) fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
     let lock = sha256_hex(include_bytes!("../../../../Cargo.lock"));
     let blocks = vec![
         Block::paragraph(format!(
@@ -23,25 +21,21 @@ pub fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
             origin.command,
             env!("CARGO_PKG_VERSION")
         )),
-        Block::Table(PageTable::new(
+        Block::table(
             "environment",
             format!("Programs, with the first {SHORT} digits of their SHA-256, and their runs."),
             &programs(&reproduction.provenances, &origin.recorded),
-        )),
-        Block::Table(PageTable::new(
+        ),
+        Block::table(
             "decks",
             format!(
                 "First {SHORT} digits of the SHA-256 of the decks; for the native DEM its sources take their \
                  place."
             ),
             &decks(),
-        )),
+        ),
     ];
-    Section {
-        id: "environment",
-        title: "Environment",
-        blocks,
-    }
+    Section::new("environment", "Environment", blocks)
 }
 
 /// The runs of one program on one machine.
@@ -135,7 +129,7 @@ fn short(hash: &str) -> String {
     hash.chars().take(SHORT).collect()
 }
 
-/// A date to the minute.
+/// `date` to the minute.
 fn minute(date: &str) -> String {
     date.get(..16).unwrap_or(date).replace('T', " ")
 }

@@ -1,24 +1,23 @@
-//! What the report says, section by section.
+//! The sections of the report.
 
 mod claims;
 mod conventions;
 mod environment;
-mod figures;
 mod preparation;
 mod summary;
 mod tolerances;
 mod untested;
 
-pub(crate) use claims::claims_table;
-pub use claims::verdict as in_words;
+pub(super) use claims::{claims_table, in_words};
 
-use super::document::Document;
+use super::document::{Block, Document, Section};
 use crate::code::Code;
 use crate::output::DataTable;
+use crate::output::figures::figures;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 
-/// Every table that stands in a report alone, without rows.
+/// The tables that only the report has, without rows.
 pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
     vec![
         summary::theories(&[]),
@@ -34,23 +33,24 @@ pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
     ]
 }
 
-/// How a report came about.
+/// The origin of a report.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Origin {
-    /// The command that makes it again.
+pub(crate) struct Origin {
+    /// The command that makes it.
     pub command: String,
-    /// The codes that are not installed and were represented by recorded runs.
+    /// The codes for which recorded runs stood in.
     pub recorded: Vec<Code>,
     /// Whether all of Fig. 2(a) was run at the paper's literal settings.
     pub literal: bool,
 }
 
-/// The whole report.
-pub fn document(
+pub(super) fn document(
     reproduction: &Reproduction,
     judged: &[ClaimJudgement],
     origin: &Origin,
 ) -> Document {
+    let figures = figures(reproduction).into_iter().map(Block::Figure);
+    let figures = figures.collect();
     Document {
         title: "Reproducibility report: “Anomalous Enhancement of Yield Strength due to Static Friction”"
             .to_owned(),
@@ -63,7 +63,7 @@ pub fn document(
         sections: vec![
             summary::section(reproduction, judged),
             claims::errata(judged),
-            figures::section(reproduction),
+            Section::new("figures", "Figures, recomputed from runs", figures),
             claims::register(judged),
             tolerances::section(reproduction),
             preparation::section(reproduction),

@@ -1,43 +1,40 @@
-//! Which preparation was used, and what the choice moves.
+//! The preparation of the stack, and its effect on the yield force.
 
-use super::super::document::{Block, PageTable, Section};
+use super::super::document::{Block, Section};
 use crate::model::Stack;
 use crate::output::DataTable;
-use crate::output::number::{optional, percent, significant};
+use crate::output::number::{digits, one_digit, optional, percent};
 use crate::output::table::{Columns, Value};
 use crate::paper::reproduction::Reproduction;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
-/// The section.
-pub fn section(reproduction: &Reproduction) -> Section {
-    let mut blocks = vec![Block::paragraph(
-        "All runs of this report begin with a gravity ramp: three just-touching cylinders, gravity raised \
-         smoothly, which ends with c = 0 and is the state in which the exact limit starts. The paper pushes \
-         the bottom cylinders together by side walls (A), lowers the top one and withdraws the walls, and \
-         takes an A for which c = 0. c vanishes for every A up to A*, and the yield force depends on A \
-         within that range: c = 0 alone does not pin it down.",
-    )];
-    blocks.push(Block::Table(PageTable::new(
-        "critical_push",
-        "A*, the largest push (in r) that ends with c = 0, by bisection with the native DEM, and what it moves.",
-        &critical(&reproduction.preparation),
-    )));
-    let preparation = PageTable::new(
-        "preparation",
-        "c between the bottom cylinders when the compression begins, and yield force F, both in m g; A in r, \
-         absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
-         with a push, to leading order in ε.",
-        &preparations(&reproduction.preparation),
-    );
-    blocks.push(Block::Table(preparation.folded(true)));
-    Section {
-        id: "preparation",
-        title: "Preparation of the stack",
-        blocks,
-    }
+pub(super) fn section(reproduction: &Reproduction) -> Section {
+    let blocks = vec![
+        Block::paragraph(
+            "All runs of this report begin with a gravity ramp: three just-touching cylinders, gravity raised \
+             smoothly, which ends with c = 0 and is the state in which the exact limit starts. The paper pushes \
+             the bottom cylinders together by side walls (A), lowers the top one and withdraws the walls, and \
+             takes an A for which c = 0. c vanishes for every A up to A*, and the yield force depends on A \
+             within that range: c = 0 alone does not pin it down.",
+        ),
+        Block::table(
+            "critical_push",
+            "A*, the largest push (in r) that ends with c = 0, by bisection with the native DEM, and what it moves.",
+            &critical(&reproduction.preparation),
+        ),
+        Block::long_table(
+            true,
+            "preparation",
+            "c between the bottom cylinders when the compression begins, and yield force F, both in m g; A in r, \
+             absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
+             with a push, to leading order in ε.",
+            &preparations(&reproduction.preparation),
+        ),
+    ];
+    Section::new("preparation", "Preparation of the stack", blocks)
 }
 
-/// A* and what it moves, stack by stack.
+/// A* of every stack, and its effect on the yield force.
 pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     Columns::<&PreparationStudy>::new(
         "critical_push",
@@ -48,16 +45,16 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     .number("critical_push", "r", "A*, by bisection with the native DEM", |study| {
         study.critical_push.map(|found| found.push)
     })
-    .shown_as("A*", |push| significant(push, 5))
+    .shown_as("A*", digits::<5>)
     .number("width", "r", "width of the interval above A* in which c appears", |study| {
         study.critical_push.map(|found| found.width)
     })
     .number("predicted_critical_push", "r", "A* to leading order in ε", |study| {
         study.predicted_critical_push
     })
-    .shown_as("to leading order", |push| significant(push, 5))
+    .shown_as("to leading order", digits::<5>)
     .number("exact_force", "m g", "exact limit F after a gravity ramp", |study| study.exact_force)
-    .shown_as("F after gravity ramp, exact", |force| significant(force, 7))
+    .shown_as("F after gravity ramp, exact", digits::<7>)
     .number("shift", "1", "F(A*) − F(0), relative to F + 3", |study| {
         study.critical_push.and_then(|found| study.shift(found.push))
     })
@@ -83,7 +80,7 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     })
     .shown("convention of")
     .number("push", "r", "A; absent for the gravity ramp", |(_, row)| row.push)
-    .shown_as("A", |push| significant(push, 5))
+    .shown_as("A", digits::<5>)
     .number(
         "limit_force",
         "m g",
@@ -97,13 +94,13 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     .shown_as("c", |force| format!("{force:.5}"))
     .number("contact_uncertainty", "m g", "its uncertainty", |(_, row)| row.contact_uncertainty)
     .number("yield_force", "m g", "F at vanishing wall speed", |(_, row)| row.yield_force)
-    .shown_as("F", |force| significant(force, 7))
+    .shown_as("F", digits::<7>)
     .number("uncertainty", "m g", "its uncertainty", |(_, row)| row.uncertainty)
-    .shown_as("±", |value| format!("{value:.0e}"))
+    .shown_as("±", one_digit)
     .text("estimator", "what it was read off: `slip-onset` or `peak`", |(_, row)| {
         row.estimator.map(Value::word)
     })
     .text("note", "why something is missing", |(_, row)| row.note.clone())
-    .right("theory", |(_, row)| optional(row.limit_force, |force| significant(force, 7)))
+    .right("theory", |(_, row)| optional(row.limit_force, digits::<7>))
     .rows(rows)
 }

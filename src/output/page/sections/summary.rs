@@ -1,61 +1,48 @@
-//! What a referee reads in a minute. Every number in it is computed.
+//! The summary, for a referee with one minute. Every number in it is computed.
 
-use super::super::document::{Block, PageTable, Section};
+use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
 use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::output::DataTable;
-use crate::output::number::{percent, significant};
+use crate::output::number::{digits, percent};
 use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
 use crate::study::Verdict;
-use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
+use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES, PAPER_WALL_SPEED};
 use crate::theory::Predictions;
 
-/// The section.
-pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Section {
-    let mut blocks = vec![Block::List {
-        items: [
-            Some(of_claims(claims)),
-            Some(of_codes(reproduction)),
-            of_scaling(reproduction),
-            of_convergence(reproduction),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
-    }];
-    blocks.push(Block::Table(PageTable::new(
-        "theories",
-        "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
-         F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM.",
-        &theories(&reproduction.curves.over_friction),
-    )));
-    blocks.push(Block::Table(PageTable::new(
-        "points",
-        "Yield force F = f/(m g) at some points of Fig. 2(a). LIGGGHTS and YADE differ from the paper’s model \
-         by their torque arms, not by an error.",
-        &points(&reproduction.yield_curves),
-    )));
-    Section {
-        id: "summary",
-        title: "Summary",
-        blocks,
-    }
+pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Section {
+    let items = [
+        Some(of_claims(claims)),
+        Some(of_codes(reproduction)),
+        of_scaling(reproduction),
+        of_convergence(reproduction),
+    ];
+    let blocks = vec![
+        Block::List {
+            items: items.into_iter().flatten().collect(),
+        },
+        Block::table(
+            "theories",
+            "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
+             F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM.",
+            &theories(&reproduction.curves.over_friction),
+        ),
+        Block::table(
+            "points",
+            "Yield force F = f/(m g) at some points of Fig. 2(a). LIGGGHTS and YADE differ from the paper’s model \
+             by their torque arms, not by an error.",
+            &points(&reproduction.yield_curves),
+        ),
+    ];
+    Section::new("summary", "Summary", blocks)
 }
 
 fn of_claims(claims: &[ClaimJudgement]) -> String {
-    let count = |verdict| {
-        claims
-            .iter()
-            .filter(|claim| claim.verdict == verdict)
-            .count()
-    };
-    let errata = claims
-        .iter()
-        .filter(|claim| claim.erratum.is_some())
-        .count();
+    let count = |verdict| claims.iter().filter(|own| own.verdict == verdict).count();
+    let errata = claims.iter().filter(|own| own.erratum.is_some()).count();
     format!(
         "Of {} checkable statements {} hold, {} hold approximately, {} do not hold as stated ({errata} of \
          the displayed forms and numbers have an erratum), {} cannot be tested here.",
@@ -102,10 +89,8 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
 
 fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let mut points = reproduction.convergence.wall_speeds.iter();
-    let paper = points.find(|point| {
-        point.code == Code::NATIVE
-            && point.wall_speed == crate::study::yield_force::PAPER_WALL_SPEED
-    })?;
+    let paper =
+        points.find(|point| point.code == Code::NATIVE && point.wall_speed == PAPER_WALL_SPEED)?;
     Some(format!(
         "At the paper’s own settings (wall speed 10⁻⁶, time step 10⁻³) and the point of its convergence \
          figure (μ = 0.2, stiffness 10⁴) the peak deviates by {:+.2} % from the limit, the onset of slip \
@@ -170,14 +155,14 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         "singular perturbation",
         |(_, theory)| theory.perturbation.yield_force,
     )
-    .shown_as("perturbation", seven_digits)
+    .shown_as("perturbation", digits::<7>)
     .number(
         "quasistatic",
         "m g",
         "exact quasi-static limit under the paper's convention",
         |(_, theory)| theory.quasistatic.yield_force,
     )
-    .shown_as("exact limit", seven_digits);
+    .shown_as("exact limit", digits::<7>);
     for code in Code::all() {
         columns = columns
             .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
@@ -188,11 +173,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
                 });
                 own.and_then(|row| row.yield_force())
             })
-            .shown_as(code.as_str(), seven_digits);
+            .shown_as(code.as_str(), digits::<7>);
     }
     columns.rows(rows)
-}
-
-fn seven_digits(force: f64) -> String {
-    significant(force, 7)
 }

@@ -1,27 +1,23 @@
-//! How well the codes agree with the exact limit.
+//! The agreement of the codes with the exact limit.
 
-use super::super::document::{Block, PageTable, Section};
+use super::super::document::{Block, Section};
 use crate::code::Code;
-use crate::output::number::friction;
+use crate::output::number::{friction, one_digit};
 use crate::output::table::Columns;
 use crate::output::{DataTable, crosscheck};
 use crate::paper::reproduction::{Exponent, Reproduction};
-use crate::study::Verdict;
 use crate::study::yield_force::{Evidence, Judgement};
-use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
+use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Verdict};
 
-/// What the rows of one code amount to.
-pub struct Agreement {
-    /// Which code.
-    pub code: Code,
-    /// How many of its rows agree.
+/// The rows of one code, counted.
+pub(super) struct Agreement {
+    code: Code,
     pub agreeing: usize,
-    /// How many rows it has.
     pub rows: usize,
     /// Largest |error|, relative to F + 3.
     pub largest_error: f64,
     /// Largest |error| in units of the tolerance of its row.
-    pub largest_share: f64,
+    largest_share: f64,
 }
 
 impl Agreement {
@@ -48,30 +44,29 @@ impl Agreement {
     }
 }
 
-/// The section.
-pub fn section(reproduction: &Reproduction) -> Section {
-    let exponents_table = PageTable::new(
-        "exponents",
-        "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the exact limit fitted in \
-         the same way.",
-        &exponents(&reproduction.exponents),
-    );
-    let mut blocks = vec![
+pub(super) fn section(reproduction: &Reproduction) -> Section {
+    let blocks = vec![
         Block::paragraph(format!(
             "Each code is held to the exact quasi-static limit under its own, measured convention. The \
              tolerance of a row is the uncertainty of its own runs (wall speed, time step, preparation, \
              sampling, round-off and print precision, each computed), but at least {MIN_TOLERANCE:e} and at most \
              {MAX_TOLERANCE:e} of F + 3; an uncertainty above that decides nothing."
         )),
-        Block::Table(PageTable::new(
+        Block::table(
             "agreement",
             "Rows that agree, and their largest errors.",
             &agreement(&[
                 ("yield_curves", &reproduction.yield_curves),
                 ("scaling", &reproduction.scaling),
             ]),
-        )),
-        Block::Table(exponents_table.folded(true)),
+        ),
+        Block::long_table(
+            true,
+            "exponents",
+            "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the exact limit fitted in \
+             the same way.",
+            &exponents(&reproduction.exponents),
+        ),
         rows(
             "yield_curves",
             "Every row of figure yield_curves.",
@@ -87,22 +82,20 @@ pub fn section(reproduction: &Reproduction) -> Section {
             "At the paper’s literal wall speed 10⁻⁶ and time step 10⁻³, yield force by the peak.",
             &reproduction.literal,
         ),
+        evidence(),
     ];
-    blocks.push(Block::List {
-        items: Evidence::ALL
-            .map(|tier| {
-                format!(
-                    "{}: does not prove {}.",
-                    tier.as_str(),
-                    tier.does_not_prove()
-                )
-            })
-            .to_vec(),
+    let title = "Agreement of the codes with the exact limit";
+    Section::new("tolerances", title, blocks)
+}
+
+/// The limits of the kinds of evidence.
+fn evidence() -> Block {
+    let tiers = Evidence::ALL.map(|tier| {
+        let (name, limit) = (tier.as_str(), tier.does_not_prove());
+        format!("{name}: does not prove {limit}.")
     });
-    Section {
-        id: "tolerances",
-        title: "Agreement of the codes with the exact limit",
-        blocks,
+    Block::List {
+        items: tiers.to_vec(),
     }
 }
 
@@ -156,7 +149,7 @@ pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
     .number("uncertainty", "1", "what the uncertainties of the forces can do to it", |own| {
         own.uncertainty
     })
-    .shown_as("±", |uncertainty| format!("{uncertainty:.0e}"))
+    .shown_as("±", one_digit)
     .number("exact", "1", "the same fit to the exact limits", |own| own.exact)
     .shown_as("of the exact limit", |exponent| format!("{exponent:.7}"))
     .number("asymptotic", "1", "the exponent for ε → 0", |own| own.asymptotic)
@@ -167,6 +160,6 @@ pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
 }
 
 fn rows(name: &'static str, caption: &str, judgements: &[Judgement]) -> Block {
-    let table = PageTable::new(name, caption, &crosscheck(judgements));
-    Block::Table(table.folded(judgements.len() > 20))
+    let long = judgements.len() > 20;
+    Block::long_table(long, name, caption, &crosscheck(judgements))
 }

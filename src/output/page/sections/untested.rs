@@ -1,4 +1,4 @@
-//! What was not tested.
+//! The limits of the report: everything that was not tested.
 
 use super::super::document::{Block, Section};
 use super::Origin;
@@ -8,7 +8,7 @@ use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 
-/// What lies outside, whatever was run.
+/// The limits of every report.
 const OUTSIDE: [&str; 4] = [
     "Real cylinders: nothing here was compared with an experiment.",
     "Contact laws other than the linear spring and dashpot, three dimensions, more than three cylinders.",
@@ -16,8 +16,11 @@ const OUTSIDE: [&str; 4] = [
     "The shared libraries of the external programs, which are not hashed.",
 ];
 
-/// The section.
-pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &Origin) -> Section {
+pub(super) fn section(
+    reproduction: &Reproduction,
+    claims: &[ClaimJudgement],
+    origin: &Origin,
+) -> Section {
     let mut items: Vec<String> = OUTSIDE.map(str::to_owned).to_vec();
     items.extend(recorded(&reproduction.yield_curves));
     if !origin.literal {
@@ -37,11 +40,8 @@ pub fn section(reproduction: &Reproduction, claims: &[ClaimJudgement], origin: &
             claim.place, claim.statement, claim.evidence
         )
     }));
-    Section {
-        id: "untested",
-        title: "What was not tested",
-        blocks: vec![Block::List { items }],
-    }
+    let blocks = vec![Block::List { items }];
+    Section::new("untested", "What was not tested", blocks)
 }
 
 fn recorded(judgements: &[Judgement]) -> Option<String> {
@@ -62,21 +62,24 @@ fn recorded(judgements: &[Judgement]) -> Option<String> {
 
 /// Rows without a judgement, each with its reason.
 fn unjudged(reproduction: &Reproduction) -> Vec<String> {
-    let rows = reproduction
-        .yield_curves
+    let Reproduction {
+        yield_curves,
+        scaling,
+        ..
+    } = reproduction;
+    let judged = |row: &&Judgement| matches!(row.verdict(), Verdict::Agrees | Verdict::Differs);
+    let open = yield_curves
         .iter()
-        .chain(&reproduction.scaling);
-    let open =
-        rows.filter(|judgement| !matches!(judgement.verdict(), Verdict::Agrees | Verdict::Differs));
-    open.map(|judgement| {
-        let row = judgement;
+        .chain(scaling)
+        .filter(|row| !judged(row));
+    open.map(|row| {
         format!(
             "{} at μ = {}, stiffness {} was not judged, {}: {}.",
             row.code,
             friction(row.mu()),
             row.stiffness(),
             row.verdict(),
-            judgement.notes().join("; ")
+            row.notes().join("; ")
         )
     })
     .collect()

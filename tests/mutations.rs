@@ -348,7 +348,7 @@ fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
 #[test]
 fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
     let (native, stack) = (Code::NATIVE, Stack::paper(0.3, 1e2));
-    let codes = [TwinEngine::selected(MUTATIONS[0])];
+    let codes = [TwinEngine::selected(Mutation::FrictionOnePercentHigh)];
     with_settings(|settings| {
         let campaign = Campaign::new(&codes, settings, &Silent);
         let convention = ContactConvention::PAPER;

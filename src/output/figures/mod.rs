@@ -27,6 +27,7 @@ use crate::paper::reproduction::Reproduction;
 use axis::Axis;
 use drawing::Drawing;
 use panel::{Panel, draw};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 
 /// Size in pixels of a panel that shares the width of a page with another one.
@@ -81,17 +82,17 @@ impl Figure {
 
 /// All figures: first those of the paper, then further ones.
 pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
-    let (rows, curves) = (&reproduction.yield_curves, &reproduction.curves);
-    let mut figures = vec![
-        yield_curves::yield_curves(rows, curves),
-        scaling::scaling(&reproduction.scaling, &reproduction.exponents, curves),
-        force_series::force_series(&reproduction.force_series),
-        convergence::convergence(&reproduction.convergence),
-        theory_error::theory_error(curves),
-        model_form::model_form(rows, curves),
-        regimes::regimes(&reproduction.maps, &reproduction.survey),
-        stack::stack(&reproduction.snapshots),
+    let draw: [fn(&Reproduction) -> Figure; 8] = [
+        |own| yield_curves::yield_curves(&own.yield_curves, &own.curves),
+        |own| scaling::scaling(&own.scaling, &own.exponents, &own.curves),
+        |own| force_series::force_series(&own.force_series),
+        |own| convergence::convergence(&own.convergence),
+        |own| theory_error::theory_error(&own.curves),
+        |own| model_form::model_form(&own.yield_curves, &own.curves),
+        |own| regimes::regimes(&own.maps, &own.survey),
+        |own| stack::stack(&own.snapshots),
     ];
+    let mut figures: Vec<Figure> = draw.par_iter().map(|draw| draw(reproduction)).collect();
     let first = reproduction.preparation.first();
     figures.extend(first.map(preparation::preparation));
     figures

@@ -9,10 +9,12 @@ mod sections;
 
 pub(crate) use sections::{Origin, declared_tables};
 
+use crate::output::figures::Figure;
 use crate::output::json;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 use document::Document;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 /// A file of the report.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -69,12 +71,13 @@ fn tables(document: &Document) -> Vec<ReportFile> {
 }
 
 fn figures(document: &Document) -> Vec<ReportFile> {
-    let figures = document.figures().flat_map(|figure| {
+    let figures: Vec<&Figure> = document.figures().collect();
+    let files = figures.par_iter().flat_map_iter(|figure| {
         let name = figure.name;
         [
             ReportFile::new(format!("figures/{name}.svg"), figure.svg()),
             ReportFile::new(format!("figures/{name}.pdf"), figure.pdf()),
         ]
     });
-    figures.collect()
+    files.collect()
 }

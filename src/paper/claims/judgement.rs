@@ -5,6 +5,7 @@ use super::finding::{ClaimVerdict, Finding};
 use super::printed::PaperTheory;
 use super::register::{Claim, ClaimKind, Register};
 use crate::paper::reproduction::Reproduction;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 
 /// One row of `claims.json`.
@@ -45,7 +46,7 @@ fn judge_with(
     paper: &PaperTheory,
     runs: Option<&Reproduction>,
 ) -> Vec<ClaimJudgement> {
-    let claims = register.claims.iter();
+    let claims = register.claims.par_iter();
     claims
         .map(|claim| judge_claim(claim, paper, runs))
         .collect()

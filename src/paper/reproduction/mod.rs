@@ -96,61 +96,117 @@ pub(crate) fn reproduce(
 ) -> Result<Option<Reproduction>, ReproductionError> {
     let settings = scope.settings;
     let interrupted = || settings.interrupt.requested();
-    let campaign = Campaign::new(scope.codes, settings, progress);
-    let plan = Plan::new(scope);
-    let judgements = campaign.carry_out(plan.all());
-    if interrupted() {
+    let (theory, measured) = rayon::join(Theory::new, || Measured::new(scope, progress));
+    let Some(measured) = measured? else {
         return Ok(None);
-    }
-    let of = |part: &[Measurement]| judged(part, &judgements);
-    let (yield_curves, scaling) = (of(&plan.yield_curves), of(&plan.scaling));
-    let literal = of(&plan.literal);
-    let (convergence, mut summaries) = converge(&campaign);
-    if interrupted() {
-        return Ok(None);
-    }
-    let (force_series, summary) = force_series(&campaign)?;
-    summaries.push(summary);
-    let preparation = preparation_studies(&campaign, &campaign.names());
-    if interrupted() {
-        return Ok(None);
-    }
-    let preparation = preparation?;
-    let trajectories = campaign.carry_out(trajectories(scope.codes));
-    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
-    let plan = SurveyPlan::new(&boundary_points(&maps), &examined_stacks());
-    let survey = survey(&plan, settings, progress);
+    };
+    let survey = survey(&theory.survey, settings, progress);
     if interrupted() {
         return Ok(None);
     }
     let Some(snapshots) = snapshots(settings.interrupt)? else {
         return Ok(None);
     };
-    let runs = judgements.iter().flat_map(Judgement::runs);
-    let runs = runs.chain(&summaries);
-    let provenances = runs.map(|summary| &summary.provenance);
-    let prepared = preparation.iter().flat_map(|study| &study.rows);
-    let provenances = provenances.chain(prepared.flat_map(|row| &row.provenances));
     Ok(Some(Reproduction {
-        provenances: provenances.cloned().collect(),
-        probes: campaign
-            .names()
-            .into_iter()
-            .zip(campaign.into_probes())
-            .collect(),
-        exponents: exponents(&scaling),
-        yield_curves,
-        scaling,
-        literal,
-        convergence,
-        force_series,
-        preparation,
+        provenances: measured.provenances(),
+        probes: measured.probes,
+        exponents: exponents(&measured.scaling),
+        yield_curves: measured.yield_curves,
+        scaling: measured.scaling,
+        literal: measured.literal,
+        convergence: measured.convergence,
+        force_series: measured.force_series,
+        preparation: measured.preparation,
+        trajectories: measured.trajectories,
         snapshots,
-        trajectories,
-        maps,
+        maps: theory.maps,
         survey,
-        curves: curves(),
+        curves: theory.curves,
     }))
+}
+
+/// The part that needs no runs.
+struct Theory {
+    maps: [RegimeMap; 3],
+    survey: SurveyPlan,
+    curves: Curves,
+}
+
+impl Theory {
+    fn new() -> Self {
+        let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
+        Self {
+            survey: SurveyPlan::new(&boundary_points(&maps), &examined_stacks()),
+            curves: curves(),
+            maps,
+        }
+    }
+}
+
+/// The part that is read off runs.
+struct Measured {
+    probes: Vec<(Code, Probed)>,
+    /// Every judgement once.
+    judgements: Vec<Judgement>,
+    yield_curves: Vec<Judgement>,
+    scaling: Vec<Judgement>,
+    literal: Vec<Judgement>,
+    convergence: Convergence,
+    force_series: ForceSeries,
+    /// Of the runs of the last two.
+    summaries: Vec<RunSummary>,
+    preparation: Vec<PreparationStudy>,
+    trajectories: Vec<TrajectoryJudgement>,
+}
+
+impl Measured {
+    /// Carries out all runs; `None` after an interrupt.
+    fn new(scope: &Scope, progress: &dyn Progress) -> Result<Option<Self>, RunError> {
+        let interrupted = || scope.settings.interrupt.requested();
+        let campaign = Campaign::new(scope.codes, scope.settings, progress);
+        let plan = Plan::new(scope);
+        let judgements = campaign.carry_out(plan.all());
+        if interrupted() {
+            return Ok(None);
+        }
+        let (convergence, mut summaries) = converge(&campaign);
+        if interrupted() {
+            return Ok(None);
+        }
+        let (force_series, summary) = force_series(&campaign)?;
+        summaries.push(summary);
+        let preparation = preparation_studies(&campaign, &campaign.names());
+        if interrupted() {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            yield_curves: judged(&plan.yield_curves, &judgements),
+            scaling: judged(&plan.scaling, &judgements),
+            literal: judged(&plan.literal, &judgements),
+            judgements,
+            convergence,
+            force_series,
+            summaries,
+            preparation: preparation?,
+            trajectories: campaign.carry_out(trajectories(scope.codes)),
+            probes: campaign
+                .names()
+                .into_iter()
+                .zip(campaign.into_probes())
+                .collect(),
+        }))
+    }
+
+    /// The provenances of all runs, in the order of their use.
+    fn provenances(&self) -> Vec<Provenance> {
+        let runs = self.judgements.iter().flat_map(Judgement::runs);
+        let runs = runs
+            .chain(&self.summaries)
+            .map(|summary| &summary.provenance);
+        let prepared = self.preparation.iter().flat_map(|study| &study.rows);
+        let prepared = prepared.flat_map(|row| &row.provenances);
+        runs.chain(prepared).cloned().collect()
+    }
 }
 
 fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {

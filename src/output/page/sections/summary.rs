@@ -32,8 +32,8 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         ),
         Block::table(
             "points",
-            "Yield force F = f/(m g) at some points of Fig. 2(a). LIGGGHTS and YADE differ from the paper’s model \
-             by their torque arms, not by an error.",
+            "Yield force F = f/(m g) at some points of Fig. 2(a). A code with another limit has other torque arms \
+             than the paper’s model; that is no error.",
             &points(&reproduction.yield_curves),
         ),
     ];

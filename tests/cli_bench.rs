@@ -37,7 +37,7 @@ fn assert_rows(rows: &[serde_json::Value]) {
 }
 
 #[test]
-fn an_code_that_is_not_installed_is_an_error() {
+fn a_code_that_is_not_installed_is_an_error() {
     let bench = Bench::without_codes();
     let mut command = bench.tristack("bench --codes liggghts --repeats 1");
     command.assert().code(3);

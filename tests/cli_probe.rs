@@ -74,7 +74,7 @@ fn csv_has_the_agreed_columns() {
 }
 
 #[test]
-fn an_code_whose_probe_contradicts_its_declaration_is_not_judged() {
+fn a_code_whose_probe_contradicts_its_declaration_is_not_judged() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     replay::install_probe(&bench, |row| MotionRow {
@@ -103,7 +103,7 @@ fn an_code_whose_probe_contradicts_its_declaration_is_not_judged() {
 }
 
 #[test]
-fn an_code_that_does_not_answer_the_probe_is_not_judged() {
+fn a_code_that_does_not_answer_the_probe_is_not_judged() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let script = fs::read_to_string(bench.path("programs/yade")).expect("the fake");

@@ -351,7 +351,7 @@ fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
 }
 
 #[test]
-fn an_code_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
+fn a_code_that_does_not_end_after_its_last_case_costs_nothing_but_time() {
     let bench = Bench::with_system_programs();
     replay::install_with_ending(&bench, "sleep 600");
     let outcome = crosscheck(&bench, "--time-limit 1");
@@ -537,7 +537,7 @@ fn version_of_yade(bench: &Bench) -> String {
 }
 
 #[test]
-fn an_code_that_dies_of_the_question_for_its_version_is_listed_without_one() {
+fn a_code_that_dies_of_the_question_for_its_version_is_listed_without_one() {
     let bench = Bench::with_system_programs();
     bench.install("yade", "kill -SEGV $$");
     assert_eq!(version_of_yade(&bench), "unknown");
@@ -716,7 +716,7 @@ fn simulate_reports_a_crash_with_the_last_lines_and_keeps_the_deck() {
 }
 
 #[test]
-fn an_code_that_succeeds_without_output_fails() {
+fn a_code_that_succeeds_without_output_fails() {
     let bench = Bench::with_system_programs();
     bench.install("liggghts", "exit 0");
     let line = "simulate --code liggghts --mu 0.3 --stiffness 100";

@@ -6,7 +6,7 @@ use super::{
     bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, probe, pyramids,
     regimes, scaling, simulations, theory, trajectories,
 };
-use crate::series::{COLUMNS, Sample};
+use crate::series::{Column, MotionRow, Sample};
 
 const TOP: &str = "# Tables and their columns
 
@@ -46,6 +46,7 @@ pub fn formats_page() -> String {
         forecasts(&[]),
         simulations(&[]),
         series(),
+        motion(),
         bench(&[]),
         scaling(&[]),
         pyramids(&[]),
@@ -60,12 +61,32 @@ pub fn formats_page() -> String {
 
 /// The columns of a time series, which `series` itself writes as CSV.
 fn series() -> DataTable<'static> {
-    let mut columns = Columns::<Sample>::new(
+    file(
         "series",
         "A row is one moment of a compression. A series is CSV alone, also between tristack and a code.",
         "`tristack simulate` (series.csv)",
-    );
-    for column in COLUMNS {
+        &Sample::COLUMNS,
+    )
+}
+
+/// The columns of a motion, which a code writes.
+fn motion() -> DataTable<'static> {
+    file(
+        "motion",
+        "A row is one step of a micro-test, from step 0 on. It is what the deck of a code delivers for the task `motion`.",
+        "the code (the result file of its manifest)",
+        &MotionRow::COLUMNS,
+    )
+}
+
+fn file<R: 'static>(
+    name: &'static str,
+    row: &'static str,
+    written_by: &'static str,
+    declared: &[Column<R>],
+) -> DataTable<'static> {
+    let mut columns = Columns::<R>::new(name, row, written_by);
+    for column in declared {
         columns = columns.number(column.name, column.unit, column.meaning, column.value);
     }
     columns.rows([])

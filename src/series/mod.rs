@@ -1,5 +1,6 @@
 //! A time series with named columns, and the yield force read off it.
 
+mod column;
 mod drop;
 mod estimate;
 mod frame;
@@ -8,11 +9,11 @@ mod polynomial;
 mod pyramid_run;
 mod samples;
 
+pub(crate) use column::Column;
 pub use drop::DropWatch;
 pub use estimate::{Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub(crate) use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;
-pub(crate) use samples::COLUMNS;
 pub use samples::{Sample, Series, SeriesError};

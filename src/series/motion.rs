@@ -1,33 +1,31 @@
 //! Result of a micro-test: the motion of two cylinders and the forces on them, step by step.
 
 use super::SeriesError;
+use super::column::columns;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
-/// One step. Lengths in r, forces in k_n r, torques in k_n r², speeds in r √(k_n/m).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // The names say it: position, velocity, spin, force and torque of cylinders 1 and 2.
-pub struct MotionRow {
-    pub step: u64,
-    pub x1: f64,
-    pub y1: f64,
-    pub vx1: f64,
-    pub vy1: f64,
-    pub spin1: f64,
-    pub fx1: f64,
-    pub fy1: f64,
-    pub torque1: f64,
-    pub x2: f64,
-    pub y2: f64,
-    pub vx2: f64,
-    pub vy2: f64,
-    pub spin2: f64,
-    pub fx2: f64,
-    pub fy2: f64,
-    pub torque2: f64,
-    /// Force of the top wall, positive in compression.
-    pub wall_force: f64,
+columns! {
+    /// One step. Lengths in r, forces in k_n r, torques in k_n r², speeds in r √(k_n/m).
+    MotionRow of Motion, 18:
+    step: u64, "1", "steps since the beginning";
+    x1: f64, "r", "horizontal position of cylinder 1";
+    y1: f64, "r", "height of its centre above the floor";
+    vx1: f64, "r √(k_n/m)", "its horizontal velocity, at the moment at which the code keeps it";
+    vy1: f64, "r √(k_n/m)", "its vertical velocity, at the same moment";
+    spin1: f64, "√(k_n/m)", "its angular velocity, counter-clockwise, at the same moment";
+    fx1: f64, "k_n r", "horizontal force on it";
+    fy1: f64, "k_n r", "vertical force on it";
+    torque1: f64, "k_n r²", "torque on it about its centre, counter-clockwise";
+    x2: f64, "r", "horizontal position of cylinder 2";
+    y2: f64, "r", "height of its centre above the floor";
+    vx2: f64, "r √(k_n/m)", "its horizontal velocity, at the moment at which the code keeps it";
+    vy2: f64, "r √(k_n/m)", "its vertical velocity, at the same moment";
+    spin2: f64, "√(k_n/m)", "its angular velocity, counter-clockwise, at the same moment";
+    fx2: f64, "k_n r", "horizontal force on it";
+    fy2: f64, "k_n r", "vertical force on it";
+    torque2: f64, "k_n r²", "torque on it about its centre, counter-clockwise";
+    wall_force: f64, "k_n r", "force of the top wall, positive in compression";
 }
 
 /// A cylinder at one step, as the code reports it.
@@ -67,12 +65,8 @@ impl MotionRow {
     }
 
     fn is_finite(&self) -> bool {
-        let bodies = self.bodies().into_iter().flat_map(|body| {
-            let [x, y] = body.position;
-            let ([vx, vy], [fx, fy]) = (body.velocity, body.force);
-            [x, y, vx, vy, body.spin, fx, fy, body.torque]
-        });
-        bodies.chain([self.wall_force]).all(f64::is_finite)
+        let mut columns = Self::COLUMNS.iter();
+        columns.all(|column| (column.value)(self).is_finite())
     }
 }
 
@@ -91,28 +85,6 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Names of its columns, in order.
-    pub const COLUMNS: [&'static str; 18] = [
-        "step",
-        "x1",
-        "y1",
-        "vx1",
-        "vy1",
-        "spin1",
-        "fx1",
-        "fy1",
-        "torque1",
-        "x2",
-        "y2",
-        "vx2",
-        "vy2",
-        "spin2",
-        "fx2",
-        "fy2",
-        "torque2",
-        "wall_force",
-    ];
-
     /// A motion of `rows`, which must be those of the steps 0 to `steps`.
     ///
     /// # Errors

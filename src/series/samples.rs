@@ -1,48 +1,15 @@
 //! The time series that every code delivers.
 
+use super::column::columns;
 use super::drop::DropWatch;
 use crate::model::Schedule;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
 
-/// One column of `series.csv`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SeriesColumn {
-    pub(crate) name: &'static str,
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: &'static str,
-    pub(crate) value: fn(&Sample) -> f64,
-}
-
-/// Declares the columns of `series.csv`, in order, by name, type, unit and meaning.
-macro_rules! columns {
-    ($count:literal: $($name:ident: $kind:ty, $unit:literal, $meaning:literal;)*) => {
-        /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
-        #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub struct Sample {
-            $(#[doc = $meaning] pub $name: $kind,)*
-        }
-
-        /// The columns of `series.csv`, in order.
-        #[allow(clippy::unnecessary_cast)] // All values but the step are floating-point numbers already.
-        pub(crate) const COLUMNS: [SeriesColumn; $count] = [$(SeriesColumn {
-            name: stringify!($name),
-            unit: $unit,
-            meaning: $meaning,
-            value: |row| row.$name as f64,
-        }),*];
-
-        impl Series {
-            /// Names of the columns, in order.
-            pub const COLUMNS: [&'static str; $count] = [$(stringify!($name)),*];
-        }
-    };
-}
-
 columns! {
-    16:
+    /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
+    Sample of Series, 16:
     step: u64, "1", "steps since the wall began to move";
     time: f64, "√(m/k_n)", "time since the wall began to move";
     wall_force: f64, "k_n r", "force of the top wall on cylinder 1, positive in compression";
@@ -75,7 +42,7 @@ impl Sample {
     }
 
     fn values(&self) -> impl Iterator<Item = f64> {
-        COLUMNS.iter().map(|column| (column.value)(self))
+        Self::COLUMNS.iter().map(|column| (column.value)(self))
     }
 }
 
@@ -248,7 +215,7 @@ impl Series {
 }
 
 fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {
-    let mut values = COLUMNS.iter().zip(sample.values());
+    let mut values = Sample::COLUMNS.iter().zip(sample.values());
     let offending = values.find(|(_, value)| !value.is_finite());
     offending.map_or(Ok(()), |(column, value)| {
         Err(SeriesError::NotFinite {

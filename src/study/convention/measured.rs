@@ -123,7 +123,7 @@ fn is_current(record: &ProbeRecord, name: Code) -> bool {
     probe(&name.declaration(), answered).is_ok()
 }
 
-/// Content address of the probe of an code: who it is, and which deck it is given.
+/// Content address of a probe: the identity of the code and its deck.
 fn address(code: &dyn InstalledCode) -> String {
     let parts = serde_json::json!([code.identity(), code.name().files_hash(TaskKind::Motion)]);
     sha256_hex(parts.to_string().as_bytes())

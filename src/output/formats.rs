@@ -74,7 +74,7 @@ fn motion() -> DataTable<'static> {
     file(
         "motion",
         "A row is one step of a micro-test, from step 0 on. It is what the deck of a code delivers for the task `motion`.",
-        "the code (the result file of its manifest)",
+        "the result file that the manifest of the code names",
         &MotionRow::COLUMNS,
     )
 }

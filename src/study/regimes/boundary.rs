@@ -96,7 +96,7 @@ impl SidePlan {
     pub(super) fn evaluate(&self, first: &Observation, repeat: Option<&Observation>) -> Side {
         let mut grounds = Grounds::new();
         match repeat {
-            None if first.complete => grounds.hold(true, ""),
+            None if first.complete => grounds.add(Ground::Held),
             Some(second) if shows_again(first, second) => {
                 grounds.hold(false, "a slower run shows the contradiction again");
             }

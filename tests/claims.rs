@@ -3,9 +3,8 @@
 use insta::assert_snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt};
-use tristack::model::{CRITICAL_FRICTION, Case, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::model::{CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
     judge_theory,
@@ -215,9 +214,9 @@ fn changing_one_constant_flips_the_right_verdicts() {
 struct Quiet;
 
 impl Progress for Quiet {
-    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -267,6 +266,7 @@ fn native_reproduction() -> Reproduction {
         survey: Survey {
             confirmations: Vec::new(),
             examinations: Vec::new(),
+            notes: Vec::new(),
         },
         curves: curves(),
         provenances: Vec::new(),

@@ -609,7 +609,7 @@ fn a_damaged_run_in_the_store_is_computed_anew_with_a_warning() {
     assert!(
         outcome
             .message
-            .contains("damaged run in the store, computed anew"),
+            .contains("damaged run in the store, made anew"),
         "{}",
         outcome.message
     );

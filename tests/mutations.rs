@@ -16,6 +16,7 @@ use tristack::series::{Motion, Series};
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::convention::probe_all;
 use tristack::study::preparation::plan_preparation;
+use tristack::study::regimes::{SurveyPlan, survey};
 use tristack::study::trajectory::plan_trajectory;
 use tristack::study::yield_force::{Judgement, plan};
 use tristack::study::{Campaign, Judged, Verdict};
@@ -253,9 +254,9 @@ impl TwinEngine {
 struct Silent;
 
 impl Progress for Silent {
-    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -357,6 +358,14 @@ fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
         assert_not_judged(&campaign.carry_out(vec![trajectory]));
         let preparation = plan_preparation(native, native, &stack, Some(0.0));
         assert_not_judged(&campaign.carry_out(vec![preparation]));
+        let survey = survey(&SurveyPlan::new(&[], &[stack]), &campaign).expect("a survey");
+        let verdicts: Vec<Verdict> = survey.verdicts().collect();
+        assert_eq!(verdicts, [Verdict::Inconclusive]);
+        assert!(
+            survey.notes[0].starts_with("not judged: its probe contradicts its declaration: "),
+            "{:?}",
+            survey.notes
+        );
     });
 }
 

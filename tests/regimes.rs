@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
-use tristack::code::{Code, Failure, Interrupt, Run};
+use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::{EventRun, Loading, Until};
-use tristack::model::{Case, PAPER_STIFFNESS_RATIO, Stack};
-use tristack::runs::{Progress, Recorded, Settings, Store};
-use tristack::study::Verdict;
-use tristack::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
+use tristack::model::{PAPER_STIFFNESS_RATIO, Stack};
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
+use tristack::study::regimes::{self, Survey, SurveyPlan, THREE_DIGITS, examined_stacks};
+use tristack::study::{Campaign, Verdict};
 use tristack::theory::{BoundaryPoint, Event, LoadingOutcome, LoadingPhase, RegimeMap};
 
 static INTERRUPT: Interrupt = Interrupt::new();
@@ -22,11 +22,13 @@ struct Journal {
 }
 
 impl Progress for Journal {
-    fn planned(&self, total: usize, reused: usize, _: f64) {
-        self.rounds.lock().unwrap().push((total, reused));
+    fn planned(&self, name: &str, total: usize, reused: usize, _: f64) {
+        if name == "observation" {
+            self.rounds.lock().unwrap().push((total, reused));
+        }
     }
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
         self.warnings.lock().unwrap().push(message.to_owned());
     }
@@ -41,6 +43,16 @@ fn settings(store: &Path) -> Settings<'static> {
         time_limit: None,
         interrupt: &INTERRUPT,
     }
+}
+
+/// The survey of `plan`; `None` after an interrupt.
+fn try_survey(plan: &SurveyPlan, settings: &Settings, journal: &Journal) -> Option<Survey> {
+    let native = [SelectedCode::find(Code::NATIVE)];
+    regimes::survey(plan, &Campaign::new(&native, settings, journal))
+}
+
+fn survey(plan: &SurveyPlan, settings: &Settings, journal: &Journal) -> Survey {
+    try_survey(plan, settings, journal).expect("a whole survey")
 }
 
 /// The survey of `points` and `stacks` in a new store.
@@ -208,7 +220,7 @@ fn an_interrupted_survey_keeps_only_whole_observations() {
     late.time_limit = Some(Duration::ZERO);
     let cut = survey(&small_plan(), &late, &Journal::default());
     let verdicts: Vec<Verdict> = cut.verdicts().collect();
-    assert_eq!(verdicts, [Verdict::Inconclusive; 2]);
+    assert_eq!(verdicts, [Verdict::Failed; 2]);
     assert!(!store.path().join("observations").exists());
     let interrupted = Interrupt::new();
     interrupted.request();
@@ -216,11 +228,8 @@ fn an_interrupted_survey_keeps_only_whole_observations() {
         interrupt: &interrupted,
         ..settings(store.path())
     };
-    let cut = survey(&small_plan(), &stopped, &Journal::default());
-    assert!(
-        cut.verdicts()
-            .all(|verdict| verdict == Verdict::Inconclusive)
-    );
+    let cut = try_survey(&small_plan(), &stopped, &Journal::default());
+    assert_eq!(cut, None);
     let journal = Journal::default();
     let whole = survey(&small_plan(), &settings(store.path()), &journal);
     let verdicts: Vec<Verdict> = whole.verdicts().collect();

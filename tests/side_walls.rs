@@ -4,10 +4,9 @@
 mod common;
 
 use common::{Bench, json_rows, standard_error, standard_output};
-use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::compress_stack;
-use tristack::model::{Case, Preparation, Stack};
+use tristack::model::{Preparation, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::study::Campaign;
@@ -21,9 +20,9 @@ static INTERRUPT: Interrupt = Interrupt::new();
 struct Silent;
 
 impl Progress for Silent {
-    fn planned(&self, _total: usize, _reused: usize, _seconds: f64) {}
+    fn planned(&self, _: &str, _total: usize, _reused: usize, _seconds: f64) {}
     fn advanced(&self, _seconds: f64) {}
-    fn finished(&self, _code: Code, _case: &Case, _result: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
         panic!("{message}");
     }

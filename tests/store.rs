@@ -55,7 +55,7 @@ fn a_damaged_entry_is_put_aside_and_kept() {
     let aside = fs::read_dir(aside).expect("a directory").next();
     let aside = aside.expect("an entry").expect("it is readable").path();
     for part in [
-        "damaged run in the store, computed anew",
+        "damaged run in the store, made anew",
         "series.csv: its SHA-256 is",
         &aside.display().to_string(),
     ] {

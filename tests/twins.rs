@@ -5,7 +5,7 @@ use std::path::Path;
 use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt};
 use tristack::model::{
-    Case, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
+    ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, Recording, RunSummary, SelectedCode, Settings};
@@ -19,9 +19,9 @@ static INTERRUPT: Interrupt = Interrupt::new();
 struct Silence;
 
 impl Progress for Silence {
-    fn planned(&self, _: usize, _: usize, _: f64) {}
+    fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &Case, _: Result<&Run, &Failure>) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 

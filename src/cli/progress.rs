@@ -1,11 +1,10 @@
 //! Progress on standard error: a bar on a terminal, plain lines elsewhere.
 
 use super::tell;
-use crate::code::{Code, Failure, Run};
-use crate::model::Case;
-use crate::output::friction;
+use crate::code::{Code, Failure};
 use crate::runs::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::fmt::Display;
 use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -71,11 +70,11 @@ fn style() -> ProgressStyle {
 }
 
 impl Progress for Reporter {
-    fn planned(&self, total: usize, reused: usize, seconds: f64) {
+    fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64) {
         self.counts().open += total - reused;
         self.bar.inc_length((1e9 * seconds) as u64);
         if reused > 0 {
-            self.say(&format!("{reused} of {total} runs are there already"));
+            self.say(&format!("{reused} of {total} {name}s are there already"));
         }
     }
 
@@ -90,24 +89,18 @@ impl Progress for Reporter {
         }
     }
 
-    fn finished(&self, code: Code, case: &Case, result: Result<&Run, &Failure>) {
+    fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
         let (finished, open) = {
             let mut counts = self.counts();
             counts.finished += 1;
             (counts.finished, counts.open)
         };
-        let subject = format!(
-            "[{finished}/{open}] {code} mu={} stiffness={} speed={:.2e} dt={}",
-            friction(case.stack.floor_friction),
-            case.stack.stiffness,
-            case.protocol.wall_speed,
-            case.protocol.time_step
-        );
+        let subject = format!("[{finished}/{open}] {code}: {task}");
         match result {
             Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
-            Ok(run) if !self.drawn => {
-                let seconds = run.provenance.seconds;
-                tell!("{subject}: {seconds:.2} s");
+            Ok(seconds) if !self.drawn => {
+                let seconds = seconds.map(|seconds| format!(": {seconds:.2} s"));
+                tell!("{subject}{}", seconds.unwrap_or_default());
             }
             _ => self.bar.set_message(subject),
         }

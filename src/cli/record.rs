@@ -9,14 +9,13 @@ use crate::model::shown;
 use crate::paper::reproduction::summaries_to_record;
 use crate::runs::{
     Progress, Recorded, RecordedRun, Recording, RunError, RunSummary, SelectedCode, Settings,
-    Workload, read_all, run_all,
+    Workload, read_all,
 };
 use crate::study::Study;
-use crate::study::convention::{ProbeError, record_probe};
+use crate::study::convention::probe_records;
 use crate::study::yield_force::Profile;
 use clap::{Args, ValueEnum};
 use std::path::Path;
-use thiserror::Error;
 
 /// The recorded runs of one command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -48,15 +47,6 @@ pub(super) struct Arguments {
     only: Option<Set>,
     #[command(flatten)]
     run: RunOptions,
-}
-
-/// The reason why a code is not recorded.
-#[derive(Debug, Error)]
-enum RecordingError {
-    #[error(transparent)]
-    Run(#[from] RunError),
-    #[error(transparent)]
-    Probe(#[from] ProbeError),
 }
 
 /// Records code by code; a code with a failed run keeps its old recordings.
@@ -113,10 +103,12 @@ fn make(
     only: Option<Set>,
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<(), RecordingError> {
+) -> Result<(), RunError> {
     let wanted = |set: Set| only.is_none_or(|only| only == set);
     if wanted(Set::Probe) {
-        recording.probe = Some(record_probe(selected, settings, progress)?);
+        let codes = std::slice::from_ref(selected);
+        let records = probe_records(codes, settings, progress).into_iter();
+        recording.probe = records.last().transpose()?;
     }
     if wanted(Set::Crosscheck) {
         for summary in quick_profile(selected, settings, progress)? {
@@ -160,6 +152,6 @@ fn trajectory_runs(
         .filter_map(|plan| plan.workloads().into_iter().next());
     let workloads: Vec<Workload> = own.collect();
     let codes = std::slice::from_ref(selected);
-    let results = run_all(&workloads, codes, settings, progress, |run| run);
+    let results = read_all(&workloads, codes, settings, progress);
     results.into_iter().flatten().collect()
 }

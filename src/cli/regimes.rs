@@ -2,13 +2,15 @@
 
 use super::options::{Format, RunOptions, as_flag, writable, write_all};
 use super::progress::with_progress;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, tell};
+use crate::code::Code;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
     boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
-use crate::study::Verdict;
+use crate::runs::SelectedCode;
 use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
+use crate::study::{Campaign, Verdict};
 use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
 use clap::Args;
 use std::path::PathBuf;
@@ -50,11 +52,13 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
     let settings = arguments.run.settings()?;
     let plan = SurveyPlan::new(&points, &examined_stacks());
-    let survey = with_progress(|progress| survey(&plan, &settings, progress));
-    if INTERRUPT.requested() {
+    let native = [SelectedCode::find(Code::NATIVE)];
+    let survey =
+        with_progress(|progress| survey(&plan, &Campaign::new(&native, &settings, progress)));
+    let Some(survey) = survey else {
         tell!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);
-    }
+    };
     let tables = [
         boundaries(&survey.confirmations),
         largest_forces(&survey.examinations),
@@ -99,21 +103,19 @@ fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
 
 /// Summarizes the survey on standard error, and returns the exit status.
 fn conclude(survey: &Survey) -> ExitStatus {
+    for note in &survey.notes {
+        tell!("{note}");
+    }
     let verdicts: Vec<Verdict> = survey.verdicts().collect();
     let count = |verdict: Verdict| verdicts.iter().filter(|&&other| other == verdict).count();
-    let agree = count(Verdict::Agrees);
-    let (differ, all) = (count(Verdict::Differs), verdicts.len());
+    let (agree, differ) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(
-        "{agree} of {all} places agree ({} on boundaries, {} largest forces), {differ} differ, {} inconclusive",
+        "{agree} of {} places agree ({} on boundaries, {} largest forces), {differ} differ, {} inconclusive",
+        verdicts.len(),
         survey.confirmations.len(),
         survey.examinations.len(),
-        all - agree - differ
+        verdicts.len() - agree - differ
     );
-    if differ > 0 {
-        ExitStatus::Disagreement
-    } else if agree < all {
-        ExitStatus::Inconclusive
-    } else {
-        ExitStatus::Success
-    }
+    let each = verdicts.into_iter().map(ExitStatus::of_verdict);
+    each.max().unwrap_or(ExitStatus::Success)
 }

@@ -28,6 +28,7 @@ pub use installation::version_in_answer;
 pub use installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
 pub(crate) use manifest::Angle;
 pub use manifest::{Colour, Definition, Mark, Shape, TaskKind};
+pub(crate) use native::observe;
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};

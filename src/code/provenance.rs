@@ -1,5 +1,6 @@
 //! The origin of a run: program, inputs, time and machine.
 
+use super::registry::Code;
 use crate::model::{Case, sha256_hex};
 use crate::series::Series;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,17 @@ pub struct Identity {
 }
 
 impl Identity {
+    /// The native code of this program.
+    pub(crate) fn native() -> &'static Self {
+        static NATIVE: LazyLock<Identity> = LazyLock::new(|| Identity {
+            code: Code::NATIVE.as_str().to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            package: None,
+            program_hash: None,
+        });
+        &NATIVE
+    }
+
     /// Content address of the run of `case` by this program with the deck that has `deck_hash`.
     pub fn address(&self, case: &Case, deck_hash: &str) -> String {
         let parts = serde_json::json!([case.content_hash(), self, deck_hash]);

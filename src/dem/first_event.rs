@@ -132,6 +132,22 @@ impl EventRun {
     }
 }
 
+impl std::fmt::Display for EventRun {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Stack {
+            floor_friction,
+            cylinder_friction,
+            stiffness,
+            stiffness_ratio,
+        } = self.stack;
+        write!(
+            formatter,
+            "events of mu = {floor_friction}, mu_d = {cylinder_friction}, stiffness = {stiffness}, kappa = \
+             {stiffness_ratio}"
+        )
+    }
+}
+
 impl Observation {
     /// A run of no steps.
     pub const NOTHING: Self = Self {

@@ -1,5 +1,6 @@
 //! Entries: runs on disk, each a directory that is written completely before it is renamed into place.
 
+use super::summary::{ESTIMATOR, RunSummary};
 use crate::code::Run;
 use crate::files::{
     CHECKSUMS, FileError, check, checksums, create_parent, locked_directory, parse_json,
@@ -8,13 +9,23 @@ use crate::files::{
 use crate::model::Case;
 use crate::series::Series;
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
+const SUMMARY: &str = "summary.json";
 const DRAFT: &str = ".draft-";
+
+/// The summary of a run as it is kept beside its series, so that the series need not be read again.
+#[derive(Serialize, Deserialize)]
+struct KeptSummary {
+    /// Digest of the sources that made the summary.
+    estimator: String,
+    summary: RunSummary,
+}
 
 /// A directory of entries.
 #[derive(Debug, Clone)]
@@ -47,25 +58,36 @@ impl Archive {
     /// # Errors
     /// If it is there but damaged.
     pub fn load(&self, name: &Path) -> Result<Option<Run>, FileError> {
-        let directory = self.root.join(name);
-        if !directory.is_dir() {
+        let Some(entry) = Entry::open(self.root.join(name))? else {
             return Ok(None);
-        }
-        let checksums = read(&directory.join(CHECKSUMS))?;
-        let checksums = String::from_utf8_lossy(&checksums);
-        let checked = |file: &str| {
-            let content = read(&directory.join(file))?;
-            check(&checksums, &directory, file, &content)?;
-            Ok::<_, FileError>(content)
         };
-        let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
-        let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
-        let provenance = parse_json(&checked(PROVENANCE)?, &directory.join(PROVENANCE))?;
+        let case = Case::parse(&entry.read(CASE)?, &entry.path(CASE))?;
+        let series = parse_series(&entry.path(SERIES), &entry.read(SERIES)?, &case)?;
+        let provenance = parse_json(&entry.read(PROVENANCE)?, &entry.path(PROVENANCE))?;
         Ok(Some(Run {
             case,
             series,
             provenance,
         }))
+    }
+
+    /// The summary of the entry `name`; `None` if there is none. It is made anew from the series where the one beside
+    /// it was made by other sources than today's.
+    ///
+    /// # Errors
+    /// If the entry is there but damaged, its series included.
+    pub(crate) fn load_summary(&self, name: &Path) -> Result<Option<RunSummary>, FileError> {
+        let Some(entry) = Entry::open(self.root.join(name))? else {
+            return Ok(None);
+        };
+        if entry.has(SUMMARY) {
+            let kept: KeptSummary = parse_json(&entry.read(SUMMARY)?, &entry.path(SUMMARY))?;
+            if kept.estimator == *ESTIMATOR {
+                entry.read(SERIES)?;
+                return Ok(Some(kept.summary));
+            }
+        }
+        Ok(self.load(name)?.map(RunSummary::new))
     }
 
     /// Writes `run` as the entry `name`, in place of an older one.
@@ -98,11 +120,54 @@ impl Archive {
     }
 }
 
+/// An entry that is being read.
+struct Entry {
+    directory: PathBuf,
+    checksums: String,
+}
+
+impl Entry {
+    /// The entry in `directory`; `None` if there is none.
+    fn open(directory: PathBuf) -> Result<Option<Self>, FileError> {
+        if !directory.is_dir() {
+            return Ok(None);
+        }
+        let checksums = read(&directory.join(CHECKSUMS))?;
+        let checksums = String::from_utf8_lossy(&checksums).into_owned();
+        Ok(Some(Self {
+            directory,
+            checksums,
+        }))
+    }
+
+    fn path(&self, file: &str) -> PathBuf {
+        self.directory.join(file)
+    }
+
+    /// Whether `file` belongs to the entry.
+    fn has(&self, file: &str) -> bool {
+        self.checksums.lines().any(|line| line.ends_with(file))
+    }
+
+    /// The content of `file`, which has the digest that it was written with.
+    fn read(&self, file: &str) -> Result<Vec<u8>, FileError> {
+        let content = read(&self.path(file))?;
+        check(&self.checksums, &self.directory, file, &content)?;
+        Ok(content)
+    }
+}
+
 fn write_entry(directory: &Path, run: &Run) -> Result<(), FileError> {
+    let summary = KeptSummary {
+        estimator: ESTIMATOR.clone(),
+        summary: RunSummary::new(run.clone()),
+    };
+    let summary = serde_json::to_vec(&summary).expect("plain data has a JSON form");
     let files = [
         (CASE, run.case.to_json().into_bytes()),
         (SERIES, run.series.to_csv()),
         (PROVENANCE, run.provenance.to_json().into_bytes()),
+        (SUMMARY, summary),
     ];
     for (name, content) in &files {
         write_synced(&directory.join(name), content)?;

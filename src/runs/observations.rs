@@ -1,71 +1,94 @@
-//! Event runs: taken from the store, or carried out on all cores and kept.
+//! Event runs in the schedule.
 
-use super::parallel::in_parallel;
-use super::{Progress, Settings};
+use super::{Kind, Progress, Reading, Recorded, RecordedError, ScheduledTask, Store};
+use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext, observe};
 use crate::dem::{EventRun, Observation};
-use crate::model::shown;
-use std::time::Instant;
+use crate::files::{FileError, parse_json};
+use serde::{Deserialize, Serialize};
 
-/// Estimated duration of a step in seconds.
-const SECONDS_PER_STEP: f64 = 5e-8;
-
-/// The observations of `runs`, in their order: from the store, or made now and kept there. Runs that an interrupt or
-/// the time limit cuts short are incomplete.
-pub(crate) fn observe_all(
-    runs: &[EventRun],
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Vec<Observation> {
-    let stored = in_parallel(runs, settings.threads, |run| {
-        stored(run, settings, progress)
-    });
-    let requests: Vec<(&EventRun, Option<Observation>)> = runs.iter().zip(stored).collect();
-    let open = requests.iter().filter(|(_, stored)| stored.is_none());
-    let work: Vec<f64> = open.map(|(run, _)| seconds(run)).collect();
-    progress.planned(runs.len(), runs.len() - work.len(), work.iter().sum());
-    in_parallel(&requests, settings.threads, |(run, stored)| {
-        stored.unwrap_or_else(|| made(run, settings, progress))
-    })
+/// An event run with its observation, as it is kept.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ObservedRun {
+    run: EventRun,
+    observation: Observation,
 }
 
-fn seconds(run: &EventRun) -> f64 {
-    SECONDS_PER_STEP * run.largest_steps()
+impl ScheduledTask for EventRun {
+    type Outcome = Observation;
+
+    const KIND: Kind = Kind::Observation;
+
+    fn content_hash(&self) -> String {
+        self.address()
+    }
+
+    fn steps(&self) -> u64 {
+        self.largest_steps() as u64
+    }
+
+    /// A single stack, without vectors.
+    fn seconds_per_step(&self, _: Code) -> f64 {
+        5e-8
+    }
+
+    fn address(&self, _: &dyn InstalledCode) -> String {
+        self.address()
+    }
+
+    fn stored(
+        &self,
+        _: &dyn InstalledCode,
+        store: &Store,
+    ) -> Result<Option<Observation>, FileError> {
+        let kept = store.sealed(Self::KIND, &self.address(), parse_json::<ObservedRun>)?;
+        Ok(kept
+            .filter(|kept| kept.run == *self)
+            .map(|kept| kept.observation))
+    }
+
+    fn keep(
+        &self,
+        _: &dyn InstalledCode,
+        observation: &Observation,
+        store: &Store,
+    ) -> Result<(), FileError> {
+        let kept = ObservedRun {
+            run: *self,
+            observation: *observation,
+        };
+        let content = serde_json::to_string(&kept).expect("plain data has a JSON form") + "\n";
+        store.put_sealed(Self::KIND, &self.address(), &content)
+    }
+
+    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Observation, RecordedError> {
+        Err(recorded.absent(code, "event run"))
+    }
+
+    fn carry_out(
+        runs: &[Self],
+        _: &dyn InstalledCode,
+        context: &RunContext,
+        finished: Finished<Observation>,
+    ) {
+        for (index, run) in runs.iter().enumerate() {
+            finished(index, observe(run, context));
+        }
+    }
+
+    fn report(&self, code: Code, result: Result<&Observation, &Failure>, progress: &dyn Progress) {
+        progress.finished(code, self, result.map(|_| None));
+    }
 }
 
-/// The observation of `run` in the store. A damaged one is put into quarantine.
-fn stored(run: &EventRun, settings: &Settings, progress: &dyn Progress) -> Option<Observation> {
-    if settings.fresh {
-        return None;
-    }
-    let error = match settings.store.observation(run) {
-        Ok(found) => return found,
-        Err(error) => error,
-    };
-    let place = match settings.store.put_observation_aside(run) {
-        Ok(place) => format!("it is now {}", shown(&place)),
-        Err(error) => error.to_string(),
-    };
-    let message = format!("damaged observation in the store, made anew: {error}; {place}");
-    progress.warn(&message);
-    None
-}
+impl Reading for Observation {
+    type Task = EventRun;
 
-/// Carries out `run`, and keeps the observation if the run is complete.
-fn made(run: &EventRun, settings: &Settings, progress: &dyn Progress) -> Observation {
-    if settings.interrupt.requested() {
-        return Observation::NOTHING;
+    fn of(observation: Observation) -> Self {
+        observation
     }
-    let start = Instant::now();
-    let in_time = || {
-        let limit = settings.time_limit;
-        limit.is_none_or(|limit| start.elapsed() <= limit)
-    };
-    let observation = run.observe(|| !settings.interrupt.requested() && in_time());
-    if observation.is_usable()
-        && let Err(error) = settings.store.put_observation(run, &observation)
-    {
-        progress.warn(&format!("an observation could not be kept: {error}"));
+
+    fn identity(&self) -> &Identity {
+        Identity::native()
     }
-    progress.advanced(seconds(run));
-    observation
 }

@@ -1,9 +1,24 @@
 //! The summary of a run, kept where its series is not.
 
-use crate::code::{Provenance, Run};
-use crate::model::Case;
+use super::{Reading, Recorded, RecordedError, Store};
+use crate::code::{Code, Identity, InstalledCode, Provenance, Run};
+use crate::files::FileError;
+use crate::model::{Case, sha256_hex};
 use crate::series::YieldEstimates;
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
+
+/// Digest of the sources that read a summary off a series.
+pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
+    let sources = [
+        include_str!("../series/drop.rs"),
+        include_str!("../series/estimate.rs"),
+        include_str!("../series/polynomial.rs"),
+        include_str!("../series/samples.rs"),
+        include_str!("summary.rs"),
+    ];
+    sha256_hex(sources.concat().as_bytes())
+});
 
 /// The yield force of a run by both estimators, and its provenance: a hundredth of its series in size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,5 +50,29 @@ impl RunSummary {
             case: run.case,
             provenance: run.provenance,
         }
+    }
+}
+
+impl Reading for RunSummary {
+    type Task = Case;
+
+    fn of(run: Run) -> Self {
+        Self::new(run)
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.provenance.identity
+    }
+
+    fn stored(
+        case: &Case,
+        code: &dyn InstalledCode,
+        store: &Store,
+    ) -> Result<Option<Self>, FileError> {
+        store.summary(code.identity(), case, &code.name().deck_hash(case))
+    }
+
+    fn recorded(case: &Case, code: Code, recorded: &Recorded) -> Result<Self, RecordedError> {
+        recorded.summary(code, case)
     }
 }

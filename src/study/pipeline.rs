@@ -19,12 +19,15 @@ pub trait Study {
     /// The code that is judged.
     fn code(&self) -> Code;
 
-    /// The runs that the study needs; those of the judged code come first.
-    fn workloads(&self) -> Vec<Workload>;
+    /// The tasks that the study needs to be carried out; those of the judged code come first.
+    fn workloads(&self) -> Vec<Workload<TaskOf<Self>>>;
 
-    /// Evaluates `runs`, which are complete and in the order of the workloads and their cases.
+    /// Evaluates `runs`, which are complete and in the order of the workloads and their tasks.
     fn evaluate(&self, runs: Vec<Vec<Self::Reading>>) -> Evaluation<Self::Finding>;
 }
+
+/// The task of a study.
+pub type TaskOf<S> = <<S as Study>::Reading as Reading>::Task;
 
 /// The evaluation of a study.
 pub struct Evaluation<F> {
@@ -140,15 +143,18 @@ impl<'a> Campaign<'a> {
         self.probes.into_inner().unwrap_or_default()
     }
 
-    /// Carries out `workloads` and reads each run.
-    pub fn read<R: Reading>(&self, workloads: &[Workload]) -> Vec<Vec<Result<R, RunError>>> {
+    /// Carries out `workloads` and reads each result.
+    pub fn read<R: Reading>(
+        &self,
+        workloads: &[Workload<R::Task>],
+    ) -> Vec<Vec<Result<R, RunError>>> {
         read_all(workloads, self.codes, self.settings, self.progress)
     }
 
     /// The same for workloads of the native code, which need not take part in the campaign.
     pub(crate) fn read_native<R: Reading>(
         &self,
-        workloads: &[Workload],
+        workloads: &[Workload<R::Task>],
     ) -> Vec<Vec<Result<R, RunError>>> {
         let native = [SelectedCode::find(Code::NATIVE)];
         read_all(workloads, &native, self.settings, self.progress)
@@ -157,7 +163,7 @@ impl<'a> Campaign<'a> {
     /// Carries out `studies` and judges each, in order; those that an interrupt has cut short are left out.
     pub fn carry_out<S: Study>(&self, studies: Vec<S>) -> Vec<Judged<S, S::Finding>> {
         self.probes();
-        let workloads: Vec<Vec<Workload>> = studies.iter().map(S::workloads).collect();
+        let workloads: Vec<Vec<Workload<TaskOf<S>>>> = studies.iter().map(S::workloads).collect();
         let mut results = self.read(&workloads.concat()).into_iter();
         let judged = studies.into_iter().zip(workloads).map(|(study, own)| {
             let results = results.by_ref().take(own.len()).collect();

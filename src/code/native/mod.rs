@@ -7,7 +7,8 @@ use super::failure::{Failure, FailureKind};
 use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
-use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
+use crate::dem::{EventRun, LaneKind, LaneWidth, Observation};
+use crate::dem::{compress_stack_precisely, run_contact_test, run_pyramid};
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
 use lanes::Lanes;
@@ -39,10 +40,8 @@ impl Native {
     fn computing(version: &str, arithmetic: Arithmetic) -> Self {
         Self {
             identity: Identity {
-                code: Code::NATIVE.as_str().to_owned(),
                 version: version.to_owned(),
-                package: None,
-                program_hash: None,
+                ..Identity::native().clone()
             },
             arithmetic,
         }
@@ -117,6 +116,17 @@ fn while_wanted<T>(
     };
     let wanted = || !context.interrupt.requested() && late().is_none();
     run(&wanted).map_err(|error| cause(error, context, late()))
+}
+
+/// The observation of `run`, unless it was stopped.
+pub(crate) fn observe(run: &EventRun, context: &RunContext) -> Result<Observation, Failure> {
+    let observation = while_wanted(context, |wanted| {
+        let observation = run.observe(wanted);
+        let message = || "the run did not reach its end within the finite numbers".to_owned();
+        let usable = observation.is_usable().then_some(observation);
+        usable.ok_or_else(|| SeriesError::Absent { message: message() })
+    });
+    observation.map_err(|kind| failure(run, kind))
 }
 
 /// The cause of an unusable series; `late` is the time limit, if that was exceeded.

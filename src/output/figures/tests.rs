@@ -149,6 +149,7 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
         survey: Survey {
             confirmations: Vec::new(),
             examinations: Vec::new(),
+            notes: Vec::new(),
         },
         curves: curves(),
         provenances: Vec::new(),

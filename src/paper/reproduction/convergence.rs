@@ -78,7 +78,7 @@ fn workload(code: Code) -> Workload {
     let cases = runs.filter_map(|&(speed, step)| case(code, speed, step));
     Workload {
         code,
-        cases: cases.collect(),
+        tasks: cases.collect(),
     }
 }
 
@@ -116,10 +116,10 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
     };
     let mut summaries = Vec::new();
     for (workload, results) in workloads.iter().zip(results) {
-        let speeds = workload.cases.iter();
+        let speeds = workload.tasks.iter();
         let speeds = speeds.filter(|case| case.protocol.time_step == PAPER_TIME_STEP);
         let speeds = speeds.count().saturating_sub(1);
-        for (index, (case, result)) in workload.cases.iter().zip(results).enumerate() {
+        for (index, (case, result)) in workload.tasks.iter().zip(results).enumerate() {
             let point = point(workload.code, case, &result);
             if index < speeds {
                 study.wall_speeds.push(point);
@@ -155,8 +155,8 @@ mod tests {
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
         for workload in convergence_workloads(&Code::all()) {
             let native = workload.code == Code::NATIVE;
-            assert_eq!(workload.cases.len(), if native { 11 } else { 9 });
-            for case in &workload.cases {
+            assert_eq!(workload.tasks.len(), if native { 11 } else { 9 });
+            for case in &workload.tasks {
                 case.validate().unwrap();
                 assert!(native || case.total_steps() < 3_000_000);
             }

@@ -38,7 +38,9 @@ struct ForceRows {
 }
 
 impl Reading for ForceRows {
-    fn of_run(run: Run) -> Self {
+    type Task = Case;
+
+    fn of(run: Run) -> Self {
         let stiffness = run.case.stack.stiffness;
         let samples = run.series.samples().iter();
         let rows = samples.map(|row| (row.time, row.wall_force * stiffness));
@@ -46,11 +48,6 @@ impl Reading for ForceRows {
             rows: rows.collect(),
             summary: RunSummary::new(run),
         }
-    }
-
-    /// `None`, because a summary has no rows.
-    fn of_summary(_: RunSummary) -> Option<Self> {
-        None
     }
 
     fn identity(&self) -> &Identity {
@@ -73,7 +70,7 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
     });
     let workload = Workload {
         code: Code::NATIVE,
-        cases: cases.into_iter().collect(),
+        tasks: cases.into_iter().collect(),
     };
     let results = campaign.read(&[workload]);
     let first = results.into_iter().flatten().next();

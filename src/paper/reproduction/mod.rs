@@ -95,21 +95,21 @@ pub(crate) fn reproduce(
     progress: &dyn Progress,
 ) -> Result<Option<Reproduction>, ReproductionError> {
     let settings = scope.settings;
-    let interrupted = || settings.interrupt.requested();
-    let (theory, measured) = rayon::join(Theory::new, || Measured::new(scope, progress));
+    let campaign = Campaign::new(scope.codes, settings, progress);
+    let (theory, measured) = rayon::join(Theory::new, || Measured::new(scope, &campaign));
     let Some(measured) = measured? else {
         return Ok(None);
     };
-    let survey = survey(&theory.survey, settings, progress);
-    if interrupted() {
+    let Some(survey) = survey(&theory.survey, &campaign) else {
         return Ok(None);
-    }
+    };
     let Some(snapshots) = snapshots(settings.interrupt)? else {
         return Ok(None);
     };
+    let names = campaign.names().into_iter();
     Ok(Some(Reproduction {
         provenances: measured.provenances(),
-        probes: measured.probes,
+        probes: names.zip(campaign.into_probes()).collect(),
         exponents: exponents(&measured.scaling),
         yield_curves: measured.yield_curves,
         scaling: measured.scaling,
@@ -145,7 +145,6 @@ impl Theory {
 
 /// The part that is read off runs.
 struct Measured {
-    probes: Vec<(Code, Probed)>,
     /// Every judgement once.
     judgements: Vec<Judgement>,
     yield_curves: Vec<Judgement>,
@@ -161,21 +160,20 @@ struct Measured {
 
 impl Measured {
     /// Carries out all runs; `None` after an interrupt.
-    fn new(scope: &Scope, progress: &dyn Progress) -> Result<Option<Self>, RunError> {
+    fn new(scope: &Scope, campaign: &Campaign) -> Result<Option<Self>, RunError> {
         let interrupted = || scope.settings.interrupt.requested();
-        let campaign = Campaign::new(scope.codes, scope.settings, progress);
         let plan = Plan::new(scope);
         let judgements = campaign.carry_out(plan.all());
         if interrupted() {
             return Ok(None);
         }
-        let (convergence, mut summaries) = converge(&campaign);
+        let (convergence, mut summaries) = converge(campaign);
         if interrupted() {
             return Ok(None);
         }
-        let (force_series, summary) = force_series(&campaign)?;
+        let (force_series, summary) = force_series(campaign)?;
         summaries.push(summary);
-        let preparation = preparation_studies(&campaign, &campaign.names());
+        let preparation = preparation_studies(campaign, &campaign.names());
         if interrupted() {
             return Ok(None);
         }
@@ -189,11 +187,6 @@ impl Measured {
             summaries,
             preparation: preparation?,
             trajectories: campaign.carry_out(trajectories(scope.codes)),
-            probes: campaign
-                .names()
-                .into_iter()
-                .zip(campaign.into_probes())
-                .collect(),
         }))
     }
 
@@ -290,8 +283,8 @@ pub(crate) fn summaries_to_record(
     let cases = measurements.into_iter().flatten();
     let cases = cases.flat_map(|measurement| measurement.cases);
     for case in cases.chain(prepared) {
-        if !workloads[0].cases.contains(&case) {
-            workloads[0].cases.push(case);
+        if !workloads[0].tasks.contains(&case) {
+            workloads[0].tasks.push(case);
         }
     }
     let results = campaign.read(&workloads);

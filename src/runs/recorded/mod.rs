@@ -110,8 +110,7 @@ impl Recorded {
             Some(_) => series_of(row, self.members(&files, code)?, &path)?,
             None => None,
         };
-        let what = "series of this case";
-        let series = series.ok_or(RecordedError::Absent { code, what, path })?;
+        let series = series.ok_or_else(|| self.absent(code, "series of this case"))?;
         let RunSummary {
             case, provenance, ..
         } = row.summary.clone();
@@ -142,8 +141,7 @@ impl Recorded {
         let record = probe_in(self.members(&files, code)?, &path)?;
         let own = |record: &ProbeRecord| record.provenance.identity.code == code.as_str();
         let Some(record) = record.filter(own) else {
-            let what = "probe";
-            return Err(RecordedError::Absent { code, what, path });
+            return Err(self.absent(code, "probe"));
         };
         if let Some(answer) = record.outdated(|test| code.deck_hash(test)) {
             return Err(RecordedError::OtherDeck {
@@ -166,6 +164,12 @@ impl Recorded {
         };
         let table = String::from_utf8_lossy(&table);
         Recording::from_files(&table, &archive, directory, code)
+    }
+
+    /// The error that nothing of the kind `what` is recorded of `code`.
+    pub(crate) fn absent(&self, code: Code, what: &'static str) -> RecordedError {
+        let path = archive_path(self.directory(), code);
+        RecordedError::Absent { code, what, path }
     }
 
     fn files(&self, code: Code) -> Arc<Files> {

@@ -1,14 +1,12 @@
 //! Carries out requests: from the store, from recordings, by codes on all cores, or by waiting for another program
-//! that is making the same run.
+//! that is carrying out the same task.
 
 use super::requests::RunRequest;
-use super::store_writer::{Claim, FinishedRun, StoreWriter, keep, with_store_writer};
-use super::{Progress, RunError, SelectedCode, Settings};
-use crate::code::{
-    Batching, Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence,
-};
+use super::store_writer::{Claim, Finished, StoreWriter, keep, with_store_writer};
+use super::{Progress, Reading, RunError, ScheduledTask, SelectedCode, Settings};
+use crate::code::{Batching, Code, Failure, FailureKind, InstalledCode, RunContext, keep_evidence};
 use crate::files::FileError;
-use crate::model::{Case, shown};
+use crate::model::shown;
 use crate::runs::{LockOwner, in_parallel};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,7 +16,8 @@ use tempfile::TempDir;
 /// Interval at which runs of other programs are looked for.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
-type Slot<T> = Mutex<Option<Result<T, RunError>>>;
+type Outcome<R> = <<R as Reading>::Task as ScheduledTask>::Outcome;
+type Slot<R> = Mutex<Option<Result<R, RunError>>>;
 
 /// The requests for one call of a code.
 struct Job<'a> {
@@ -27,35 +26,32 @@ struct Job<'a> {
 }
 
 /// The state that workers share.
-pub(super) struct Executor<'a, T, Keep> {
-    requests: Vec<RunRequest<'a>>,
+pub(super) struct Executor<'a, R: Reading> {
+    requests: Vec<RunRequest<'a, R::Task>>,
     settings: &'a Settings<'a>,
     progress: &'a dyn Progress,
-    keep: Keep,
-    slots: Vec<Slot<T>>,
+    slots: Vec<Slot<R>>,
     /// Requests that other programs are working on.
     elsewhere: Mutex<Vec<(usize, LockOwner)>>,
 }
 
-impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
+impl<'a, R: Reading> Executor<'a, R> {
     pub(super) fn new(
-        requests: Vec<RunRequest<'a>>,
+        requests: Vec<RunRequest<'a, R::Task>>,
         settings: &'a Settings<'a>,
         progress: &'a dyn Progress,
-        keep: Keep,
     ) -> Self {
         Self {
-            slots: requests.iter().map(|_| Slot::<T>::default()).collect(),
+            slots: requests.iter().map(|_| Slot::default()).collect(),
             requests,
             settings,
             progress,
-            keep,
             elsewhere: Mutex::default(),
         }
     }
 
     /// The result of every request.
-    pub(super) fn results(self, codes: &[SelectedCode]) -> Vec<Option<Result<T, RunError>>> {
+    pub(super) fn results(self, codes: &'a [SelectedCode]) -> Vec<Option<Result<R, RunError>>> {
         let jobs = self.jobs(codes);
         self.work_off(&jobs);
         self.wait_for_others(codes);
@@ -67,19 +63,19 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         results.collect()
     }
 
-    fn case(&self, request: usize) -> &Case {
-        self.requests[request].case
+    fn task(&self, request: usize) -> &'a R::Task {
+        self.requests[request].task
     }
 
-    fn fill(&self, request: usize, result: Result<Run, RunError>) {
+    fn fill(&self, request: usize, result: Result<R, RunError>) {
         let mut slot = self.slots[request]
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        *slot = Some(result.map(&self.keep));
+        *slot = Some(result);
     }
 
-    /// Fills the slots of runs that exist, and packs the other requests into jobs.
-    fn jobs<'b>(&self, codes: &'b [SelectedCode]) -> Vec<Job<'b>> {
+    /// Fills the slots of results that exist, and packs the other requests into jobs.
+    fn jobs(&self, codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
         let mut open = Vec::new();
         let mut total = 0;
         for selected in codes {
@@ -92,12 +88,14 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         }
         let seconds = |&request: &usize| self.total_seconds(request);
         let work = open.iter().map(seconds).sum();
-        self.progress.planned(total, total - open.len(), work);
+        let reused = total - open.len();
+        self.progress
+            .planned(R::Task::KIND.name(), total, reused, work);
         self.pack(&open, codes)
     }
 
     /// Jobs for the requests in `open`, the longest first.
-    fn pack<'b>(&self, open: &[usize], codes: &'b [SelectedCode]) -> Vec<Job<'b>> {
+    fn pack(&self, open: &[usize], codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
         let mut jobs = Vec::new();
         for selected in codes {
             let Some(code) = selected.code.as_deref() else {
@@ -119,7 +117,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
 
     /// Deals `requests` out to at most so many calls, the longest first, so that all calls take about as long.
     fn deal(&self, mut requests: Vec<usize>, calls: usize) -> Vec<Vec<usize>> {
-        requests.sort_by_key(|&request| std::cmp::Reverse(self.case(request).total_steps()));
+        requests.sort_by_key(|&request| std::cmp::Reverse(self.task(request).steps()));
         let calls = calls.min(requests.len());
         let hand = |call| requests.iter().copied().skip(call).step_by(calls).collect();
         (0..calls).map(hand).collect()
@@ -134,7 +132,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
     /// Estimated duration of a request in seconds.
     fn total_seconds(&self, request: usize) -> f64 {
         let request = &self.requests[request];
-        request.seconds(request.case.total_steps())
+        request.seconds(request.task.steps())
     }
 
     fn seconds(&self, job: &Job) -> f64 {
@@ -144,17 +142,17 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
 
     fn use_recorded(&self, code: Code, requests: &[usize]) {
         for &request in requests {
-            let run = self.settings.recorded.run(code, self.case(request));
-            self.fill(request, run.map_err(RunError::from));
+            let reading = R::recorded(self.task(request), code, &self.settings.recorded);
+            self.fill(request, reading.map_err(RunError::from));
         }
     }
 
-    /// Fills the slots of the requests whose runs are in the store, and returns the others.
+    /// Fills the slots of the requests whose results are in the store, and returns the others.
     fn without_stored(&self, code: &dyn InstalledCode, requests: Vec<usize>) -> Vec<usize> {
         if self.settings.fresh {
             return requests;
         }
-        // Damaged runs are put into quarantine later, under a claim.
+        // Damaged results are put into quarantine later, under a claim.
         let is_stored = |&request: &usize| self.fill_from_store(code, request, |_| ());
         let stored = in_parallel(&requests, self.settings.threads, is_stored);
         let all = requests.into_iter().zip(stored);
@@ -162,18 +160,16 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             .collect()
     }
 
-    /// Fills the slot of `request` if its run is in the store; calls `damaged` if that is damaged.
+    /// Fills the slot of `request` if its result is in the store; calls `damaged` if that is damaged.
     fn fill_from_store(
         &self,
         code: &dyn InstalledCode,
         request: usize,
         damaged: impl FnOnce(FileError),
     ) -> bool {
-        let case = self.case(request);
-        let deck_hash = code.name().deck_hash(case);
-        match self.settings.store.get(code.identity(), case, &deck_hash) {
-            Ok(Some(run)) => {
-                self.fill(request, Ok(run));
+        match R::stored(self.task(request), code, &self.settings.store) {
+            Ok(Some(reading)) => {
+                self.fill(request, Ok(reading));
                 return true;
             }
             Ok(None) => {}
@@ -182,14 +178,14 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         false
     }
 
-    fn work_off(&self, jobs: &[Job]) {
+    fn work_off(&self, jobs: &[Job<'a>]) {
         let workers = self.settings.threads.min(jobs.len());
         if workers == 0 {
             return;
         }
         let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
         with_store_writer(
-            |finished_run| self.settle(finished_run),
+            |finished| self.settle(finished),
             |store_writer| match pool {
                 Ok(pool) => pool.in_place_scope_fifo(|scope| {
                     for job in jobs {
@@ -206,7 +202,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         );
     }
 
-    fn carry_out(&self, job: &Job, store_writer: &StoreWriter<'a>) {
+    fn carry_out(&self, job: &Job<'a>, store_writer: &StoreWriter<'a, R::Task>) {
         if self.settings.interrupt.requested() {
             return self.fail_all(job.code, &job.requests, || FailureKind::Interrupted);
         }
@@ -214,8 +210,8 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         if requests.is_empty() {
             return;
         }
-        let cases = requests.iter().map(|&request| *self.case(request));
-        let cases: Vec<Case> = cases.collect();
+        let tasks = requests.iter().map(|&request| *self.task(request));
+        let tasks: Vec<R::Task> = tasks.collect();
         let directory = match self.run_directory(job.code.name()) {
             Ok(directory) => directory,
             Err(error) => {
@@ -232,10 +228,19 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             advanced: &|index, steps| self.requests[requests[index]].advance(steps, self.progress),
         };
         let mut evidence = false;
-        job.code.run(&cases, &context, &mut |index, result| {
+        R::Task::carry_out(&tasks, job.code, &context, &mut |index, result| {
             let request = requests[index];
             match result {
-                Ok(run) => self.hand_in(job.code, request, run, &claim, store_writer),
+                Ok(outcome) => {
+                    let finished = Finished {
+                        code: job.code,
+                        request,
+                        task: self.task(request),
+                        outcome,
+                        claim: Arc::clone(&claim),
+                    };
+                    self.hand_in(finished, store_writer);
+                }
                 Err(failure) => {
                     evidence |= failure.left_evidence();
                     self.report(job.code.name(), request, Err(failure));
@@ -258,11 +263,12 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         let addresses = job
             .requests
             .iter()
-            .map(|&request| self.address(job, request));
+            .map(|&request| self.task(request).address(job.code));
         let addresses: Vec<String> = addresses.collect();
         let store = &self.settings.store;
         let owners = store.claim(&addresses).unwrap_or_else(|error| {
-            let message = format!("other programs may make the same runs again: {error}");
+            let name = R::Task::KIND.name();
+            let message = format!("other programs may make the same {name}s again: {error}");
             self.progress.warn(&message);
             vec![None; addresses.len()]
         });
@@ -289,13 +295,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         (Arc::new(claim), own)
     }
 
-    fn address(&self, job: &Job, request: usize) -> String {
-        let case = self.case(request);
-        let deck_hash = job.code.name().deck_hash(case);
-        job.code.identity().address(case, &deck_hash)
-    }
-
-    /// Whether the run has been kept since the jobs were packed; its slot is then filled.
+    /// Whether the result has been kept since the jobs were packed; its slot is then filled.
     fn is_made(
         &self,
         code: &dyn InstalledCode,
@@ -309,53 +309,39 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         made
     }
 
-    /// Puts the damaged run under `address` into quarantine, with a warning.
+    /// Puts the damaged result under `address` into quarantine, with a warning.
     fn put_aside(&self, address: &str, error: &FileError) {
-        let place = match self.settings.store.put_aside(address) {
+        let place = match self.settings.store.put_aside(R::Task::KIND, address) {
             Ok(place) => format!("it is now {}", shown(&place)),
             Err(error) => error.to_string(),
         };
-        let message = format!("damaged run in the store, computed anew: {error}; {place}");
-        self.progress.warn(&message);
+        let name = R::Task::KIND.name();
+        self.progress.warn(&format!(
+            "damaged {name} in the store, made anew: {error}; {place}"
+        ));
     }
 
-    fn hand_in(
-        &self,
-        code: &dyn InstalledCode,
-        request: usize,
-        run: Run,
-        claim: &Arc<Claim<'a>>,
-        store_writer: &StoreWriter<'a>,
-    ) {
-        let finished_run = FinishedRun {
-            code: code.name(),
-            request,
-            run,
-            claim: Arc::clone(claim),
-        };
-        if let Err(refused) = store_writer.send(finished_run) {
+    fn hand_in(&self, finished: Finished<'a, R::Task>, store_writer: &StoreWriter<'a, R::Task>) {
+        if let Err(refused) = store_writer.send(finished) {
             keep(&refused.0);
             self.settle(refused.0);
         }
     }
 
-    fn settle(&self, finished_run: FinishedRun) {
-        self.report(
-            finished_run.code,
-            finished_run.request,
-            Ok(finished_run.run),
-        );
+    fn settle(&self, finished: Finished<R::Task>) {
+        let code = finished.code.name();
+        self.report(code, finished.request, Ok(finished.outcome));
     }
 
-    fn report(&self, code: Code, request: usize, result: Result<Run, Failure>) {
+    fn report(&self, code: Code, request: usize, result: Result<Outcome<R>, Failure>) {
         self.advance(request);
-        self.progress
-            .finished(code, self.case(request), result.as_ref());
-        self.fill(request, result.map_err(RunError::from));
+        let task = self.task(request);
+        task.report(code, result.as_ref(), self.progress);
+        self.fill(request, result.map(R::of).map_err(RunError::from));
     }
 
     fn advance(&self, request: usize) {
-        self.requests[request].advance(self.case(request).total_steps(), self.progress);
+        self.requests[request].advance(self.task(request).steps(), self.progress);
     }
 
     fn fail_all(
@@ -365,7 +351,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         kind: impl Fn() -> FailureKind,
     ) {
         for &request in requests {
-            let failure = Failure::new(code.name(), self.case(request), kind());
+            let failure = Failure::new(code.name(), self.task(request), kind());
             self.report(code.name(), request, Err(failure));
         }
     }
@@ -376,8 +362,8 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the runs that other programs finish, and makes those that they abandon.
-    fn wait_for_others(&self, codes: &[SelectedCode]) {
+    /// Takes the results that other programs finish, and makes those that they abandon.
+    fn wait_for_others(&self, codes: &'a [SelectedCode]) {
         let mut announced = BTreeMap::new();
         loop {
             let waiting = std::mem::take(&mut *self.elsewhere());
@@ -393,16 +379,18 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
         }
     }
 
-    /// Warns once, for each other program, how many of its runs are waited for.
+    /// Warns once, for each other program, how many of its results are waited for.
     fn announce(&self, waiting: &[(usize, LockOwner)], announced: &mut BTreeMap<String, usize>) {
         let mut counts = BTreeMap::new();
         for (_, owner) in waiting {
             *counts.entry(owner.to_string()).or_insert(0) += 1;
         }
+        let name = R::Task::KIND.name();
         for (owner, count) in counts {
             if announced.insert(owner.clone(), count).is_none() {
-                self.progress
-                    .warn(&format!("waiting for {count} runs that {owner} is making"));
+                self.progress.warn(&format!(
+                    "waiting for {count} {name}s that {owner} is making"
+                ));
             }
         }
     }

@@ -1,15 +1,20 @@
-//! Runs the cases of all workloads on all cores and keeps each result at once.
+//! Carries out the tasks of all workloads on all cores and keeps each result at once.
 
 mod executor;
 mod requests;
 mod store_writer;
+mod task;
+
+pub use task::ScheduledTask;
 
 use super::recorded::{Recorded, RecordedError};
-use crate::code::{Code, Failure, InstalledCode, Interrupt, Run};
+use crate::code::{Code, Failure, Identity, InstalledCode, Interrupt, Run};
+use crate::files::FileError;
 use crate::model::Case;
 use crate::runs::Store;
 use executor::Executor;
 use requests::{hand_out, requests};
+use std::fmt::Display;
 use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
@@ -64,11 +69,6 @@ impl RunError {
     pub(crate) fn is_interrupted(&self) -> bool {
         matches!(self, Self::Failed(failure) if failure.is_interrupted())
     }
-
-    /// Whether no recording of the run exists.
-    pub(crate) fn is_unrecorded(&self) -> bool {
-        matches!(self, Self::Missing(error) if matches!(**error, RecordedError::Absent { .. }))
-    }
 }
 
 impl From<Failure> for RunError {
@@ -85,35 +85,82 @@ impl From<RecordedError> for RunError {
 
 /// Receives progress.
 pub trait Progress: Sync {
-    /// `total` runs are needed, `reused` of which exist; the others will take about `seconds` of all cores together.
-    fn planned(&self, total: usize, reused: usize, seconds: f64);
+    /// `total` results of the kind `name` are needed, `reused` of which exist; the others will take about `seconds`
+    /// of all cores together.
+    fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64);
     /// Work of so many of these seconds is done.
     fn advanced(&self, seconds: f64);
-    /// One run has ended.
-    fn finished(&self, code: Code, case: &Case, result: Result<&Run, &Failure>);
+    /// `task` has ended, after so many seconds if they were measured.
+    fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>);
     /// A problem that does not affect the results.
     fn warn(&self, message: &str);
 }
 
-/// Cases that one code is to run.
+/// Tasks that one code is to carry out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Workload {
+pub struct Workload<T = Case> {
     /// The code.
     pub code: Code,
-    /// The cases.
-    pub cases: Vec<Case>,
+    /// The tasks.
+    pub tasks: Vec<T>,
 }
 
-/// Carries out `workloads` and returns, case by case, the result of `keep` for each run. The runs themselves are
-/// dropped at once, so that memory does not grow with their number.
-pub(crate) fn run_all<T: Clone + Send>(
-    workloads: &[Workload],
+/// The part of a result that a study keeps. Whole results are dropped as soon as they are read, so that memory does
+/// not grow with their number.
+pub trait Reading: Clone + Send {
+    /// The task.
+    type Task: ScheduledTask;
+
+    /// Reads the `outcome` of a task.
+    fn of(outcome: <Self::Task as ScheduledTask>::Outcome) -> Self;
+
+    /// The program that carried the task out.
+    fn identity(&self) -> &Identity;
+
+    /// Reads the result of `task` with `code` in `store`, if there is one.
+    ///
+    /// # Errors
+    /// If there is one, but damaged.
+    fn stored(
+        task: &Self::Task,
+        code: &dyn InstalledCode,
+        store: &Store,
+    ) -> Result<Option<Self>, FileError> {
+        Ok(task.stored(code, store)?.map(Self::of))
+    }
+
+    /// Reads the recorded result of `task` with `code`.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot stand in.
+    fn recorded(task: &Self::Task, code: Code, recorded: &Recorded) -> Result<Self, RecordedError> {
+        task.recorded(code, recorded).map(Self::of)
+    }
+}
+
+impl Reading for Run {
+    type Task = Case;
+
+    fn of(run: Run) -> Self {
+        run
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.provenance.identity
+    }
+}
+
+/// Carries out `workloads` and returns, task by task, the reading of each result.
+pub(crate) fn read_all<R: Reading>(
+    workloads: &[Workload<R::Task>],
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
-    keep: impl Fn(Run) -> T + Sync,
-) -> Vec<Vec<Result<T, RunError>>> {
+) -> Vec<Vec<Result<R, RunError>>> {
+    if workloads.is_empty() {
+        return Vec::new();
+    }
     let (requests, wanted) = requests(workloads);
-    let executor = Executor::new(requests, settings, progress, keep);
+    let executor = Executor::<R>::new(requests, settings, progress);
     hand_out(executor.results(codes), wanted)
 }

@@ -1,31 +1,30 @@
 //! Requests: a run that several workloads need is requested once.
 
-use super::{Progress, Workload};
+use super::{Progress, ScheduledTask, Workload};
 use crate::code::Code;
-use crate::model::Case;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A run that at least one workload needs.
-pub(super) struct RunRequest<'a> {
+/// A task that at least one workload needs.
+pub(super) struct RunRequest<'a, T> {
     pub(super) code: Code,
-    pub(super) case: &'a Case,
+    pub(super) task: &'a T,
     /// Steps reported to [`Progress`].
     reported: AtomicU64,
 }
 
-impl<'a> RunRequest<'a> {
-    fn new(code: Code, case: &'a Case) -> Self {
+impl<'a, T: ScheduledTask> RunRequest<'a, T> {
+    fn new(code: Code, task: &'a T) -> Self {
         Self {
             code,
-            case,
+            task,
             reported: AtomicU64::new(0),
         }
     }
 
     /// Estimated duration of `steps` in seconds.
     pub(super) fn seconds(&self, steps: u64) -> f64 {
-        steps as f64 * self.code.seconds_per_step()
+        steps as f64 * self.task.seconds_per_step(self.code)
     }
 
     /// Reports to `progress` that `steps` are done in all.
@@ -35,20 +34,22 @@ impl<'a> RunRequest<'a> {
     }
 }
 
-/// The distinct runs of `workloads`, and the position of the run of each case of each workload among them.
-pub(super) fn requests(workloads: &[Workload]) -> (Vec<RunRequest<'_>>, Vec<Vec<usize>>) {
+/// The distinct tasks of `workloads`, and the position of each task of each workload among them.
+pub(super) fn requests<T: ScheduledTask>(
+    workloads: &[Workload<T>],
+) -> (Vec<RunRequest<'_, T>>, Vec<Vec<usize>>) {
     let mut requests = Vec::new();
     let mut known: HashMap<(Code, String), usize> = HashMap::new();
     let wanted = workloads.iter().map(|workload| {
         let code = workload.code;
-        let cases = workload.cases.iter().map(|case| {
-            let key = (code, case.content_hash());
+        let tasks = workload.tasks.iter().map(|task| {
+            let key = (code, task.content_hash());
             *known.entry(key).or_insert_with(|| {
-                requests.push(RunRequest::new(code, case));
+                requests.push(RunRequest::new(code, task));
                 requests.len() - 1
             })
         });
-        cases.collect()
+        tasks.collect()
     });
     let wanted = wanted.collect();
     (requests, wanted)
@@ -78,7 +79,7 @@ pub(super) fn hand_out<R: Clone>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{ContactConvention, Preparation, Protocol, Sampling, Stack};
+    use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
 
     #[test]
     fn what_two_workloads_want_both_get() {
@@ -115,7 +116,7 @@ mod tests {
         let (some, others) = (cases(0.2), cases(0.3));
         let load = |code, cases: [&[Case]; 2]| Workload {
             code,
-            cases: cases.concat(),
+            tasks: cases.concat(),
         };
         let workloads = [
             load(Code::NATIVE, [&some, &some[1..]]),
@@ -125,10 +126,10 @@ mod tests {
         let (requests, wanted) = requests(&workloads);
         assert_eq!(requests.len(), some.len() + others.len() + some.len());
         for (workload, wanted) in workloads.iter().zip(&wanted) {
-            assert_eq!(wanted.len(), workload.cases.len());
-            for (case, &request) in workload.cases.iter().zip(wanted) {
+            assert_eq!(wanted.len(), workload.tasks.len());
+            for (case, &request) in workload.tasks.iter().zip(wanted) {
                 assert_eq!(requests[request].code, workload.code);
-                assert_eq!(requests[request].case, case);
+                assert_eq!(requests[request].task, case);
             }
         }
     }

@@ -1,14 +1,14 @@
-//! Writes finished runs to the store while others are being computed.
+//! Writes results to the store while others are being computed.
 
-use super::Progress;
-use crate::code::{Code, Run};
+use super::{Progress, ScheduledTask};
+use crate::code::InstalledCode;
 use crate::runs::Store;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Threads that write: the disk syncs many files in hardly more time than one.
 const WRITERS: usize = 8;
-/// Most finished runs held in memory.
+/// Most results held in memory.
 const CAPACITY: usize = 64;
 
 /// The claim of this program to the runs of a job, released when the last of them is settled.
@@ -30,21 +30,22 @@ impl Drop for Claim<'_> {
     }
 }
 
-/// A finished run on its way into the store.
-pub(super) struct FinishedRun<'a> {
-    pub(super) code: Code,
+/// A result on its way into the store.
+pub(super) struct Finished<'a, T: ScheduledTask> {
+    pub(super) code: &'a dyn InstalledCode,
     pub(super) request: usize,
-    pub(super) run: Run,
+    pub(super) task: &'a T,
+    pub(super) outcome: T::Outcome,
     pub(super) claim: Arc<Claim<'a>>,
 }
 
-/// The queue of finished runs.
-pub(super) type StoreWriter<'a> = SyncSender<FinishedRun<'a>>;
+/// The queue of results.
+pub(super) type StoreWriter<'a, T> = SyncSender<Finished<'a, T>>;
 
-/// Calls `work` with a store writer. Every run sent to it is written and then passed to `kept` before this returns.
-pub(super) fn with_store_writer<'a>(
-    kept: impl Fn(FinishedRun<'a>) + Sync,
-    work: impl FnOnce(&StoreWriter<'a>) + Send,
+/// Calls `work` with a store writer. Every result sent to it is written and then passed to `kept` before this returns.
+pub(super) fn with_store_writer<'a, T: ScheduledTask>(
+    kept: impl Fn(Finished<'a, T>) + Sync,
+    work: impl FnOnce(&StoreWriter<'a, T>) + Send,
 ) {
     let (store_writer, inbox) = sync_channel(CAPACITY);
     // Owned by the writing threads alone: if they are gone, sending fails instead of blocking.
@@ -54,9 +55,9 @@ pub(super) fn with_store_writer<'a>(
         for _ in 0..WRITERS {
             let inbox = Arc::clone(&inbox);
             threads.spawn(move || {
-                while let Some(finished_run) = next(&inbox) {
-                    keep(&finished_run);
-                    kept(finished_run);
+                while let Some(finished) = next(&inbox) {
+                    keep(&finished);
+                    kept(finished);
                 }
             });
         }
@@ -66,16 +67,18 @@ pub(super) fn with_store_writer<'a>(
     });
 }
 
-fn next<'a>(inbox: &Mutex<Receiver<FinishedRun<'a>>>) -> Option<FinishedRun<'a>> {
+fn next<T>(inbox: &Mutex<Receiver<T>>) -> Option<T> {
     let inbox = inbox.lock().unwrap_or_else(PoisonError::into_inner);
     inbox.recv().ok()
 }
 
-pub(super) fn keep(finished_run: &FinishedRun) {
+pub(super) fn keep<T: ScheduledTask>(finished: &Finished<T>) {
     let Claim {
         store, progress, ..
-    } = finished_run.claim.as_ref();
-    if let Err(error) = store.put(&finished_run.run) {
-        progress.warn(&format!("a finished run could not be kept: {error}"));
+    } = finished.claim.as_ref();
+    let kept = finished.task.keep(finished.code, &finished.outcome, store);
+    if let Err(error) = kept {
+        let name = T::KIND.name();
+        progress.warn(&format!("a finished {name} could not be kept: {error}"));
     }
 }

@@ -11,20 +11,13 @@ mod session;
 pub use owner::LockOwner;
 
 use crate::code::{Identity, Provenance, Run};
-use crate::dem::{EventRun, Observation};
-use crate::files::{FileError, parse_json, seal, unseal, write_atomically_via};
+use crate::files::{FileError, seal, unseal, write_atomically_via};
 use crate::model::{Case, shown};
-use crate::runs::{Archive, ProbeRecord};
-use serde::{Deserialize, Serialize};
+use crate::runs::{Archive, RunSummary};
 use session::Session;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
-
-/// Directory of the probes.
-const PROBES: &str = "probes";
-/// Directory of the observations of event runs.
-const OBSERVATIONS: &str = "observations";
 
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
@@ -58,12 +51,34 @@ pub enum StoreError {
     },
 }
 
-/// An event run with its observation.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObservedRun {
-    run: EventRun,
-    observation: Observation,
+/// A kind of result that a store keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The run of a case.
+    Run,
+    /// The probe of a code.
+    Probe,
+    /// What was observed in an event run.
+    Observation,
+}
+
+impl Kind {
+    /// What one such result is called.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Probe => "probe",
+            Self::Observation => "observation",
+        }
+    }
+
+    /// The place of the result under `address`, relative to the root of the store.
+    fn place(self, address: &str) -> PathBuf {
+        match self {
+            Self::Run => Path::new("runs").join(&address[..2]).join(&address[2..]),
+            _ => PathBuf::from(format!("{}s/{address}.json", self.name())),
+        }
+    }
 }
 
 /// The finished runs of a user.
@@ -98,16 +113,34 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<Run>, FileError> {
         let address = identity.address(case, deck_hash);
-        let run = self.archive.load(&name(&address))?;
-        let run = run.filter(|run| {
-            let provenance = &run.provenance;
-            let same = provenance.identity == *identity && provenance.deck_hash == deck_hash;
-            same && run.case == *case
-        });
+        let run = self.archive.load(&Kind::Run.place(&address))?;
+        let run =
+            run.filter(|run| is_of(&run.provenance, identity, deck_hash) && run.case == *case);
         if run.is_some() {
             self.forget_checkpoint(&address);
         }
         Ok(run)
+    }
+
+    /// The summary of that run: kept beside its series, or made from it.
+    ///
+    /// # Errors
+    /// If there is such a run, but damaged.
+    pub(crate) fn summary(
+        &self,
+        identity: &Identity,
+        case: &Case,
+        deck_hash: &str,
+    ) -> Result<Option<RunSummary>, FileError> {
+        let address = identity.address(case, deck_hash);
+        let summary = self.archive.load_summary(&Kind::Run.place(&address))?;
+        let summary = summary.filter(|summary| {
+            is_of(&summary.provenance, identity, deck_hash) && summary.case == *case
+        });
+        if summary.is_some() {
+            self.forget_checkpoint(&address);
+        }
+        Ok(summary)
     }
 
     /// Keeps a finished run and removes its checkpoint.
@@ -118,7 +151,7 @@ impl Store {
             ..
         } = &run.provenance;
         let address = identity.address(&run.case, deck_hash);
-        self.archive.save(&name(&address), run)?;
+        self.archive.save(&Kind::Run.place(&address), run)?;
         self.forget_checkpoint(&address);
         Ok(())
     }
@@ -129,64 +162,43 @@ impl Store {
         let _ = std::fs::remove_file(checkpoint);
     }
 
-    /// Puts the damaged run under `address` into quarantine, and returns its place there.
-    pub(crate) fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
-        let aside = self.aside(address);
-        self.archive.move_away(&name(address), &aside)?;
+    /// Puts the damaged result under `address` into quarantine, and returns its place there.
+    pub(crate) fn put_aside(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
+        let directory = self.archive.root().join("quarantine");
+        let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
+        let free = places.find(|place| !place.exists());
+        let aside = free.expect("there are more numbers than files");
+        self.archive.move_away(&kind.place(address), &aside)?;
         Ok(aside)
     }
 
-    /// The kept probe with the given address, if there is one.
+    /// The result of the given kind under `address`, a single file that `parse` reads, if there is one.
     ///
     /// # Errors
     /// If there is one, but damaged.
-    pub fn probe(&self, address: &str) -> Result<Option<ProbeRecord>, FileError> {
-        let path = self.path(PROBES, address);
-        let text = read_sealed(&path)?;
-        text.map(|text| ProbeRecord::parse(&text, &path))
-            .transpose()
-    }
-
-    /// Keeps a probe.
-    pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
-        self.put_sealed(&self.path(PROBES, address), &record.to_json())
-    }
-
-    /// Puts the damaged probe under `address` into quarantine, and returns its place there.
-    pub(crate) fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
-        self.put_file_aside(PROBES, address)
-    }
-
-    /// The kept observation of `run`, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
-    pub fn observation(&self, run: &EventRun) -> Result<Option<Observation>, FileError> {
-        let path = self.path(OBSERVATIONS, &run.address());
-        let Some(text) = read_sealed(&path)? else {
-            return Ok(None);
-        };
-        let kept: ObservedRun = parse_json(&text, &path)?;
-        Ok((kept.run == *run).then_some(kept.observation))
-    }
-
-    /// Keeps the `observation` of `run`.
-    pub(crate) fn put_observation(
+    pub(crate) fn sealed<T>(
         &self,
-        run: &EventRun,
-        observation: &Observation,
-    ) -> Result<(), FileError> {
-        let kept = ObservedRun {
-            run: *run,
-            observation: *observation,
-        };
-        let content = serde_json::to_string(&kept).expect("plain data has a JSON form") + "\n";
-        self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &content)
+        kind: Kind,
+        address: &str,
+        parse: impl FnOnce(&[u8], &Path) -> Result<T, FileError>,
+    ) -> Result<Option<T>, FileError> {
+        let path = self.archive.root().join(kind.place(address));
+        match std::fs::read(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(FileError::reading(&path)(error)),
+            Ok(sealed) => parse(unseal(&path, &sealed)?, &path).map(Some),
+        }
     }
 
-    /// Puts the damaged observation of `run` into quarantine, and returns its place there.
-    pub(crate) fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
-        self.put_file_aside(OBSERVATIONS, &run.address())
+    /// Keeps the `content` of a result of the given kind under `address`.
+    pub(crate) fn put_sealed(
+        &self,
+        kind: Kind,
+        address: &str,
+        content: &str,
+    ) -> Result<(), FileError> {
+        let path = self.archive.root().join(kind.place(address));
+        write_atomically_via(self.session.work(), &path, &seal(content.as_bytes()))
     }
 
     /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
@@ -215,42 +227,9 @@ impl Store {
     pub(crate) fn work_directory(&self) -> &Path {
         self.session.work()
     }
-
-    /// The file of one `kind` under `address`.
-    fn path(&self, kind: &str, address: &str) -> PathBuf {
-        let name = format!("{address}.json");
-        self.archive.root().join(kind).join(name)
-    }
-
-    fn put_sealed(&self, path: &Path, content: &str) -> Result<(), FileError> {
-        write_atomically_via(self.session.work(), path, &seal(content.as_bytes()))
-    }
-
-    fn put_file_aside(&self, kind: &str, address: &str) -> Result<PathBuf, FileError> {
-        let aside = self.aside(address);
-        self.archive
-            .move_away(&self.path(kind, address), &aside)
-            .map(|()| aside)
-    }
-
-    /// A free place in quarantine.
-    fn aside(&self, address: &str) -> PathBuf {
-        let directory = self.archive.root().join("quarantine");
-        let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
-        let free = places.find(|place| !place.exists());
-        free.expect("there are more numbers than files")
-    }
 }
 
-/// The content of the sealed file at `path`, if there is one.
-fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
-    match std::fs::read(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(FileError::reading(path)(error)),
-        Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),
-    }
-}
-
-fn name(address: &str) -> PathBuf {
-    Path::new("runs").join(&address[..2]).join(&address[2..])
+/// Whether a run with this `provenance` was made by the program with `identity` from the inputs with `deck_hash`.
+fn is_of(provenance: &Provenance, identity: &Identity, deck_hash: &str) -> bool {
+    provenance.identity == *identity && provenance.deck_hash == deck_hash
 }

@@ -1,29 +1,19 @@
 //! The conventions of the codes, measured before anything is judged by them.
 
 use super::finding::Finding;
+use super::micro_tests::MicroTests;
 use super::probe::probe;
-use crate::code::{Code, Failure, InstalledCode, RunContext, TaskKind, keep_evidence};
-use crate::code::{Identity, Provenance};
-use crate::files::FileError;
-use crate::model::{ContactTest, sha256_hex, shown};
-use crate::runs::{Answer, ProbeRecord, in_parallel};
-use crate::runs::{Progress, RecordedError, SelectedCode, Settings};
+use crate::code::{Code, Identity};
+use crate::runs::{ProbeRecord, Progress, RunError, SelectedCode, Settings, Workload, read_all};
 use crate::study::Verdict;
-use std::time::Instant;
 use thiserror::Error;
 
 /// Why a convention has not been measured.
 #[derive(Debug, Error)]
 pub enum ProbeError {
-    /// The code failed.
+    /// The code failed, or it is not installed and no recorded probe stands in.
     #[error(transparent)]
-    Failed(#[from] Box<Failure>),
-    /// The code is not installed, and no recorded probe stands in.
-    #[error(transparent)]
-    Missing(#[from] RecordedError),
-    /// There is no directory to work in.
-    #[error(transparent)]
-    RunContext(#[from] FileError),
+    Unanswered(#[from] RunError),
     /// The recorded answers are those to other questions.
     #[error(
         "the recorded probe of {0} answers other micro-tests than today's; refresh it with: tristack record --codes {0}"
@@ -34,7 +24,7 @@ pub enum ProbeError {
 impl ProbeError {
     /// Whether nothing is wrong but that the user did not want to wait.
     pub(crate) fn is_interrupted(&self) -> bool {
-        matches!(self, Self::Failed(failure) if failure.is_interrupted())
+        matches!(self, Self::Unanswered(error) if error.is_interrupted())
     }
 }
 
@@ -50,126 +40,44 @@ pub struct Findings {
 /// The findings on one selected.
 pub type Probed = Result<Findings, ProbeError>;
 
-/// Probes `codes`, as many at a time as `settings` allow, and returns the findings in their order.
+/// Probes `codes`, and returns the findings in their order.
 pub fn probe_all(
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Probed> {
-    in_parallel(codes, settings.threads, |who| {
-        findings(who, settings, progress)
-    })
+    let records = probe_records(codes, settings, progress).into_iter();
+    let probed = codes.iter().zip(records);
+    probed
+        .map(|(who, record)| findings(who.name, record?))
+        .collect()
 }
 
-fn findings(who: &SelectedCode, settings: &Settings, progress: &dyn Progress) -> Probed {
-    let record = record_probe(who, settings, progress)?;
-    let declared = who.name.declaration();
-    let properties = probe(&declared, |tests| {
-        record.answer(tests).ok_or(ProbeError::Outdated(who.name))
-    })?;
-    let version = &record.provenance.identity.version;
-    let judged = properties
-        .into_iter()
-        .map(|property| property.judge(who.name, version));
-    Ok(Findings {
-        findings: judged.collect(),
-        identity: record.provenance.identity.clone(),
-    })
-}
-
-/// The answers of a selected to all micro-tests: from the store, live, or recorded.
-///
-/// # Errors
-/// If it fails, or is neither installed nor recorded.
-pub fn record_probe(
-    who: &SelectedCode,
+/// The answers of each of `codes` to all micro-tests: from the store, live, or recorded.
+pub(crate) fn probe_records(
+    codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<ProbeRecord, ProbeError> {
-    let Some(code) = who.code.as_deref() else {
-        return Ok(settings.recorded.probe(who.name)?);
-    };
-    // The native code answers faster than its answers are read, and all of tristack decides what they are.
-    if who.name == Code::NATIVE {
-        return ask(code, settings);
-    }
-    let address = address(code);
-    if !settings.fresh {
-        match settings.store.probe(&address) {
-            Ok(Some(record)) if is_current(&record, who.name) => return Ok(record),
-            Ok(_) => {}
-            Err(error) => {
-                let aside = settings.store.put_probe_aside(&address)?;
-                progress.warn(&format!(
-                    "damaged probe in the store, made anew: {error}; it is now {}",
-                    shown(&aside)
-                ));
-            }
-        }
-    }
-    let record = ask(code, settings)?;
-    if let Err(error) = settings.store.put_probe(&address, &record) {
-        progress.warn(&format!("a finished probe could not be kept: {error}"));
-    }
-    Ok(record)
-}
-
-/// Whether `record` answers everything that is asked today, as it is asked today.
-fn is_current(record: &ProbeRecord, name: Code) -> bool {
-    if record.outdated(|test| name.deck_hash(test)).is_some() {
-        return false;
-    }
-    let answered = |tests: &[ContactTest]| record.answer(tests).ok_or(());
-    probe(&name.declaration(), answered).is_ok()
-}
-
-/// Content address of a probe: the identity of the code and its deck.
-fn address(code: &dyn InstalledCode) -> String {
-    let parts = serde_json::json!([code.identity(), code.name().files_hash(TaskKind::Motion)]);
-    sha256_hex(parts.to_string().as_bytes())
-}
-
-fn ask(code: &dyn InstalledCode, settings: &Settings) -> Result<ProbeRecord, ProbeError> {
-    let start = Instant::now();
-    let work = settings.store.work_directory();
-    let prefix = format!("{}-probe-", code.name());
-    let directory = tempfile::Builder::new()
-        .prefix(&prefix)
-        .tempdir_in(work)
-        .map_err(FileError::writing(work))?;
-    let name = code.name();
-    let mut answers: Vec<Answer> = Vec::new();
-    let mut round = 0;
-    let answered = probe(&name.declaration(), |tests| {
-        round += 1;
-        let place = directory.path().join(format!("round-{round}"));
-        let context = RunContext {
-            time_limit: settings.time_limit,
-            ..RunContext::new(&place, settings.interrupt)
-        };
-        let motions = code.probe(tests, &context)?;
-        answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
-            test: *test,
-            input_hash: name.deck_hash(test),
-            motion: motion.clone(),
-        }));
-        Ok(motions)
+) -> Vec<Result<ProbeRecord, RunError>> {
+    let workloads = codes.iter().map(|selected| Workload {
+        code: selected.name,
+        tasks: vec![MicroTests],
     });
-    if let Err(failure) = answered {
-        let failure: Box<Failure> = failure;
-        if failure.left_evidence() {
-            keep_evidence(directory);
-        }
-        return Err(failure.into());
-    }
-    let command = vec!["tristack".to_owned(), "probe".to_owned()];
-    let steps = answers.iter().map(|answer| answer.test.steps).sum();
-    let seconds = start.elapsed().as_secs_f64();
-    let told: Vec<&str> = answers.iter().map(|one| one.input_hash.as_str()).collect();
-    let hash = sha256_hex(told.concat().as_bytes());
-    Ok(ProbeRecord {
-        provenance: Provenance::now(code.identity().clone(), hash, command, steps, seconds),
-        answers,
+    let workloads: Vec<Workload<MicroTests>> = workloads.collect();
+    let records = read_all(&workloads, codes, settings, progress);
+    records.into_iter().flatten().collect()
+}
+
+fn findings(code: Code, record: ProbeRecord) -> Probed {
+    let properties = probe(&code.declaration(), |tests| {
+        record.answer(tests).ok_or(ProbeError::Outdated(code))
+    })?;
+    let identity = record.provenance.identity;
+    let properties = properties.into_iter();
+    let findings = properties.map(|property| property.judge(code, &identity.version));
+    Ok(Findings {
+        findings: findings.collect(),
+        identity,
     })
 }
 

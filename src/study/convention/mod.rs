@@ -9,6 +9,7 @@ mod contact_frame;
 mod experiments;
 mod finding;
 mod measured;
+mod micro_tests;
 mod normal;
 mod plan;
 mod probe;
@@ -21,7 +22,6 @@ pub(crate) use finding::Finding;
 pub use finding::TOLERANCE;
 pub use measured::probe_all;
 pub(crate) use measured::{
-    ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,
-    record_probe,
+    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
 pub use probe::probe;

@@ -83,7 +83,7 @@ fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, R
         let plan = plan_preparation(native, native, stack, Some(*push));
         Workload {
             code: native,
-            cases: plan.cases().get(MIDDLE_RUN).copied().into_iter().collect(),
+            tasks: plan.cases().get(MIDDLE_RUN).copied().into_iter().collect(),
         }
     });
     let workloads: Vec<Workload> = workloads.collect();

@@ -1,9 +1,11 @@
 //! A boundary of the regime map: the runs on both sides of it, and whether they show what is claimed.
 
 use super::loading::loading;
+use crate::code::Code;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
-use crate::study::{Ground, Grounds, Verdict};
+use crate::runs::Workload;
+use crate::study::{Evaluation, Ground, Grounds, Judged, Study, Verdict};
 use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
 
 /// Wall speed in units of the predicted displacement. It keeps the forces at the events within 3e-5 of those of
@@ -53,7 +55,9 @@ impl Confirmation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SidePlan {
     claimed: LoadingOutcome,
-    pub(super) run: EventRun,
+    run: EventRun,
+    /// The regime that contradicts the claim in a faster run, of which this is the repeat.
+    contradicting: Option<Option<Regime>>,
 }
 
 impl SidePlan {
@@ -73,50 +77,78 @@ impl SidePlan {
             loading: loading(&stack, &claimed.last, SPEED, FURTHER),
             until: Until::LastEvent,
         };
-        Self { claimed, run }
+        Self {
+            claimed,
+            run,
+            contradicting: None,
+        }
     }
 
-    /// The slower run that is needed if the `first` one contradicts the claim.
-    pub(super) fn repeat(&self, first: &Observation) -> Option<EventRun> {
-        let contradicted = first.complete && regime(first) != Some(self.claimed.regime());
+    /// The slower run that is needed if the one `observed` contradicts the claim.
+    pub(super) fn repeat(&self, observed: &Observation) -> Option<Self> {
+        let shown = regime(observed);
         let usual = self.run.loading;
-        contradicted.then_some(EventRun {
+        let slower = EventRun {
             loading: Loading {
                 gravity_rate: usual.gravity_rate / SLOWER,
                 wall_speed: usual.wall_speed / SLOWER,
                 ..usual
             },
             ..self.run
+        };
+        (shown != Some(self.claimed.regime())).then_some(Self {
+            run: slower,
+            contradicting: Some(shown),
+            ..*self
         })
     }
+}
 
-    /// Compares the observation of the `first` run, and that of its repeat if there was one, with the claim. A
-    /// contradiction counts if the slower run shows it again; if it shows anything else, even what was claimed,
-    /// nothing is decided.
-    pub(super) fn evaluate(&self, first: &Observation, repeat: Option<&Observation>) -> Side {
+impl Study for SidePlan {
+    type Reading = Observation;
+    type Finding = Observation;
+
+    fn code(&self) -> Code {
+        Code::NATIVE
+    }
+
+    fn workloads(&self) -> Vec<Workload<EventRun>> {
+        vec![Workload {
+            code: Code::NATIVE,
+            tasks: vec![self.run],
+        }]
+    }
+
+    /// Compares the observed regime with the claim. A contradiction counts if the slower run shows it again; if it
+    /// shows anything else, even what was claimed, nothing is decided. A run without events was too short to show
+    /// anything.
+    fn evaluate(&self, runs: Vec<Vec<Observation>>) -> Evaluation<Observation> {
+        let finding = runs[0][0];
+        let shown = regime(&finding);
         let mut grounds = Grounds::new();
-        match repeat {
-            None if first.complete => grounds.add(Ground::Held),
-            Some(second) if shows_again(first, second) => {
+        match self.contradicting {
+            None if shown == Some(self.claimed.regime()) => grounds.add(Ground::Held),
+            Some(first) if shown.is_some() && shown == first => {
                 grounds.hold(false, "a slower run shows the contradiction again");
             }
             _ => grounds.add(Ground::Undecidable("the runs do not decide".to_owned())),
         }
-        let last = repeat.unwrap_or(first);
-        Side {
-            stack: self.run.stack,
-            claimed: self.claimed,
-            observed: regime(last),
-            observed_force: last.force,
-            verdict: grounds.verdict(),
-        }
+        Evaluation { finding, grounds }
     }
 }
 
-/// Whether the `second` run is complete and shows the regime of the `first` one. A run without events was too short
-/// to show anything.
-fn shows_again(first: &Observation, second: &Observation) -> bool {
-    second.complete && regime(second).is_some() && regime(second) == regime(first)
+impl Side {
+    /// The stack and the last observation of it.
+    pub(super) fn new(judged: &Judged<SidePlan, Observation>) -> Self {
+        let observed = judged.finding.as_ref();
+        Self {
+            stack: judged.study.run.stack,
+            claimed: judged.study.claimed,
+            observed: observed.and_then(regime),
+            observed_force: observed.map_or(0.0, |observed| observed.force),
+            verdict: judged.verdict(),
+        }
+    }
 }
 
 /// The observed regime; `None` without events.

@@ -1,12 +1,14 @@
 //! The largest force that a stack bears: the runs that measure it, and the comparison with theory.
 
 use super::loading::loading;
+use crate::code::Code;
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::Stack;
+use crate::runs::Workload;
 use crate::series::{Estimate, YieldEstimates};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
-use crate::study::{Ground, Grounds, MAX_TOLERANCE, Verdict};
+use crate::study::{Evaluation, Grounds, Judged, MAX_TOLERANCE, Study, Verdict};
 use crate::theory::{FailureMode, LoadingOutcome};
 
 /// Travel of the wall in units of the predicted travel to the end of the path: far enough beyond it for a force with a
@@ -42,7 +44,7 @@ pub(super) struct PeakPlan {
     stack: Stack,
     claimed: LoadingOutcome,
     /// In the order that [`extrapolate`] expects.
-    pub(super) runs: Vec<EventRun>,
+    runs: Vec<EventRun>,
 }
 
 impl PeakPlan {
@@ -60,9 +62,34 @@ impl PeakPlan {
             runs: loadings(stack, &claimed).into_iter().map(run).collect(),
         })
     }
+}
 
-    /// Compares the peaks of the `observations` of all runs, in their order, with theory.
-    pub(super) fn evaluate(&self, observations: &[Observation]) -> Examination {
+/// The peak of the wall force of a stack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PeakFinding {
+    peak: Option<Extrapolation>,
+    uncertainty: Option<f64>,
+    error: Option<f64>,
+}
+
+impl Study for PeakPlan {
+    type Reading = Observation;
+    type Finding = PeakFinding;
+
+    fn code(&self) -> Code {
+        Code::NATIVE
+    }
+
+    fn workloads(&self) -> Vec<Workload<EventRun>> {
+        vec![Workload {
+            code: Code::NATIVE,
+            tasks: self.runs.clone(),
+        }]
+    }
+
+    /// Compares the peaks of the runs with theory.
+    fn evaluate(&self, runs: Vec<Vec<Observation>>) -> Evaluation<PeakFinding> {
+        let observations = runs.concat();
         let estimates: Vec<YieldEstimates> = observations.iter().map(estimates).collect();
         let steps: Vec<u64> = observations.iter().map(|run| run.steps).collect();
         let peak = extrapolate(&estimates, &steps, self.stack.stiffness, |run| run.peak);
@@ -70,29 +97,9 @@ impl PeakPlan {
         let uncertainty = peak.map(|peak| peak.budget.total() + wrong_order(&peak, slowest));
         let both = peak.zip(self.claimed.largest_force);
         let error = both.map(|(peak, force)| (peak.force - force) / (force + 3.0));
-        Examination {
-            stack: self.stack,
-            claimed: self.claimed,
-            peak,
-            uncertainty,
-            error,
-            verdict: self.verdict(observations, error, uncertainty),
-        }
-    }
-
-    fn verdict(
-        &self,
-        observations: &[Observation],
-        error: Option<f64>,
-        uncertainty: Option<f64>,
-    ) -> Verdict {
-        let complete = observations.iter().all(|observation| observation.complete);
         let falls = self.claimed.failure_mode == FailureMode::Collapses;
         let as_claimed = observations.iter().all(|run| run.stands != falls);
         let mut grounds = Grounds::new();
-        if !complete {
-            grounds.add(Ground::Undecidable("a run was given up".to_owned()));
-        }
         grounds.hold(as_claimed, "the stack falls, or stands, against the claim");
         match (error, uncertainty, self.claimed.largest_force) {
             // Contacts that open and slide on the way make the approach to the peak irregular: the uncertainty is
@@ -105,7 +112,26 @@ impl PeakPlan {
                 "a peak is there or absent against the claim",
             ),
         }
-        grounds.verdict()
+        let finding = PeakFinding {
+            peak,
+            uncertainty,
+            error,
+        };
+        Evaluation { finding, grounds }
+    }
+}
+
+impl Examination {
+    pub(super) fn new(judged: &Judged<PeakPlan, PeakFinding>) -> Self {
+        let found = judged.finding;
+        Self {
+            stack: judged.study.stack,
+            claimed: judged.study.claimed,
+            peak: found.and_then(|found| found.peak),
+            uncertainty: found.and_then(|found| found.uncertainty),
+            error: found.and_then(|found| found.error),
+            verdict: judged.verdict(),
+        }
     }
 }
 

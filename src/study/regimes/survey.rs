@@ -1,19 +1,16 @@
-//! The survey of the regime maps: plan, runs, repeats, evaluation.
+//! The survey of the regime maps: sides of boundaries, repeats, largest forces.
 
-use super::boundary::{Confirmation, SidePlan};
+use super::boundary::{Confirmation, Side, SidePlan};
 use super::largest_force::{Examination, PeakPlan};
-use crate::dem::{EventRun, Observation};
 use crate::model::Stack;
-use crate::runs::{Progress, Settings, observe_all};
-use crate::study::Verdict;
+use crate::study::{Campaign, Judged, Verdict};
 use crate::theory::BoundaryPoint;
+use std::collections::BTreeSet;
 
-/// The runs of a survey.
+/// The studies of a survey.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurveyPlan {
     points: Vec<BoundaryPoint>,
-    /// Both neighbours of every point.
-    sides: Vec<SidePlan>,
     peaks: Vec<PeakPlan>,
 }
 
@@ -24,6 +21,8 @@ pub struct Survey {
     pub confirmations: Vec<Confirmation>,
     /// Stack by stack.
     pub examinations: Vec<Examination>,
+    /// Why some of them are not judged, each reason once.
+    pub notes: Vec<String>,
 }
 
 impl Survey {
@@ -39,56 +38,41 @@ impl SurveyPlan {
     pub fn new(points: &[BoundaryPoint], stacks: &[Stack]) -> Self {
         Self {
             points: points.to_vec(),
-            sides: points.iter().flat_map(SidePlan::beside).collect(),
             peaks: stacks.iter().filter_map(PeakPlan::new).collect(),
-        }
-    }
-
-    /// The runs of the first round: those of the sides, then those of the largest forces.
-    fn runs(&self) -> Vec<EventRun> {
-        let sides = self.sides.iter().map(|side| side.run);
-        let peaks = self.peaks.iter().flat_map(|peak| peak.runs.clone());
-        sides.chain(peaks).collect()
-    }
-
-    /// The runs of the second round, which follow from those `observed` in the first: repeats of sides.
-    fn repeats(&self, observed: &[Observation]) -> Vec<EventRun> {
-        let sides = self.sides.iter().zip(observed);
-        sides
-            .filter_map(|(side, first)| side.repeat(first))
-            .collect()
-    }
-
-    /// The result of both rounds.
-    fn evaluate(&self, observed: &[Observation], repeated: &[Observation]) -> Survey {
-        let (of_sides, mut of_peaks) = observed.split_at(self.sides.len());
-        let mut repeated = repeated.iter();
-        let sides = self.sides.iter().zip(of_sides).map(|(side, first)| {
-            let repeat = side.repeat(first).and_then(|_| repeated.next());
-            side.evaluate(first, repeat)
-        });
-        let sides: Vec<_> = sides.collect();
-        let confirmations = self.points.iter().zip(sides.chunks_exact(2));
-        let examinations = self.peaks.iter().map(|peak| {
-            let (own, others) = of_peaks.split_at(peak.runs.len());
-            of_peaks = others;
-            peak.evaluate(own)
-        });
-        Survey {
-            confirmations: confirmations
-                .map(|(point, sides)| Confirmation {
-                    point: *point,
-                    sides: [sides[0], sides[1]],
-                })
-                .collect(),
-            examinations: examinations.collect(),
         }
     }
 }
 
-/// Carries out `plan`: both rounds of runs, from the store where they are there already.
-pub fn survey(plan: &SurveyPlan, settings: &Settings, progress: &dyn Progress) -> Survey {
-    let observed = observe_all(&plan.runs(), settings, progress);
-    let repeated = observe_all(&plan.repeats(&observed), settings, progress);
-    plan.evaluate(&observed, &repeated)
+/// Carries out `plan` with the native code; `None` after an interrupt.
+pub fn survey(plan: &SurveyPlan, campaign: &Campaign) -> Option<Survey> {
+    let sides = plan.points.iter().flat_map(SidePlan::beside).collect();
+    let mut sides = campaign.carry_out::<SidePlan>(sides);
+    let repeated = sides.iter_mut().filter_map(|side| {
+        let repeat = side.study.repeat(side.finding.as_ref()?)?;
+        Some((side, repeat))
+    });
+    let (repeated, repeats): (Vec<_>, Vec<_>) = repeated.unzip();
+    for (side, judged) in repeated.into_iter().zip(campaign.carry_out(repeats)) {
+        *side = judged;
+    }
+    let peaks = campaign.carry_out(plan.peaks.clone());
+    if campaign.settings().interrupt.requested() {
+        return None;
+    }
+    let of_sides = sides.iter().flat_map(Judged::notes);
+    let notes: BTreeSet<&str> = of_sides
+        .chain(peaks.iter().flat_map(Judged::notes))
+        .collect();
+    let notes = notes.into_iter().map(str::to_owned).collect();
+    let sides: Vec<Side> = sides.iter().map(Side::new).collect();
+    let pairs = plan.points.iter().zip(sides.chunks_exact(2));
+    let confirmations = pairs.map(|(point, sides)| Confirmation {
+        point: *point,
+        sides: [sides[0], sides[1]],
+    });
+    Some(Survey {
+        confirmations: confirmations.collect(),
+        examinations: peaks.iter().map(Examination::new).collect(),
+        notes,
+    })
 }

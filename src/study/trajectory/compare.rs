@@ -7,7 +7,7 @@ use super::judgement::{Comparison, TrajectoryFinding};
 use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::code::{Code, Identity, Run};
 use crate::model::Case;
-use crate::runs::{Reading, RunSummary, Workload};
+use crate::runs::{Reading, Workload};
 use crate::series::Sample;
 use crate::study::{Evaluation, Ground, Grounds, Study};
 
@@ -19,16 +19,13 @@ pub struct Rows {
 }
 
 impl Reading for Rows {
-    fn of_run(run: Run) -> Self {
+    type Task = Case;
+
+    fn of(run: Run) -> Self {
         Self {
             identity: run.provenance.identity,
             samples: run.series.samples().to_vec(),
         }
-    }
-
-    /// A summary has no rows.
-    fn of_summary(_: RunSummary) -> Option<Self> {
-        None
     }
 
     fn identity(&self) -> &Identity {
@@ -47,11 +44,11 @@ impl Study for Trajectory {
     fn workloads(&self) -> Vec<Workload> {
         let own = Workload {
             code: self.code,
-            cases: self.cases.clone(),
+            tasks: self.cases.clone(),
         };
         let twins = self.twins.iter().map(|runs| Workload {
             code: Code::NATIVE,
-            cases: runs.all().copied().collect(),
+            tasks: runs.all().copied().collect(),
         });
         std::iter::once(own).chain(twins).collect()
     }

@@ -36,7 +36,7 @@ impl Study for Measurement {
     fn workloads(&self) -> Vec<Workload> {
         vec![Workload {
             code: self.code,
-            cases: self.cases.clone(),
+            tasks: self.cases.clone(),
         }]
     }
 

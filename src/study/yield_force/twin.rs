@@ -1,7 +1,7 @@
 //! Measures round-off: the same runs by a build of the code that computes with more digits.
 
 use super::plan::Measurement;
-use crate::runs::{Progress, RunError, SelectedCode, Settings, run_all};
+use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, read_all};
 use crate::series::YieldEstimates;
 use crate::study::Study;
 
@@ -27,16 +27,10 @@ pub(crate) fn measure_with_twin(
         name: measurement.code,
         code: Some(code),
     };
-    let stack = measurement.stack;
-    let results = run_all(
-        &measurement.workloads(),
-        &[twin],
-        settings,
-        progress,
-        |run| YieldEstimates::read(&run.series, &stack),
-    );
-    let estimates: Result<Vec<YieldEstimates>, RunError> = results.into_iter().flatten().collect();
-    let estimates = match estimates {
+    let results = read_all(&measurement.workloads(), &[twin], settings, progress);
+    let runs = results.into_iter().flatten();
+    let estimates = runs.map(|run| run.map(|run: RunSummary| run.estimates));
+    let estimates: Vec<YieldEstimates> = match estimates.collect::<Result<_, RunError>>() {
         Ok(estimates) => estimates,
         Err(error) => return Some(Err(error)),
     };

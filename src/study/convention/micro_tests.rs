@@ -1,0 +1,144 @@
+//! The micro-tests of a code in the schedule: both rounds of a probe are one task.
+
+use super::probe::probe;
+use crate::code::{Code, Failure, Finished, Identity, InstalledCode};
+use crate::code::{Provenance, RunContext, TaskKind};
+use crate::files::FileError;
+use crate::model::{ContactTest, sha256_hex};
+use crate::runs::{Answer, Kind, ProbeRecord, Progress, Reading, Recorded};
+use crate::runs::{RecordedError, ScheduledTask, Store};
+use std::time::Instant;
+
+/// All micro-tests that measure the convention of a code.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MicroTests;
+
+impl std::fmt::Display for MicroTests {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("micro-tests")
+    }
+}
+
+impl ScheduledTask for MicroTests {
+    type Outcome = ProbeRecord;
+
+    const KIND: Kind = Kind::Probe;
+
+    fn content_hash(&self) -> String {
+        String::new()
+    }
+
+    /// Too few to be worth a forecast.
+    fn steps(&self) -> u64 {
+        0
+    }
+
+    /// That of the identity of the code and of its deck.
+    fn address(&self, code: &dyn InstalledCode) -> String {
+        let parts = serde_json::json!([code.identity(), code.name().files_hash(TaskKind::Motion)]);
+        sha256_hex(parts.to_string().as_bytes())
+    }
+
+    fn stored(
+        &self,
+        code: &dyn InstalledCode,
+        store: &Store,
+    ) -> Result<Option<ProbeRecord>, FileError> {
+        if is_faster_made(code) {
+            return Ok(None);
+        }
+        let record = store.sealed(Self::KIND, &self.address(code), ProbeRecord::parse)?;
+        Ok(record.filter(|record| is_current(record, code.name())))
+    }
+
+    fn keep(
+        &self,
+        code: &dyn InstalledCode,
+        record: &ProbeRecord,
+        store: &Store,
+    ) -> Result<(), FileError> {
+        if is_faster_made(code) {
+            return Ok(());
+        }
+        store.put_sealed(Self::KIND, &self.address(code), &record.to_json())
+    }
+
+    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<ProbeRecord, RecordedError> {
+        recorded.probe(code)
+    }
+
+    fn carry_out(
+        tasks: &[Self],
+        code: &dyn InstalledCode,
+        context: &RunContext,
+        finished: Finished<ProbeRecord>,
+    ) {
+        for index in 0..tasks.len() {
+            finished(index, ask(code, context).map_err(|failure| *failure));
+        }
+    }
+
+    fn report(&self, code: Code, result: Result<&ProbeRecord, &Failure>, progress: &dyn Progress) {
+        let seconds = result.map(|record| Some(record.provenance.seconds));
+        progress.finished(code, self, seconds);
+    }
+}
+
+impl Reading for ProbeRecord {
+    type Task = MicroTests;
+
+    fn of(record: ProbeRecord) -> Self {
+        record
+    }
+
+    fn identity(&self) -> &Identity {
+        &self.provenance.identity
+    }
+}
+
+/// Whether the answers are made faster than they are read from the store, as those of the native code, on which all
+/// of tristack decides.
+fn is_faster_made(code: &dyn InstalledCode) -> bool {
+    code.name() == Code::NATIVE
+}
+
+/// Whether `record` answers everything that is asked today, as it is asked today.
+fn is_current(record: &ProbeRecord, name: Code) -> bool {
+    if record.outdated(|test| name.deck_hash(test)).is_some() {
+        return false;
+    }
+    let answered = |tests: &[ContactTest]| record.answer(tests).ok_or(());
+    probe(&name.declaration(), answered).is_ok()
+}
+
+/// Asks `code`, each round in a directory of its own.
+fn ask(code: &dyn InstalledCode, context: &RunContext) -> Result<ProbeRecord, Box<Failure>> {
+    let start = Instant::now();
+    let name = code.name();
+    let mut answers: Vec<Answer> = Vec::new();
+    let mut round = 0;
+    probe(&name.declaration(), |tests| {
+        round += 1;
+        let place = context.directory.join(format!("round-{round}"));
+        let context = RunContext {
+            time_limit: context.time_limit,
+            ..RunContext::new(&place, context.interrupt)
+        };
+        let motions = code.probe(tests, &context)?;
+        answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
+            test: *test,
+            input_hash: name.deck_hash(test),
+            motion: motion.clone(),
+        }));
+        Ok::<_, Box<Failure>>(motions)
+    })?;
+    let command = vec!["tristack".to_owned(), "probe".to_owned()];
+    let steps = answers.iter().map(|answer| answer.test.steps).sum();
+    let seconds = start.elapsed().as_secs_f64();
+    let inputs: Vec<&str> = answers.iter().map(|one| one.input_hash.as_str()).collect();
+    let hash = sha256_hex(inputs.concat().as_bytes());
+    Ok(ProbeRecord {
+        provenance: Provenance::now(code.identity().clone(), hash, command, steps, seconds),
+        answers,
+    })
+}

@@ -83,7 +83,7 @@ impl Progress for Reporter {
         let mut counts = self.counts();
         if !self.drawn && counts.last_line.elapsed() > BETWEEN_LINES {
             counts.last_line = Instant::now();
-            let done = self.bar.position() as f64 / self.bar.length().unwrap_or(1) as f64;
+            let done = self.bar.position() as f64 / self.bar.length().unwrap_or(0).max(1) as f64;
             let left = HumanDuration(self.bar.eta());
             tell!("{:.0} % done, {left} left", 100.0 * done);
         }

@@ -277,7 +277,11 @@ impl Definition {
     }
 }
 
-fn refused(key: &str, value: impl ToString, accepted: impl Into<String>) -> InvalidValue {
+pub(super) fn refused(
+    key: &str,
+    value: impl ToString,
+    accepted: impl Into<String>,
+) -> InvalidValue {
     InvalidValue {
         key: key.to_owned(),
         value: value.to_string(),

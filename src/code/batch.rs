@@ -1,7 +1,7 @@
 //! One process of an external code and its tasks: run directories, the run, outcomes and failures.
 
 use super::failure::{Failure, FailureKind};
-use super::installation::InstalledProgram;
+use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
 use super::manifest::{Definition, ResultFile};
 use super::parameters::only_numbers;
@@ -20,7 +20,7 @@ const TAIL_BYTES: u64 = 4096;
 
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
-    program: &'a InstalledProgram,
+    code: &'a ExternalCode,
     definition: &'static Definition,
     result: ResultFile,
     tasks: &'a [T],
@@ -36,9 +36,9 @@ pub(crate) struct Batch<'a, T: Task> {
 type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 
 impl<'a, T: Task> Batch<'a, T> {
-    /// `tasks`, at least one, for one process of `program`, in `directory`.
-    pub fn new(program: &'a InstalledProgram, tasks: &'a [T], directory: PathBuf) -> Self {
-        let definition = program.code.definition();
+    /// `tasks`, at least one, for one process of `code`, in `directory`.
+    pub fn new(code: &'a ExternalCode, tasks: &'a [T], directory: PathBuf) -> Self {
+        let definition = code.name.definition();
         let task_directories: Vec<String> = match tasks {
             [_] => vec![".".to_owned()],
             _ => (0..tasks.len())
@@ -46,7 +46,7 @@ impl<'a, T: Task> Batch<'a, T> {
                 .collect(),
         };
         Self {
-            program,
+            code,
             definition,
             result: definition.result(tasks[0].kind()),
             tasks,
@@ -97,9 +97,9 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn prepare(&self) -> Result<(), FailureKind> {
-        self.program.installation.check_unchanged()?;
+        self.code.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let accepted = self.program.code.check_convention(task.convention());
+            let accepted = self.code.name.check_convention(task.convention());
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
@@ -133,9 +133,9 @@ impl<'a, T: Task> Batch<'a, T> {
         report: Report<T>,
     ) -> Result<Ending, FailureKind> {
         let kind = self.tasks[0].kind();
-        let command = self.program.command(kind, &self.task_directories);
+        let command = self.code.command(kind, &self.task_directories);
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
-        command[0] = self.program.installation.program.clone().into_os_string();
+        command[0] = self.code.program.clone().into_os_string();
         let none = Environment::new();
         let own = self.definition.program.as_ref();
         let directory = self.directory.clone();
@@ -186,7 +186,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let outcome = self.tasks[index].read_outcome(&directory, &self.result);
         let outcome = outcome.map_err(FailureKind::Series);
         // A program that was replaced meanwhile may not be the one that ran.
-        let unchanged = self.program.installation.check_unchanged();
+        let unchanged = self.code.check_unchanged();
         match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
                 let seconds = self.last_report.elapsed().as_secs_f64();
@@ -204,7 +204,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn fail(&mut self, index: usize, kind: FailureKind, report: Report<T>) {
         let failure = Failure {
-            code: self.program.code,
+            code: self.code.name,
             subject: self.tasks[index].to_string(),
             kind,
             run_directory: Some(self.task_directory(index)),

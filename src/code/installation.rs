@@ -4,6 +4,7 @@ use super::definition::LONGEST_START;
 use super::failure::FailureKind;
 use super::manifest::{TaskKind, VersionQuestion};
 use super::process::{self, Ending, Environment, Interrupt, Job};
+use super::provenance::Identity;
 use super::registry::Code;
 use crate::model::sha256_hex;
 use std::ffi::OsString;
@@ -18,29 +19,6 @@ const TRIES: usize = 3;
 const LONGEST_VERSION: usize = 100;
 const UNKNOWN: &str = "unknown";
 
-/// An installed program.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Installation {
-    pub program: PathBuf,
-    /// Its own version, or that of its package.
-    pub version: String,
-    /// Distribution package and its version, if the program belongs to one.
-    pub package: Option<String>,
-    /// SHA-256 of the program file.
-    pub hash: String,
-    /// Changes when the file is written to or replaced.
-    stamp: Stamp,
-}
-
-impl Installation {
-    /// Refuses a program that has been replaced since it was found.
-    pub(crate) fn check_unchanged(&self) -> Result<(), FailureKind> {
-        let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
-        let replaced = || FailureKind::Replaced(self.program.clone());
-        unchanged.then_some(()).ok_or_else(replaced)
-    }
-}
-
 /// Device and number of a file, and when it last changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Stamp([i64; 4]);
@@ -53,58 +31,60 @@ impl Stamp {
     }
 }
 
-/// A code whose program is installed.
-pub(crate) struct InstalledProgram {
-    /// The code it belongs to.
-    pub code: Code,
+/// An external code whose program is installed.
+pub(crate) struct ExternalCode {
+    pub name: Code,
     /// First word of the command: that of the manifest, or a build in another precision.
-    pub word: String,
+    word: String,
     /// The file that was found.
-    pub installation: Installation,
+    pub program: PathBuf,
+    pub identity: Identity,
+    /// Changes when the file is written to or replaced.
+    stamp: Stamp,
 }
 
-impl InstalledProgram {
-    /// The program `word` as it is installed here, started like that of `code`.
-    pub fn find(code: Code, word: &str) -> Option<Self> {
-        let program = code.definition().program.as_ref()?;
+impl ExternalCode {
+    /// The code `name` with the program `word`, looked for in the search path. The package manager or the program itself
+    /// is asked for the version; a program that gives none within [`LONGEST_START`] counts as not installed: its
+    /// runs would be kept under a wrong name.
+    pub fn find(name: Code, word: &str) -> Option<Self> {
+        let definition = name.definition().program.as_ref()?;
+        let question = &definition.version;
+        let program = in_search_path(word)?;
+        let stamp = Stamp::of(&program)?;
+        let package = owning_package(&program).ok()?;
+        let version = match &package {
+            Some((_, version)) if question.package => upstream(version).to_owned(),
+            _ => own_version(&program, question, &definition.environment).ok()?,
+        };
+        let hash = sha256_hex(&std::fs::read(&program).ok()?);
         Some(Self {
-            code,
+            name,
             word: word.to_owned(),
-            installation: find(word, &program.version, &program.environment)?,
+            program,
+            identity: Identity {
+                code: name.as_str().to_owned(),
+                version,
+                package: package.map(|(package, version)| format!("{package} {version}")),
+                program_hash: Some(hash),
+            },
+            stamp,
         })
+    }
+
+    /// Refuses a program that has been replaced since it was found.
+    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+        let unchanged = Stamp::of(&self.program) == Some(self.stamp);
+        let replaced = || FailureKind::Replaced(self.program.clone());
+        unchanged.then_some(()).ok_or_else(replaced)
     }
 
     /// Program and arguments that carry out tasks of one kind in `directories`.
     pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
-        let mut command = self.code.definition().command(kind, directories);
+        let mut command = self.name.definition().command(kind, directories);
         command[0].clone_from(&self.word);
         command
     }
-}
-
-/// Looks for `program` in the search path and asks the package manager, or the program itself in its
-/// `environment`, for its version. A program that gives none within [`LONGEST_START`] counts as not
-/// installed: its runs would be kept under a wrong name.
-fn find(
-    program: &str,
-    question: &VersionQuestion,
-    environment: &Environment,
-) -> Option<Installation> {
-    let program = in_search_path(program)?;
-    let stamp = Stamp::of(&program)?;
-    let package = owning_package(&program).ok()?;
-    let version = match &package {
-        Some((_, version)) if question.package => upstream(version).to_owned(),
-        _ => own_version(&program, question, environment).ok()?,
-    };
-    let hash = sha256_hex(&std::fs::read(&program).ok()?);
-    Some(Installation {
-        program,
-        hash,
-        stamp,
-        version,
-        package: package.map(|(name, version)| format!("{name} {version}")),
-    })
 }
 
 fn in_search_path(program: &str) -> Option<PathBuf> {
@@ -238,8 +218,7 @@ mod tests {
 
     #[test]
     fn a_program_that_does_not_exist_is_not_installed() {
-        let question = VersionQuestion::default();
-        let found = find("tristack-has-no-such-code", &question, &Environment::new());
-        assert_eq!(found, None);
+        let code = Code::named("yade").unwrap();
+        assert!(ExternalCode::find(code, "tristack-has-no-such-code").is_none());
     }
 }

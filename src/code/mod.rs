@@ -24,8 +24,9 @@ pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub(crate) use guard::{COMMAND as GUARD_COMMAND, end_like};
 pub use guard::{guard, guard_foreign_programs};
+use installation::ExternalCode;
 pub use installation::version_in_answer;
-pub use installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+pub use installed::{Batching, Finished, InstalledCode, RunContext};
 pub(crate) use manifest::Angle;
 pub use manifest::{Colour, Definition, Mark, Shape, TaskKind};
 pub use process::Interrupt;
@@ -40,8 +41,11 @@ impl Code {
         if self == Self::NATIVE {
             return Some(Box::new(native::Native::new()));
         }
-        let command = self.definition().command(TaskKind::Stack, &[]);
-        external::ExternalCode::find(self, command.first()?)
+        let program = self.definition().program.as_ref()?;
+        Some(Box::new(ExternalCode::find(
+            self,
+            program.command.first()?,
+        )?))
     }
 
     /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
@@ -51,6 +55,7 @@ impl Code {
             return Some(Box::new(native::Native::precise()));
         }
         let program = self.definition().program.as_ref()?;
-        external::ExternalCode::find(self, program.higher_precision.as_deref()?)
+        let word = program.higher_precision.as_deref()?;
+        Some(Box::new(ExternalCode::find(self, word)?))
     }
 }

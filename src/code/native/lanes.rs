@@ -72,8 +72,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
     }
 
     fn late(&self) -> Option<Duration> {
-        let limit = self.context.time_limit;
-        limit.filter(|&limit| self.last_finished.elapsed() > limit)
+        self.context.late_since(self.last_finished)
     }
 
     fn address(&self, index: usize) -> String {

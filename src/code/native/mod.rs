@@ -4,12 +4,12 @@ mod checkpoints;
 mod lanes;
 
 use super::failure::{Failure, FailureKind};
-use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
 use crate::dem::{LaneKind, LaneWidth, compress_stack_precisely, run_contact_test, run_pyramid};
-use crate::model::Case;
-use crate::series::{Series, SeriesError};
+use crate::model::{Case, ContactTest, Pyramid};
+use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use lanes::Lanes;
 use std::time::{Duration, Instant};
 
@@ -63,18 +63,6 @@ impl Native {
         }
     }
 
-    fn run_cases(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        match self.arithmetic {
-            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
-            Arithmetic::DoubleDouble => {
-                for (index, case) in cases.iter().enumerate() {
-                    let result = self.run_precisely(case, context);
-                    finished(index, result.map_err(|kind| failure(case, kind)));
-                }
-            }
-        }
-    }
-
     fn run_precisely(&self, case: &Case, context: &RunContext) -> Result<Run, FailureKind> {
         let start = Instant::now();
         let series = while_wanted(context, |wanted| compress_stack_precisely(case, wanted))?;
@@ -111,10 +99,7 @@ fn while_wanted<T>(
     run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
 ) -> Result<T, FailureKind> {
     let start = Instant::now();
-    let late = || {
-        let limit = context.time_limit;
-        limit.filter(|&limit| start.elapsed() > limit)
-    };
+    let late = || context.late_since(start);
     let wanted = || !context.interrupt.requested() && late().is_none();
     run(&wanted).map_err(|error| cause(error, context, late()))
 }
@@ -148,32 +133,41 @@ impl InstalledCode for Native {
         }
     }
 
-    fn carry_out(&self, tasks: Tasks, context: &RunContext) {
-        match tasks {
-            Tasks::Cases(cases, finished) => self.run_cases(cases, context, finished),
-            Tasks::ContactTests(tests, finished) => up_to_failure(tests, finished, |test| {
-                run_contact_test(test).map_err(FailureKind::from)
-            }),
-            Tasks::Pyramids(pyramids, finished) => up_to_failure(pyramids, finished, |pyramid| {
-                pyramid.validate().map_err(FailureKind::Unsupported)?;
-                while_wanted(context, |wanted| run_pyramid(pyramid, wanted))
-            }),
+    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        match self.arithmetic {
+            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
+            Arithmetic::DoubleDouble => {
+                for (index, case) in cases.iter().enumerate() {
+                    let result = self.run_precisely(case, context);
+                    finished(index, result.map_err(|kind| failure(case, kind)));
+                }
+            }
         }
+    }
+
+    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
+        outcomes(tests, |test| Ok(run_contact_test(test)?))
+    }
+
+    fn build(
+        &self,
+        pyramids: &[Pyramid],
+        context: &RunContext,
+    ) -> Result<Vec<PyramidRun>, Box<Failure>> {
+        outcomes(pyramids, |pyramid| {
+            pyramid.validate().map_err(FailureKind::Unsupported)?;
+            while_wanted(context, |wanted| run_pyramid(pyramid, wanted))
+        })
     }
 }
 
-/// Carries out `tasks` one after another, up to the first failure.
-fn up_to_failure<Task: ToString, Outcome>(
+/// The outcomes of `tasks`, up to the first failure.
+fn outcomes<Task: ToString, Outcome>(
     tasks: &[Task],
-    finished: Finished<Outcome>,
     carry_out: impl Fn(&Task) -> Result<Outcome, FailureKind>,
-) {
-    for (index, task) in tasks.iter().enumerate() {
-        let result = carry_out(task).map_err(|kind| failure(task, kind));
-        let failed = result.is_err();
-        finished(index, result);
-        if failed {
-            return;
-        }
-    }
+) -> Result<Vec<Outcome>, Box<Failure>> {
+    let outcomes = tasks
+        .iter()
+        .map(|task| carry_out(task).map_err(|kind| failure(task, kind).into()));
+    outcomes.collect()
 }

@@ -2,6 +2,7 @@
 
 use super::FileError;
 use crate::model::sha256_hex;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The file with the digests of all others of an entry.
@@ -64,6 +65,15 @@ pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> 
         found,
         expected: String::from_utf8_lossy(&digest[..digest.len().min(64)]).into_owned(),
     })
+}
+
+/// The content of the sealed file at `path`, if there is one.
+pub(crate) fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
+    match std::fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(FileError::reading(path)(error)),
+        Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),
+    }
 }
 
 #[cfg(test)]

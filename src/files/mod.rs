@@ -4,7 +4,7 @@ mod checksums;
 mod draft;
 mod error;
 
-pub(crate) use checksums::{CHECKSUMS, check, checksums};
+pub(crate) use checksums::{CHECKSUMS, check, checksums, read_sealed};
 pub use checksums::{seal, unseal};
 pub(crate) use draft::{
     create_parent, locked_directory, remove_abandoned, sync_directory, write_atomically,

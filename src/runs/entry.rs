@@ -3,102 +3,61 @@
 use crate::code::Run;
 use crate::files::{
     CHECKSUMS, FileError, check, checksums, create_parent, locked_directory, parse_json,
-    remove_abandoned, sync_directory, write_synced,
+    sync_directory, write_synced,
 };
 use crate::model::Case;
 use crate::series::Series;
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
 const DRAFT: &str = ".draft-";
 
-/// A directory of entries.
-#[derive(Debug, Clone)]
-pub struct Archive {
-    root: PathBuf,
-    drafts: PathBuf,
+/// Reads the entry in `directory`; `None` if there is none.
+///
+/// # Errors
+/// If it is there but damaged.
+pub fn read_entry(directory: &Path) -> Result<Option<Run>, FileError> {
+    if !directory.is_dir() {
+        return Ok(None);
+    }
+    let checksums = read(&directory.join(CHECKSUMS))?;
+    let checksums = String::from_utf8_lossy(&checksums);
+    let checked = |file: &str| {
+        let content = read(&directory.join(file))?;
+        check(&checksums, directory, file, &content)?;
+        Ok::<_, FileError>(content)
+    };
+    let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
+    let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
+    let provenance = parse_json(&checked(PROVENANCE)?, &directory.join(PROVENANCE))?;
+    Ok(Some(Run {
+        case,
+        series,
+        provenance,
+    }))
 }
 
-impl Archive {
-    /// An archive at `root`, which need not exist yet.
-    pub fn new(root: impl Into<PathBuf>) -> Self {
-        let root = root.into();
-        let drafts = root.clone();
-        Self { root, drafts }
-    }
-
-    /// The same archive with its drafts in `drafts`, a directory in the same file system.
-    pub(crate) fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
-        let drafts = drafts.into();
-        Self { drafts, ..self }
-    }
-
-    /// The directory of the archive.
-    pub fn root(&self) -> &Path {
-        &self.root
-    }
-
-    /// Reads the entry `name`; `None` if there is none.
-    ///
-    /// # Errors
-    /// If it is there but damaged.
-    pub fn load(&self, name: &Path) -> Result<Option<Run>, FileError> {
-        let directory = self.root.join(name);
-        if !directory.is_dir() {
-            return Ok(None);
-        }
-        let checksums = read(&directory.join(CHECKSUMS))?;
-        let checksums = String::from_utf8_lossy(&checksums);
-        let checked = |file: &str| {
-            let content = read(&directory.join(file))?;
-            check(&checksums, &directory, file, &content)?;
-            Ok::<_, FileError>(content)
-        };
-        let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
-        let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
-        let provenance = parse_json(&checked(PROVENANCE)?, &directory.join(PROVENANCE))?;
-        Ok(Some(Run {
-            case,
-            series,
-            provenance,
-        }))
-    }
-
-    /// Writes `run` as the entry `name`, in place of an older one.
-    ///
-    /// # Errors
-    /// If the file system refuses; an older entry is then unchanged.
-    pub fn save(&self, name: &Path, run: &Run) -> Result<(), FileError> {
-        let target = self.root.join(name);
-        let parent = create_parent(&target)?;
-        if self.drafts == self.root {
-            // The owner of any other place cleans it up.
-            remove_abandoned(&self.drafts, DRAFT.as_ref());
-        }
-        let draft = locked_directory(&self.drafts, DRAFT);
-        let (draft, _lock) = draft.map_err(FileError::writing(&self.drafts))?;
-        write_entry(draft.path(), run)?;
-        put_in_place(draft.path(), &target)?;
-        // Removes the older entry, if there was one.
-        drop(draft);
-        sync_directory(&parent)
-    }
-
-    /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
-    pub(crate) fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
-        create_parent(target)?;
-        match fs::rename(self.root.join(name), target) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
-            renamed => renamed.map_err(FileError::writing(target)),
-        }
-    }
+/// Writes `run` as the entry in `target`, in place of an older one, by way of a draft in the directory `drafts`,
+/// which the caller cleans up.
+///
+/// # Errors
+/// If the file system refuses; an older entry is then unchanged.
+pub(super) fn write_entry(target: &Path, drafts: &Path, run: &Run) -> Result<(), FileError> {
+    let parent = create_parent(target)?;
+    let draft = locked_directory(drafts, DRAFT).map_err(FileError::writing(drafts))?;
+    let (draft, _lock) = draft;
+    write_files(draft.path(), run)?;
+    put_in_place(draft.path(), target)?;
+    // Removes the older entry, if there was one.
+    drop(draft);
+    sync_directory(&parent)
 }
 
-fn write_entry(directory: &Path, run: &Run) -> Result<(), FileError> {
+fn write_files(directory: &Path, run: &Run) -> Result<(), FileError> {
     let files = [
         (CASE, run.case.to_json().into_bytes()),
         (SERIES, run.series.to_csv()),
@@ -159,6 +118,7 @@ pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::PathBuf;
 
     fn directory_with(root: &Path, name: &str, content: &str) -> PathBuf {
         let directory = root.join(name);

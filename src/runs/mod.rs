@@ -11,7 +11,7 @@ mod schedule;
 mod store;
 mod summary;
 
-pub use entry::Archive;
+pub use entry::read_entry;
 pub(crate) use observations::observe_all;
 pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};

@@ -41,7 +41,7 @@ fn stored(run: &EventRun, settings: &Settings, progress: &dyn Progress) -> Optio
         Ok(found) => return found,
         Err(error) => error,
     };
-    let place = match settings.store.put_observation_aside(run) {
+    let place = match settings.store.put_aside(&run.address()) {
         Ok(place) => format!("it is now {}", shown(&place)),
         Err(error) => error.to_string(),
     };

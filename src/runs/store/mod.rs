@@ -10,21 +10,23 @@ mod session;
 
 pub use owner::LockOwner;
 
-use crate::code::{Identity, Provenance, Run};
+use crate::code::{Identity, Run};
 use crate::dem::{EventRun, Observation};
-use crate::files::{FileError, parse_json, seal, unseal, write_atomically_via};
+use crate::files::{FileError, create_parent, parse_json, read_sealed, seal, write_atomically_via};
 use crate::model::{Case, shown};
-use crate::runs::{Archive, ProbeRecord};
+use crate::runs::ProbeRecord;
+use crate::runs::entry::{read_entry, write_entry};
 use serde::{Deserialize, Serialize};
 use session::Session;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Directory of the probes.
+// Directories of files by their addresses.
 const PROBES: &str = "probes";
-/// Directory of the observations of event runs.
 const OBSERVATIONS: &str = "observations";
+const CHECKPOINTS: &str = "checkpoints";
 
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
@@ -69,7 +71,6 @@ struct ObservedRun {
 /// The finished runs of a user.
 #[derive(Debug, Clone)]
 pub struct Store {
-    archive: Archive,
     session: Arc<Session>,
 }
 
@@ -80,11 +81,8 @@ impl Store {
     /// If it cannot be written to, or has another format.
     pub fn open(root: &Path) -> Result<Self, StoreError> {
         format::check(root)?;
-        let session = Session::begin(root)?;
-        Ok(Self {
-            archive: Archive::new(root).with_drafts_in(session.work()),
-            session: Arc::new(session),
-        })
+        let session = Arc::new(Session::begin(root)?);
+        Ok(Self { session })
     }
 
     /// The finished run of `case` by the code with `identity`, if there is one.
@@ -98,7 +96,7 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<Run>, FileError> {
         let address = identity.address(case, deck_hash);
-        let run = self.archive.load(&name(&address))?;
+        let run = read_entry(&self.run_path(&address))?;
         let run = run.filter(|run| {
             let provenance = &run.provenance;
             let same = provenance.identity == *identity && provenance.deck_hash == deck_hash;
@@ -112,27 +110,30 @@ impl Store {
 
     /// Keeps a finished run and removes its checkpoint.
     pub fn put(&self, run: &Run) -> Result<(), FileError> {
-        let Provenance {
-            identity,
-            deck_hash,
-            ..
-        } = &run.provenance;
-        let address = identity.address(&run.case, deck_hash);
-        self.archive.save(&name(&address), run)?;
+        let made = &run.provenance;
+        let address = made.identity.address(&run.case, &made.deck_hash);
+        write_entry(&self.run_path(&address), self.work_directory(), run)?;
         self.forget_checkpoint(&address);
         Ok(())
     }
 
     fn forget_checkpoint(&self, address: &str) {
-        let checkpoint = self.checkpoint_directory().join(format!("{address}.json"));
         // Most runs have none.
-        let _ = std::fs::remove_file(checkpoint);
+        let _ = std::fs::remove_file(self.path(CHECKPOINTS, address));
     }
 
-    /// Puts the damaged run under `address` into quarantine, and returns its place there.
+    /// Puts the damaged run, probe or observation under `address` into quarantine, and returns its place there.
+    /// It is one of them, because an address is a digest of what it belongs to; and it may have been moved already.
     pub(crate) fn put_aside(&self, address: &str) -> Result<PathBuf, FileError> {
         let aside = self.aside(address);
-        self.archive.move_away(&name(address), &aside)?;
+        create_parent(&aside)?;
+        let [probe, observation] = [PROBES, OBSERVATIONS].map(|kind| self.path(kind, address));
+        for damaged in [self.run_path(address), probe, observation] {
+            match std::fs::rename(damaged, &aside) {
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                renamed => renamed.map_err(FileError::writing(&aside))?,
+            }
+        }
         Ok(aside)
     }
 
@@ -150,11 +151,6 @@ impl Store {
     /// Keeps a probe.
     pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
         self.put_sealed(&self.path(PROBES, address), &record.to_json())
-    }
-
-    /// Puts the damaged probe under `address` into quarantine, and returns its place there.
-    pub(crate) fn put_probe_aside(&self, address: &str) -> Result<PathBuf, FileError> {
-        self.put_file_aside(PROBES, address)
     }
 
     /// The kept observation of `run`, if there is one.
@@ -184,11 +180,6 @@ impl Store {
         self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &content)
     }
 
-    /// Puts the damaged observation of `run` into quarantine, and returns its place there.
-    pub(crate) fn put_observation_aside(&self, run: &EventRun) -> Result<PathBuf, FileError> {
-        self.put_file_aside(OBSERVATIONS, &run.address())
-    }
-
     /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
     /// other program that is making it, if there is one.
     ///
@@ -208,49 +199,33 @@ impl Store {
 
     /// Directory of the checkpoints of native runs.
     pub fn checkpoint_directory(&self) -> PathBuf {
-        self.archive.root().join("checkpoints")
+        self.session.root.join(CHECKPOINTS)
     }
 
     /// Directory of the run directories; those of failed runs stay.
     pub(crate) fn work_directory(&self) -> &Path {
-        self.session.work()
+        &self.session.work
+    }
+
+    fn run_path(&self, address: &str) -> PathBuf {
+        let (group, name) = address.split_at(2);
+        self.session.root.join("runs").join(group).join(name)
     }
 
     /// The file of one `kind` under `address`.
     fn path(&self, kind: &str, address: &str) -> PathBuf {
-        let name = format!("{address}.json");
-        self.archive.root().join(kind).join(name)
+        self.session.root.join(kind).join(format!("{address}.json"))
     }
 
     fn put_sealed(&self, path: &Path, content: &str) -> Result<(), FileError> {
-        write_atomically_via(self.session.work(), path, &seal(content.as_bytes()))
-    }
-
-    fn put_file_aside(&self, kind: &str, address: &str) -> Result<PathBuf, FileError> {
-        let aside = self.aside(address);
-        self.archive
-            .move_away(&self.path(kind, address), &aside)
-            .map(|()| aside)
+        write_atomically_via(self.work_directory(), path, &seal(content.as_bytes()))
     }
 
     /// A free place in quarantine.
     fn aside(&self, address: &str) -> PathBuf {
-        let directory = self.archive.root().join("quarantine");
+        let directory = self.session.root.join("quarantine");
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| !place.exists());
         free.expect("there are more numbers than files")
     }
-}
-
-/// The content of the sealed file at `path`, if there is one.
-fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
-    match std::fs::read(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(FileError::reading(path)(error)),
-        Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),
-    }
-}
-
-fn name(address: &str) -> PathBuf {
-    Path::new("runs").join(&address[..2]).join(&address[2..])
 }

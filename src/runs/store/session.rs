@@ -25,9 +25,11 @@ struct Claims {
 /// This program in a store.
 #[derive(Debug)]
 pub(super) struct Session {
-    root: PathBuf,
+    /// The store.
+    pub(super) root: PathBuf,
     path: PathBuf,
-    work: PathBuf,
+    /// Directory for unfinished work.
+    pub(super) work: PathBuf,
     state: Mutex<State>,
 }
 
@@ -71,11 +73,6 @@ impl Session {
         session.state().write(&session.path)?;
         fs::create_dir(&session.work).map_err(FileError::writing(&session.work))?;
         Ok(session)
-    }
-
-    /// Directory for unfinished work.
-    pub(super) fn work(&self) -> &Path {
-        &self.work
     }
 
     /// Claims `addresses` for this session, except those that other sessions have claimed, whose owners it returns.

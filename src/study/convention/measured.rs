@@ -99,7 +99,7 @@ pub fn record_probe(
             Ok(Some(record)) if is_current(&record, who.name) => return Ok(record),
             Ok(_) => {}
             Err(error) => {
-                let aside = settings.store.put_probe_aside(&address)?;
+                let aside = settings.store.put_aside(&address)?;
                 progress.warn(&format!(
                     "damaged probe in the store, made anew: {error}; it is now {}",
                     shown(&aside)

@@ -86,11 +86,9 @@ fn last_table<Row: DeserializeOwned>(
     let start = lines
         .iter()
         .rposition(|line| is_header(line, columns))
-        .ok_or_else(|| SeriesError::Absent {
-            message: format!(
-                "the log has no table with the columns {}",
-                columns.join(" ")
-            ),
+        .ok_or_else(|| {
+            let columns = columns.join(" ");
+            SeriesError::absent(format!("the log has no table with the columns {columns}"))
         })?;
     lines[start + 1..]
         .iter()
@@ -113,10 +111,7 @@ fn parse_row<Row: DeserializeOwned>(row: usize, line: &str) -> Result<Row, Serie
     let fields: csv::StringRecord = line.split_whitespace().collect();
     fields
         .deserialize(None)
-        .map_err(|error| SeriesError::Garbled {
-            row,
-            message: format!("{error} in `{line}`"),
-        })
+        .map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
 }
 
 /// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
@@ -141,9 +136,7 @@ fn last_loop_time(log: &str) -> Result<f64, SeriesError> {
     times
         .next_back()
         .and_then(|rest| rest.split_whitespace().next()?.parse().ok())
-        .ok_or_else(|| SeriesError::Absent {
-            message: "the log has no loop time".to_owned(),
-        })
+        .ok_or_else(|| SeriesError::absent("the log has no loop time"))
 }
 
 /// The rows `id x y`, in the order of the ids 1, 2, ….
@@ -158,10 +151,10 @@ fn centres(dump: &str) -> Result<Vec<[f64; 2]>, SeriesError> {
         let mut coordinate = || fields.next()?.parse().ok();
         match (coordinate(), coordinate()) {
             (Some(x), Some(y)) if id == Some(row) => Ok([x, y]),
-            _ => Err(SeriesError::Garbled {
-                row,
-                message: format!("`{line}` in the dump of the centres is not `{row} x y`"),
-            }),
+            _ => {
+                let message = format!("`{line}` in the dump of the centres is not `{row} x y`");
+                Err(SeriesError::garbled(row, message))
+            }
         }
     };
     (1..).zip(rows).map(row).collect()

@@ -108,11 +108,9 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 
 /// The series of `case` in the `content` of the file at `path`.
 pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
-    let schedule = case.protocol.schedule();
-    Series::read(content, &schedule, case.protocol.time_step).map_err(|source| FileError::Series {
-        path: path.to_owned(),
-        source,
-    })
+    let protocol = &case.protocol;
+    let series = Series::read(content, &protocol.schedule(), protocol.time_step);
+    series.map_err(FileError::series(path))
 }
 
 #[cfg(test)]

@@ -46,71 +46,52 @@ impl Sample {
     }
 }
 
-/// Why a series is not the one that was asked for.
+/// Why a series is not the one that was asked for. Rows are counted from 1, which is the one after the header.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what each is.
 pub enum SeriesError {
-    /// There is no series at all.
     #[error("{message}")]
-    Absent {
-        /// The file or table that is missing, and what was found instead.
-        message: String,
-    },
-    /// A row cannot be read.
+    Absent { message: String },
     #[error("row {row}: {message}")]
-    Garbled {
-        /// Row, the first one after the header being 1.
-        row: usize,
-        /// The defect.
-        message: String,
-    },
-    /// The columns are not the shared ones.
+    Garbled { row: usize, message: String },
     #[error("the columns are `{found}`, but must be `{}`", Series::COLUMNS.join(","))]
-    Columns {
-        /// The header as found.
-        found: String,
-    },
-    /// A value is not a finite number.
+    Columns { found: String },
     #[error("row {row} (step {step}): `{column}` is {value}, but must be a finite number")]
     NotFinite {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// Its step.
         step: u64,
-        /// Name of the column.
         column: &'static str,
-        /// The value.
         value: f64,
     },
-    /// A row is at the wrong step.
     #[error("row {row} is at step {found}, but must be at step {expected}")]
     WrongStep {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// The step found.
         found: u64,
-        /// The step planned.
         expected: u64,
     },
-    /// A row is at the wrong time.
     #[error("row {row} (step {step}) is at time {found}, but must be at {expected}")]
     WrongTime {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// Its step.
         step: u64,
-        /// The time found.
         found: f64,
-        /// step × time step.
         expected: f64,
     },
-    /// The series ends early, or has rows beyond its end.
     #[error("the series has {found} rows{}, but must have {expected}", or_more(*found, *expected))]
-    Truncated {
-        /// Rows found; of those beyond the end one at least.
-        found: usize,
-        /// Rows planned.
-        expected: usize,
-    },
+    Truncated { found: usize, expected: usize },
+}
+
+impl SeriesError {
+    /// There is no series at all: `message` names what is missing, and what was found instead.
+    pub(crate) fn absent(message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self::Absent { message }
+    }
+
+    /// `row` cannot be read.
+    pub(crate) fn garbled(row: usize, message: impl ToString) -> Self {
+        let message = message.to_string();
+        Self::Garbled { row, message }
+    }
 }
 
 fn planned_rows(schedule: &Schedule) -> usize {
@@ -174,11 +155,8 @@ impl Series {
         time_step: f64,
     ) -> Result<Self, SeriesError> {
         let mut reader = csv::Reader::from_reader(input);
-        let garbled = |row: usize, error: csv::Error| SeriesError::Garbled {
-            row,
-            message: error.to_string(),
-        };
-        let header = reader.headers().map_err(|error| garbled(0, error))?;
+        let header = reader.headers();
+        let header = header.map_err(|error| SeriesError::garbled(0, error))?;
         if !header.iter().eq(Series::COLUMNS) {
             return Err(SeriesError::Columns {
                 found: header.iter().collect::<Vec<_>>().join(","),
@@ -191,6 +169,7 @@ impl Series {
             Ok(false) => None,
             Err(error) => Some(Err(error)),
         };
+        let garbled = SeriesError::garbled;
         let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is enough to refuse the series.
         let rows = rows.take(planned_rows(schedule).saturating_add(1));

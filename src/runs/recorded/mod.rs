@@ -47,32 +47,23 @@ type Table = HashMap<String, Row>;
 /// The reason why a recorded run cannot stand in.
 #[derive(Debug, Error)]
 pub enum RecordedError {
-    /// There is none.
     #[error("{code} is not installed, and there is no recorded {what} in {}; install it ({}), record it where it is installed (tristack record --codes {code}), or let TRISTACK_REFERENCE name the directory of recorded runs", shown(path), code.installation_hint())]
     Absent {
-        /// The code.
         code: Code,
-        /// The kind of record that is missing.
         what: &'static str,
-        /// The file that lacks it.
         path: PathBuf,
     },
-    /// It was made with another deck than today's.
+    /// The `recorded` and the `current` hash of its inputs differ.
     #[error(
         "the recorded run in {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --codes {code}",
         shown(path)
     )]
     OtherDeck {
-        /// The code.
         code: Code,
-        /// The file with the run.
         path: PathBuf,
-        /// Deck hash it was made with.
         recorded: String,
-        /// Deck hash of this version of tristack.
         current: String,
     },
-    /// It cannot be read.
     #[error(transparent)]
     Damaged(#[from] Arc<FileError>),
 }

@@ -181,10 +181,7 @@ pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row
         Some(case) => Err(format!("{case} is there twice")),
         None => Ok(rows),
     });
-    rows.map_err(|message| FileError::Content {
-        path: path.to_owned(),
-        message,
-    })
+    rows.map_err(|message| FileError::content(path, message))
 }
 
 fn repeated(rows: &[Row]) -> Option<&Case> {

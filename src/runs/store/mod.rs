@@ -31,33 +31,22 @@ const CHECKPOINTS: &str = "checkpoints";
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    /// A file or directory could not be read or written.
     #[error(transparent)]
     Files(#[from] FileError),
-    /// It has the format of another version of tristack.
     #[error(
         "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
         shown(path)
     )]
     OtherFormat {
-        /// The file with the format.
         path: PathBuf,
-        /// The format found.
         found: String,
-        /// The format of this version.
         accepted: &'static str,
     },
-    /// Another program keeps its lock.
     #[error(
         "{}: locked by {owner}, which does not release it; continue or end that process",
         shown(path)
     )]
-    Busy {
-        /// The lock.
-        path: PathBuf,
-        /// The owner of the lock.
-        owner: String,
-    },
+    Busy { path: PathBuf, owner: String },
 }
 
 /// An event run with its observation.

@@ -5,11 +5,11 @@ use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
 use super::manifest::{Definition, ResultFile};
 use super::parameters::only_numbers;
-use super::process::{Ending, Environment, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
+use super::process::{Ending, Environment, Job, run};
 use super::task::Task;
 use crate::files::{FileError, locked_directory, remove_abandoned};
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -17,6 +17,9 @@ use std::time::{Duration, Instant};
 const LAST_LINES: usize = 4;
 const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
+// Files that receive the output of a program.
+const STANDARD_OUTPUT: &str = "stdout.txt";
+const STANDARD_ERROR: &str = "stderr.txt";
 
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
@@ -150,7 +153,10 @@ impl<'a, T: Task> Batch<'a, T> {
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
-        run(&job, || self.harvest(report)).map_err(FailureKind::Start)
+        let [output, error] =
+            [STANDARD_OUTPUT, STANDARD_ERROR].map(|name| File::create(directory.join(name)));
+        let ended = output.and_then(|output| run(&job, output, error?, || self.harvest(report)));
+        ended.map(|(ending, _)| ending).map_err(FailureKind::Start)
     }
 
     fn time_limit(&self, context: &RunContext) -> Duration {
@@ -253,7 +259,7 @@ fn remove(path: &Path) -> Result<(), FailureKind> {
 
 /// The last lines of a file that are not blank; bytes that are not text are replaced.
 fn tail(path: &Path) -> Vec<String> {
-    let Ok(mut file) = fs::File::open(path) else {
+    let Ok(mut file) = File::open(path) else {
         return Vec::new();
     };
     let length = file.metadata().map_or(0, |metadata| metadata.len());

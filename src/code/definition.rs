@@ -119,7 +119,7 @@ impl Definition {
         Ok(self)
     }
 
-    fn check(&mut self) -> Result<(), InvalidValue> {
+    fn check(&self) -> Result<(), InvalidValue> {
         if self.schema != SCHEMA {
             return Err(refused("schema", self.schema, SCHEMA.to_string()));
         }
@@ -135,19 +135,15 @@ impl Definition {
 
     /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or
     /// logs.
-    fn check_files(&mut self) -> Result<(), InvalidValue> {
+    fn check_files(&self) -> Result<(), InvalidValue> {
         let logs = self.program.iter().flat_map(|program| &program.logs);
-        let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
-        written.extend(logs.cloned());
-        let results = self
-            .tasks
-            .values_mut()
-            .filter_map(|task| task.result.clone());
-        written.extend(results);
+        let results = self.tasks.values().filter_map(|task| task.result.as_ref());
+        let common = [&self.parameters.file, &self.result.file];
+        let written: Vec<&String> = common.into_iter().chain(logs).chain(results).collect();
         if let Some(name) = written.iter().find(|name| !stays_inside(name)) {
             return Err(refused("file", name, "a path inside the run directory"));
         }
-        for task in self.tasks.values_mut() {
+        for task in self.tasks.values() {
             if task.files.is_empty() {
                 return Err(refused("files", "[]", "the deck and what it needs"));
             }
@@ -179,14 +175,12 @@ impl Definition {
         if program.command.is_empty() {
             return Err(refused("program.command", "[]", "a program and arguments"));
         }
-        let known = || self.set.keys().map(|name| format!("{{{name}}}"));
         for word in &program.command {
             let filled = self.fill(word, "");
             if word != DIRECTORIES && filled.contains(['{', '}']) {
-                let names: Vec<String> = known().collect();
-                let own = names.iter().map(String::as_str);
-                let names: Vec<&str> = [DECK, DIRECTORIES].into_iter().chain(own).collect();
-                let accepted = format!("words with the placeholders {}", names.join(", "));
+                let mut known = vec![DECK.to_owned(), DIRECTORIES.to_owned()];
+                known.extend(self.set.keys().map(|name| format!("{{{name}}}")));
+                let accepted = format!("words with the placeholders {}", known.join(", "));
                 return Err(refused("program.command", word, accepted));
             }
         }

@@ -3,10 +3,11 @@
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
 use super::manifest::{TaskKind, VersionQuestion};
-use super::process::{self, Ending, Environment, Interrupt, Job};
+use super::process::{Ending, Environment, Interrupt, Job, run};
 use super::provenance::Identity;
 use super::registry::Code;
 use crate::model::sha256_hex;
+use nix::unistd::{AccessFlags, access};
 use std::ffi::OsString;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -91,13 +92,7 @@ fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path)
         .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
-        .find(|candidate| is_executable(candidate))
-}
-
-fn is_executable(path: &Path) -> bool {
-    use std::os::unix::fs::PermissionsExt;
-    let metadata = std::fs::metadata(path);
-    metadata.is_ok_and(|metadata| metadata.is_file() && metadata.permissions().mode() & 0o111 != 0)
+        .find(|candidate| candidate.is_file() && access(candidate, AccessFlags::X_OK).is_ok())
 }
 
 /// Debian package and version that the program, links followed, belongs to.
@@ -180,9 +175,9 @@ fn answer(
         interrupt: &Interrupt::new(),
     };
     for _ in 0..TRIES {
-        match process::answer(&job) {
+        match run(&job, Vec::new(), std::io::sink(), || false) {
             Ok((Ending::Exited(status), text)) if status.code().is_some() => {
-                let text = String::from_utf8_lossy(&text).into_owned();
+                let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
                 return Ok(status.success().then_some(text));
             }
             Ok((Ending::Exited(_), _)) => {}

@@ -1,11 +1,11 @@
 //! The one runner of foreign programs: a process group of its own, no shell, a time limit, bounded output.
 
-use super::capture::Capture;
+use super::capture::capture;
 use super::guard;
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
-use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,11 +16,8 @@ const POLL_INTERVAL: Duration = Duration::from_millis(10);
 const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
 /// Longest time that a guard may take to clean up before it is killed.
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
-
-/// Names of the files that receive the output of a program.
-pub(crate) const STANDARD_OUTPUT: &str = "stdout.txt";
-/// See [`STANDARD_OUTPUT`].
-pub(crate) const STANDARD_ERROR: &str = "stderr.txt";
+/// Longest wait for a pipe after its program has ended: a process that outlives it may keep the pipe open.
+const LONGEST_REST: Duration = Duration::from_secs(1);
 
 /// Variables for the environment of a program.
 pub type Environment = BTreeMap<String, String>;
@@ -73,34 +70,21 @@ pub(crate) enum Ending {
     Interrupted,
 }
 
-/// Runs `job` to its end, with its output in files of its directory. `progress` is polled while it runs; whenever
-/// it returns true, the time limit starts anew.
-pub fn run(job: &Job, progress: impl FnMut() -> bool) -> std::io::Result<Ending> {
-    let output = File::create(job.directory.join(STANDARD_OUTPUT))?;
-    let error = File::create(job.directory.join(STANDARD_ERROR))?;
+/// Runs `job` to its end, and copies its output to `output` and `error`; returns how it ended, and `output` if it is
+/// complete. `progress` is polled while it runs; whenever it returns true, the time limit starts anew.
+pub fn run<W: Write + Send + 'static>(
+    job: &Job,
+    output: W,
+    error: impl Write + Send + 'static,
+    progress: impl FnMut() -> bool,
+) -> std::io::Result<(Ending, Option<W>)> {
     let mut child = spawn(job)?;
-    let captures = [
-        child.stdout().take().map(|pipe| Capture::new(pipe, output)),
-        child.stderr().take().map(|pipe| Capture::new(pipe, error)),
-    ];
-    let ending = watch(job, child, progress);
-    for capture in captures.into_iter().flatten() {
-        capture.finish();
-    }
-    ending
-}
-
-/// Runs a short `job` to its end; returns how it ended and its standard output.
-pub fn answer(job: &Job) -> std::io::Result<(Ending, Vec<u8>)> {
-    let mut child = spawn(job)?;
-    let output = child.stdout().take();
-    let output = output.map(|pipe| Capture::new(pipe, Vec::new()));
-    let error = child.stderr().take();
-    let error = error.map(|pipe| Capture::new(pipe, std::io::sink()));
-    let ending = watch(job, child, || false)?;
-    error.map(Capture::finish);
-    let written = output.and_then(Capture::finish);
-    Ok((ending, written.unwrap_or_default()))
+    let output = child.stdout().take().map(|pipe| capture(pipe, output));
+    let error = child.stderr().take().map(|pipe| capture(pipe, error));
+    let ending = watch(job, child, progress)?;
+    error.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
+    let output = output.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
+    Ok((ending, output))
 }
 
 fn watch(

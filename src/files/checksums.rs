@@ -2,6 +2,7 @@
 
 use super::FileError;
 use crate::model::sha256_hex;
+use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -9,10 +10,11 @@ use std::path::Path;
 pub(crate) const CHECKSUMS: &str = "SHA256SUMS";
 
 /// Content of the file with the digests of `files`.
-pub(crate) fn checksums(files: &[(&str, Vec<u8>)]) -> String {
-    let lines = files
-        .iter()
-        .map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
+pub(crate) fn checksums<'a>(
+    files: impl IntoIterator<Item = (impl Display, &'a Vec<u8>)>,
+) -> String {
+    let files = files.into_iter();
+    let lines = files.map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
     lines.collect()
 }
 

@@ -66,7 +66,7 @@ fn write_files(directory: &Path, run: &Run) -> Result<(), FileError> {
     for (name, content) in &files {
         write_synced(&directory.join(name), content)?;
     }
-    let sums = checksums(&files);
+    let sums = checksums(files.iter().map(|(name, content)| (name, content)));
     write_synced(&directory.join(CHECKSUMS), sums.as_bytes())?;
     sync_directory(directory)
 }

@@ -12,7 +12,7 @@ use crate::files::FileError;
 use crate::model::{Case, shown};
 use crate::runs::{ProbeRecord, RunSummary};
 use archive::{Members, unpack};
-use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_of, table_path};
+use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_in, table_path};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
@@ -97,15 +97,14 @@ impl Recorded {
         let files = self.files(code);
         let row = self.row(&files, code, case)?;
         let path = archive_path(self.directory(), code);
-        let series = match row.series {
-            Some(_) => series_of(row, self.members(&files, code)?, &path)?,
-            None => None,
+        let Some(name) = &row.series else {
+            let what = "series of this case";
+            return Err(RecordedError::Absent { code, what, path });
         };
-        let what = "series of this case";
-        let series = series.ok_or(RecordedError::Absent { code, what, path })?;
         let RunSummary {
             case, provenance, ..
         } = row.summary.clone();
+        let series = series_in(self.members(&files, code)?, name, &case, &path)?;
         Ok(Run {
             case,
             series,
@@ -186,20 +185,15 @@ impl Recorded {
     fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
         let table = files.table.get_or_init(|| {
             let path = table_path(self.directory(), code);
-            Ok(self.read_table(&path, code)?)
+            let Some(content) = self.read(&path)? else {
+                return Ok(Table::new());
+            };
+            let rows = parse_table(&String::from_utf8_lossy(&content), &path, code)?;
+            let keyed = rows.into_iter();
+            let keyed = keyed.map(|row| (row.summary.case.content_hash(), row));
+            Ok(keyed.collect())
         });
         table.as_ref().map_err(|error| Arc::clone(error).into())
-    }
-
-    fn read_table(&self, path: &Path, code: Code) -> Result<Table, FileError> {
-        let Some(content) = self.read(path)? else {
-            return Ok(Table::new());
-        };
-        let rows = parse_table(&String::from_utf8_lossy(&content), path, code)?;
-        let keyed = rows.into_iter();
-        Ok(keyed
-            .map(|row| (row.summary.case.content_hash(), row))
-            .collect())
     }
 
     fn members<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Members, RecordedError> {

@@ -8,7 +8,7 @@ use crate::model::Case;
 use crate::runs::entry::parse_series;
 use crate::runs::{ProbeRecord, RunSummary};
 use crate::series::Series;
-use serde_json::Value;
+use serde_json::{Value, from_value};
 use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -120,8 +120,9 @@ impl Recording {
         let members = unpack(archive, &path)?;
         let rows = parse_table(table, &table_path(directory, code), code)?;
         let runs = rows.into_iter().map(|row| {
-            let series = series_of(&row, &members, &path)?;
-            let summary = row.summary;
+            let Row { summary, series } = row;
+            let series = series.map(|name| series_in(&members, &name, &summary.case, &path));
+            let series = series.transpose()?;
             Ok(RecordedRun { summary, series })
         });
         Ok(Self {
@@ -174,27 +175,24 @@ pub(super) fn archive_path(directory: &Path, code: Code) -> PathBuf {
 /// If it is damaged, or holds an impossible case, one twice, or a run of another code.
 pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row>, FileError> {
     let rows = from_csv(text).and_then(|rows| {
-        let rows = rows.into_iter().map(|row| parse_row(row, code));
-        rows.collect::<Result<Vec<Row>, String>>()
-    });
-    let rows = rows.and_then(|rows| match repeated(&rows) {
-        Some(case) => Err(format!("{case} is there twice")),
-        None => Ok(rows),
+        let mut known = HashSet::new();
+        let rows = rows.into_iter().map(|row| {
+            let row = parse_row(row, code)?;
+            let case = &row.summary.case;
+            match known.insert(case.content_hash()) {
+                true => Ok(row),
+                false => Err(format!("{case} is there twice")),
+            }
+        });
+        rows.collect()
     });
     rows.map_err(|message| FileError::content(path, message))
 }
 
-fn repeated(rows: &[Row]) -> Option<&Case> {
-    let mut known = HashSet::new();
-    let mut cases = rows.iter().map(|row| &row.summary.case);
-    cases.find(|case| !known.insert(case.content_hash()))
-}
-
 fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
     let series = row.as_object_mut().and_then(|row| row.remove(SERIES));
-    let series =
-        serde_json::from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
-    let summary: RunSummary = serde_json::from_value(row).map_err(|error| error.to_string())?;
+    let series = from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
+    let summary: RunSummary = from_value(row).map_err(|error| error.to_string())?;
     let case = &summary.case;
     case.validate()
         .map_err(|invalid| format!("{case}: {invalid}"))?;
@@ -207,24 +205,22 @@ fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
     Ok(Row { summary, series })
 }
 
-/// The series of `row`, if it is kept among `members` of the archive at `path`.
+/// The series `name` of `case` among `members` of the archive at `path`.
 ///
 /// # Errors
 /// If it is missing, or is not the series of the case.
-pub(super) fn series_of(
-    row: &Row,
+pub(super) fn series_in(
     members: &Members,
+    name: &str,
+    case: &Case,
     path: &Path,
-) -> Result<Option<Series>, FileError> {
-    let Some(name) = &row.series else {
-        return Ok(None);
-    };
+) -> Result<Series, FileError> {
     let path = path.join(name);
     let Some(content) = members.get(name) else {
         let absent = std::io::Error::other("the table names it, but the archive lacks it");
         return Err(FileError::reading(&path)(absent));
     };
-    parse_series(&path, content, &row.summary.case).map(Some)
+    parse_series(&path, content, case)
 }
 
 /// The micro-tests among `members` of the archive at `path`.

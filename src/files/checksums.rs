@@ -1,7 +1,9 @@
 //! Digests beside the files of an entry, in the form that `sha256sum --check` reads.
 
 use super::FileError;
+use super::draft::write_by_draft;
 use crate::model::sha256_hex;
+use std::ffi::OsStr;
 use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -67,6 +69,15 @@ pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> 
         found,
         expected: String::from_utf8_lossy(&digest[..digest.len().min(64)]).into_owned(),
     })
+}
+
+/// Writes the sealed `content` to `path` whole or not at all, by way of the directory `drafts`, which the caller cleans
+/// up.
+///
+/// # Errors
+/// If the file system refuses; `path` is then as it was.
+pub(crate) fn write_sealed(drafts: &Path, path: &Path, content: &[u8]) -> Result<(), FileError> {
+    write_by_draft(drafts, OsStr::new("draft-"), path, &seal(content))
 }
 
 /// The content of the sealed file at `path`, if there is one.

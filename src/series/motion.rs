@@ -63,11 +63,6 @@ impl MotionRow {
             },
         ]
     }
-
-    fn is_finite(&self) -> bool {
-        let mut columns = Self::COLUMNS.iter();
-        columns.all(|column| (column.value)(self).is_finite())
-    }
 }
 
 /// One for every step and one for the beginning.

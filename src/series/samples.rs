@@ -35,15 +35,6 @@ impl Sample {
         let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
         (2.0 - (dx * dx + dy * dy).sqrt()).max(0.0)
     }
-
-    /// Whether every value is a finite number.
-    pub fn is_finite(&self) -> bool {
-        self.values().all(f64::is_finite)
-    }
-
-    fn values(&self) -> impl Iterator<Item = f64> {
-        Self::COLUMNS.iter().map(|column| (column.value)(self))
-    }
 }
 
 /// Why a series is not the one that was asked for. Rows are counted from 1, which is the one after the header.
@@ -194,14 +185,14 @@ impl Series {
 }
 
 fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {
-    let mut values = Sample::COLUMNS.iter().zip(sample.values());
-    let offending = values.find(|(_, value)| !value.is_finite());
-    offending.map_or(Ok(()), |(column, value)| {
+    let mut columns = Sample::COLUMNS.iter();
+    let offending = columns.find(|column| !(column.value)(sample).is_finite());
+    offending.map_or(Ok(()), |column| {
         Err(SeriesError::NotFinite {
             row,
             step: sample.step,
             column: column.name,
-            value,
+            value: (column.value)(sample),
         })
     })
 }

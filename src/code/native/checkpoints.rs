@@ -2,7 +2,7 @@
 
 use crate::code::RunContext;
 use crate::dem::Checkpoint;
-use crate::files::{read_sealed, seal, write_atomically_via};
+use crate::files::{read_sealed, write_sealed};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -25,7 +25,7 @@ pub(super) struct Unfinished {
 pub(super) fn keep(context: &RunContext, address: &str, run: &Unfinished) {
     if let Some(path) = path(context, address) {
         let content = serde_json::to_vec(run).expect("plain data has a JSON form");
-        let _ = write_atomically_via(context.directory, &path, &seal(&content));
+        let _ = write_sealed(context.directory, &path, &content);
     }
 }
 

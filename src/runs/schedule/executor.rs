@@ -261,7 +261,7 @@ impl<'a, T: Send, Keep: Fn(Run) -> T + Sync> Executor<'a, T, Keep> {
             .map(|&request| self.address(job, request));
         let addresses: Vec<String> = addresses.collect();
         let store = &self.settings.store;
-        let owners = store.claim(&addresses).unwrap_or_else(|error| {
+        let owners = store.session.claim(&addresses).unwrap_or_else(|error| {
             let message = format!("other programs may make the same runs again: {error}");
             self.progress.warn(&message);
             vec![None; addresses.len()]

@@ -29,13 +29,8 @@ impl Lock {
         owner: &LockOwner,
     ) -> Result<Self, StoreError> {
         let mut options = File::options();
-        let mut file = options
-            .create(true)
-            .truncate(false)
-            .read(true)
-            .write(true)
-            .open(path)
-            .map_err(FileError::writing(path))?;
+        options.create(true).truncate(false).read(true).write(true);
+        let mut file = options.open(path).map_err(FileError::writing(path))?;
         let start = Instant::now();
         loop {
             match file.try_lock() {
@@ -49,14 +44,17 @@ impl Lock {
                 }
             }
         }
-        let text = owner.to_string();
         // Named in the error of programs that wait too long; the lock holds without it.
-        let _ = file
-            .set_len(0)
-            .and_then(|()| file.rewind())
-            .and_then(|()| file.write_all(text.as_bytes()));
+        let _ = overwrite(&mut file, owner.to_string().as_bytes());
         Ok(Self { _file: file })
     }
+}
+
+/// Writes `content` in place of that of `file`, in place because others know the file by its lock.
+pub(super) fn overwrite(file: &mut File, content: &[u8]) -> std::io::Result<()> {
+    file.set_len(0)?;
+    file.rewind()?;
+    file.write_all(content)
 }
 
 fn busy(path: &Path) -> StoreError {

@@ -12,7 +12,7 @@ pub use owner::LockOwner;
 
 use crate::code::{Identity, Run};
 use crate::dem::{EventRun, Observation};
-use crate::files::{FileError, create_parent, parse_json, read_sealed, seal, write_atomically_via};
+use crate::files::{FileError, create_parent, parse_json, read_sealed, write_sealed};
 use crate::model::{Case, shown};
 use crate::runs::ProbeRecord;
 use crate::runs::entry::{read_entry, write_entry};
@@ -60,7 +60,7 @@ struct ObservedRun {
 /// The finished runs of a user.
 #[derive(Debug, Clone)]
 pub struct Store {
-    session: Arc<Session>,
+    pub(crate) session: Arc<Session>,
 }
 
 impl Store {
@@ -139,7 +139,8 @@ impl Store {
 
     /// Keeps a probe.
     pub(crate) fn put_probe(&self, address: &str, record: &ProbeRecord) -> Result<(), FileError> {
-        self.put_sealed(&self.path(PROBES, address), &record.to_json())
+        let (path, content) = (self.path(PROBES, address), record.to_json());
+        write_sealed(self.work_directory(), &path, content.as_bytes())
     }
 
     /// The kept observation of `run`, if there is one.
@@ -166,24 +167,8 @@ impl Store {
             observation: *observation,
         };
         let content = serde_json::to_string(&kept).expect("plain data has a JSON form") + "\n";
-        self.put_sealed(&self.path(OBSERVATIONS, &run.address()), &content)
-    }
-
-    /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
-    /// other program that is making it, if there is one.
-    ///
-    /// # Errors
-    /// If the claims cannot be read or written.
-    pub fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
-        self.session.claim(addresses)
-    }
-
-    /// Releases the claims to the runs under `addresses`.
-    ///
-    /// # Errors
-    /// If the claims cannot be written; they end with this program in any case.
-    pub fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
-        self.session.release(addresses)
+        let path = self.path(OBSERVATIONS, &run.address());
+        write_sealed(self.work_directory(), &path, content.as_bytes())
     }
 
     /// Directory of the checkpoints of native runs.
@@ -204,10 +189,6 @@ impl Store {
     /// The file of one `kind` under `address`.
     fn path(&self, kind: &str, address: &str) -> PathBuf {
         self.session.root.join(kind).join(format!("{address}.json"))
-    }
-
-    fn put_sealed(&self, path: &Path, content: &str) -> Result<(), FileError> {
-        write_atomically_via(self.work_directory(), path, &seal(content.as_bytes()))
     }
 
     /// A free place in quarantine.

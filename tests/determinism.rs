@@ -13,7 +13,7 @@ use std::process::Command;
 use tristack::code::Code;
 use tristack::dem::compress_stack;
 use tristack::model::{Case, sha256_hex};
-use tristack::runs::Archive;
+use tristack::runs::read_entry;
 use tristack::study::yield_force::Profile;
 
 const GOLDEN: &str = "reference/golden/native_series.sha256";
@@ -74,13 +74,10 @@ fn one_stack_at_a_time_has_the_golden_bits() {
 /// The digests of what is in the store of `bench`.
 fn stored(bench: &Bench) -> Digests {
     let root = bench.path("store/runs");
-    let archive = Archive::new(&root);
     let mut digests = Digests::new();
     for group in fs::read_dir(&root).expect("runs").flatten() {
         for entry in fs::read_dir(group.path()).expect("runs").flatten() {
-            let path = entry.path();
-            let name = path.strip_prefix(&root).expect("it is below");
-            let run = archive.load(name).expect("whole").expect("there");
+            let run = read_entry(&entry.path()).expect("whole").expect("there");
             digests.insert(run.case.content_hash(), sha256_hex(&run.series.to_csv()));
         }
     }

@@ -1,18 +1,16 @@
 //! A table of wrong codes: twins of the native DEM with one line changed, and the studies that notice.
 
 use std::path::Path;
-use tristack::code::{
-    Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext, Tasks,
-};
+use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
     run_contact_test_with,
 };
-use tristack::model::{Arms, Case, ContactConvention, ContactTest, Stack};
+use tristack::model::{Arms, Case, ContactConvention, ContactTest, Pyramid, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
-use tristack::series::{Motion, Series};
+use tristack::series::{Motion, PyramidRun, Series};
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::convention::probe_all;
 use tristack::study::preparation::plan_preparation;
@@ -214,17 +212,7 @@ impl InstalledCode for TwinEngine {
         Batching::OneCallACase
     }
 
-    fn carry_out(&self, tasks: Tasks, _: &RunContext) {
-        match tasks {
-            Tasks::Cases(cases, finished) => self.run_cases(cases, finished),
-            Tasks::ContactTests(tests, finished) => self.probe_all(tests, finished),
-            Tasks::Pyramids(..) => unreachable!("a twin is asked for no pyramids"),
-        }
-    }
-}
-
-impl TwinEngine {
-    fn run_cases(&self, cases: &[Case], finished: Finished<Run>) {
+    fn run(&self, cases: &[Case], _: &RunContext, finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
             let run = self.compress(case).map(|series| Run {
                 case: *case,
@@ -241,13 +229,17 @@ impl TwinEngine {
         }
     }
 
-    fn probe_all(&self, tests: &[ContactTest], finished: Finished<Motion>) {
-        for (index, test) in tests.iter().enumerate() {
+    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
+        let motion = |test: &ContactTest| {
             let stiffness = test.tangential_stiffness();
             let twin = Twin::new(&test.convention, stiffness, self.mutation);
-            let motion = run_contact_test_with(test, twin).expect("a finite motion");
-            finished(index, Ok(motion));
-        }
+            run_contact_test_with(test, twin).expect("a finite motion")
+        };
+        Ok(tests.iter().map(motion).collect())
+    }
+
+    fn build(&self, _: &[Pyramid], _: &RunContext) -> Result<Vec<PyramidRun>, Box<Failure>> {
+        unreachable!("a twin is asked for no pyramids")
     }
 }
 

@@ -1,27 +1,30 @@
 //! One process of an external code and its tasks: run directories, the run, outcomes and failures.
 
 use super::failure::{Failure, FailureKind};
-use super::installation::InstalledProgram;
+use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
-use super::manifest::{Definition, ResultFile};
+use super::manifest::ResultFile;
 use super::parameters::only_numbers;
-use super::process::{Ending, Environment, Job, STANDARD_ERROR, STANDARD_OUTPUT, run};
+use super::process::{Job, run};
 use super::task::Task;
 use crate::files::{FileError, locked_directory, remove_abandoned};
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
 const LAST_LINES: usize = 4;
 const HOME: &str = ".home-";
 const TAIL_BYTES: u64 = 4096;
+// Files that receive the output of a program.
+const STANDARD_OUTPUT: &str = "stdout.txt";
+const STANDARD_ERROR: &str = "stderr.txt";
 
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
-    program: &'a InstalledProgram,
-    definition: &'static Definition,
+    code: &'a ExternalCode,
     result: ResultFile,
     tasks: &'a [T],
     directory: PathBuf,
@@ -36,9 +39,8 @@ pub(crate) struct Batch<'a, T: Task> {
 type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 
 impl<'a, T: Task> Batch<'a, T> {
-    /// `tasks`, at least one, for one process of `program`, in `directory`.
-    pub fn new(program: &'a InstalledProgram, tasks: &'a [T], directory: PathBuf) -> Self {
-        let definition = program.code.definition();
+    /// `tasks`, at least one, for one process of `code`, in `directory`.
+    pub fn new(code: &'a ExternalCode, tasks: &'a [T], directory: PathBuf) -> Self {
         let task_directories: Vec<String> = match tasks {
             [_] => vec![".".to_owned()],
             _ => (0..tasks.len())
@@ -46,9 +48,8 @@ impl<'a, T: Task> Batch<'a, T> {
                 .collect(),
         };
         Self {
-            program,
-            definition,
-            result: definition.result(tasks[0].kind()),
+            code,
+            result: code.definition.result(tasks[0].kind()),
             tasks,
             directory,
             task_directories,
@@ -85,25 +86,21 @@ impl<'a, T: Task> Batch<'a, T> {
             return;
         }
         match outcome {
-            Ok(Ending::Exited(status)) if status.success() => self.read(delivered, report),
-            Ok(Ending::Exited(status)) => self.fail(delivered, FailureKind::Ended(status), report),
-            Ok(Ending::TimedOut) => {
-                let limit = self.time_limit(context);
-                self.fail(delivered, FailureKind::TimedOut(limit), report);
-            }
-            Ok(Ending::Interrupted) => self.interrupt_from(delivered, report),
+            Ok(status) if status.success() => self.read(delivered, report),
+            Ok(status) => self.fail(delivered, FailureKind::Ended(status), report),
+            Err(FailureKind::Interrupted) => self.interrupt_from(delivered, report),
             Err(kind) => self.fail(delivered, kind, report),
         }
     }
 
     fn prepare(&self) -> Result<(), FailureKind> {
-        self.program.installation.check_unchanged()?;
+        self.code.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let accepted = self.program.code.check_convention(task.convention());
+            let accepted = self.code.name.check_convention(task.convention());
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let (file, parameters) = (&self.definition.parameters, task.parameters());
+            let (file, parameters) = (&self.code.definition.parameters, task.parameters());
             only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
             let content = file.format.content(&parameters);
             write(&directory.join(&file.file), content.as_bytes())?;
@@ -111,51 +108,46 @@ impl<'a, T: Task> Batch<'a, T> {
                 write(&directory.join(name), content.as_bytes())?;
             }
             // Files of an earlier run must not pass for results of this one.
-            for stale in self.logs().iter().chain([&self.result.file]) {
+            for stale in self.code.program.logs.iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
         }
-        for (name, content) in self.definition.files(self.tasks[0].kind()) {
+        for (name, content) in self.code.definition.files(self.tasks[0].kind()) {
             write(&self.directory.join(name), content)?;
         }
         Ok(())
-    }
-
-    /// Log files of the program, quoted when it fails.
-    fn logs(&self) -> &'static [String] {
-        let program = self.definition.program.as_ref();
-        program.map_or(&[], |program| &program.logs)
     }
 
     fn run_process(
         &mut self,
         context: &RunContext,
         report: Report<T>,
-    ) -> Result<Ending, FailureKind> {
+    ) -> Result<ExitStatus, FailureKind> {
         let kind = self.tasks[0].kind();
-        let command = self.program.command(kind, &self.task_directories);
+        let command = self.code.command(kind, &self.task_directories);
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
-        command[0] = self.program.installation.program.clone().into_os_string();
-        let none = Environment::new();
-        let own = self.definition.program.as_ref();
+        command[0] = self.code.file.clone().into_os_string();
         let directory = self.directory.clone();
         // A killed process may have left its home in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
-        let (home, _lock) = locked_directory(&directory, HOME).map_err(FailureKind::Start)?;
+        let (home, _lock) = locked_directory(&directory, HOME)?;
         let job = Job {
             command: &command,
             directory: &directory,
-            home: &std::path::absolute(home.path()).map_err(FailureKind::Start)?,
-            environment: own.map_or(&none, |program| &program.environment),
+            home: &std::path::absolute(home.path())?,
+            environment: &self.code.program.environment,
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
-        run(&job, || self.harvest(report)).map_err(FailureKind::Start)
+        let [output, error] =
+            [STANDARD_OUTPUT, STANDARD_ERROR].map(|name| File::create(directory.join(name)));
+        let (status, _) = run(&job, output?, error?, || self.harvest(report))?;
+        Ok(status)
     }
 
     fn time_limit(&self, context: &RunContext) -> Duration {
         let steps = self.tasks.iter().map(Task::steps).max();
-        let longest = self.definition.time_limit(steps.unwrap_or(0));
+        let longest = self.code.definition.time_limit(steps.unwrap_or(0));
         context.time_limit.unwrap_or(longest)
     }
 
@@ -171,7 +163,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn is_complete(&self, index: usize) -> bool {
         let file = self.task_directory(index).join(&self.result.file);
-        self.definition.runs_many() && file.is_file()
+        self.code.definition.runs_many() && file.is_file()
     }
 
     fn task_directory(&self, index: usize) -> PathBuf {
@@ -186,7 +178,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let outcome = self.tasks[index].read_outcome(&directory, &self.result);
         let outcome = outcome.map_err(FailureKind::Series);
         // A program that was replaced meanwhile may not be the one that ran.
-        let unchanged = self.program.installation.check_unchanged();
+        let unchanged = self.code.check_unchanged();
         match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
                 let seconds = self.last_report.elapsed().as_secs_f64();
@@ -204,7 +196,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn fail(&mut self, index: usize, kind: FailureKind, report: Report<T>) {
         let failure = Failure {
-            code: self.program.code,
+            code: self.code.name,
             subject: self.tasks[index].to_string(),
             kind,
             run_directory: Some(self.task_directory(index)),
@@ -225,7 +217,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn last_lines(&self) -> Vec<String> {
-        let logs = self.logs().iter().map(String::as_str);
+        let logs = self.code.program.logs.iter().map(String::as_str);
         logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
             .flat_map(|name| {
                 let lines = tail(&self.directory.join(name));
@@ -253,7 +245,7 @@ fn remove(path: &Path) -> Result<(), FailureKind> {
 
 /// The last lines of a file that are not blank; bytes that are not text are replaced.
 fn tail(path: &Path) -> Vec<String> {
-    let Ok(mut file) = fs::File::open(path) else {
+    let Ok(mut file) = File::open(path) else {
         return Vec::new();
     };
     let length = file.metadata().map_or(0, |metadata| metadata.len());

@@ -3,36 +3,24 @@
 use std::collections::VecDeque;
 use std::io::{Read, Write};
 use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
 
 const HEAD_BYTES: u64 = 1 << 20;
 const TAIL_BYTES: usize = 1 << 16;
-/// Longest wait for a pipe after its program has ended: a process that outlives it may keep the pipe open.
-const LONGEST_REST: Duration = Duration::from_secs(1);
 
-/// Copies a pipe to `W` on a thread of its own.
-pub(super) struct Capture<W> {
-    result: Receiver<W>,
-}
-
-impl<W: Write + Send + 'static> Capture<W> {
-    pub(super) fn new(pipe: impl Read + Send + 'static, mut output: W) -> Self {
-        let (sender, result) = channel();
-        std::thread::spawn(move || {
-            // Output that cannot be written is dropped: a program is judged by its series.
-            let mut pipe = pipe;
-            if copy(&mut pipe, &mut output).is_err() {
-                let _ = std::io::copy(&mut pipe, &mut std::io::sink());
-            }
-            let _ = sender.send(output);
-        });
-        Self { result }
-    }
-
-    /// The destination of the copy, once that is complete.
-    pub(super) fn finish(self) -> Option<W> {
-        self.result.recv_timeout(LONGEST_REST).ok()
-    }
+/// Copies a pipe to `output` on a thread of its own, and hands `output` back once the copy is complete.
+pub(super) fn capture<W: Write + Send + 'static>(
+    mut pipe: impl Read + Send + 'static,
+    mut output: W,
+) -> Receiver<W> {
+    let (sender, copied) = channel();
+    std::thread::spawn(move || {
+        // Output that cannot be written is dropped: a program is judged by its series.
+        if copy(&mut pipe, &mut output).is_err() {
+            let _ = std::io::copy(&mut pipe, &mut std::io::sink());
+        }
+        let _ = sender.send(output);
+    });
+    copied
 }
 
 /// Copies the first bytes at once and the last ones at the end, with a note on how many are left out between them.

@@ -2,7 +2,7 @@
 //! tasks.
 
 use super::format::ResultFormat;
-use super::manifest::{Definition, RefusedValues, ResultFile, TaskKind};
+use super::manifest::{Definition, ResultFile, TaskKind};
 use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
@@ -49,9 +49,6 @@ type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 impl Definition {
     /// The codes that `folder` describes, one a variant, in the order of their names.
-    ///
-    /// # Errors
-    /// The first error in the manifest or its files.
     pub fn read(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         Self::read_with(folder, &|name| {
             std::fs::read(folder.join(name)).map_err(|error| error.to_string())
@@ -77,36 +74,32 @@ impl Definition {
         // The whole manifest first: its errors have a line.
         let manifest: Self = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
         let table: Table = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
+        let family = manifest.name.clone();
         let codes = manifest.expand(table).map_err(failed)?;
-        let finished = codes.into_iter().map(|code| code.finish(read));
+        let finished = codes.into_iter().map(|code| code.finish(&family, read));
         finished.collect::<Result<_, _>>().map_err(failed)
     }
 
     /// The code itself, or one code for each of its variants, whose keys override its own.
     fn expand(self, mut table: Table) -> Result<Vec<Self>, String> {
-        let family = self.name.clone();
         if self.variants.is_empty() {
-            return Ok(vec![Self { family, ..self }]);
+            return Ok(vec![self]);
         }
         table.remove("variants");
         let variants = self.variants.into_iter().map(|(name, overrides)| {
             let mut table = table.clone();
             table.insert("name".to_owned(), Value::String(name.clone()));
             merge(&mut table, overrides);
-            let code: Self = table
-                .try_into()
-                .map_err(|error| format!("variants.{name}: {error}"))?;
-            Ok(Self {
-                family: family.clone(),
-                ..code
-            })
+            let code = table.try_into();
+            code.map_err(|error| format!("variants.{name}: {error}"))
         });
         variants.collect()
     }
 
     /// Checks what the types cannot, and reads the files of the tasks.
-    fn finish(mut self, read: ReadFile) -> Result<Self, String> {
+    fn finish(mut self, family: &str, read: ReadFile) -> Result<Self, String> {
         self.check().map_err(|invalid| invalid.to_string())?;
+        family.clone_into(&mut self.family);
         if self.title.is_empty() {
             self.title.clone_from(&self.family);
         }
@@ -119,7 +112,7 @@ impl Definition {
         Ok(self)
     }
 
-    fn check(&mut self) -> Result<(), InvalidValue> {
+    fn check(&self) -> Result<(), InvalidValue> {
         if self.schema != SCHEMA {
             return Err(refused("schema", self.schema, SCHEMA.to_string()));
         }
@@ -135,19 +128,15 @@ impl Definition {
 
     /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or
     /// logs.
-    fn check_files(&mut self) -> Result<(), InvalidValue> {
+    fn check_files(&self) -> Result<(), InvalidValue> {
         let logs = self.program.iter().flat_map(|program| &program.logs);
-        let mut written = vec![self.parameters.file.clone(), self.result.file.clone()];
-        written.extend(logs.cloned());
-        let results = self
-            .tasks
-            .values_mut()
-            .filter_map(|task| task.result.clone());
-        written.extend(results);
+        let results = self.tasks.values().filter_map(|task| task.result.as_ref());
+        let common = [&self.parameters.file, &self.result.file];
+        let written: Vec<&String> = common.into_iter().chain(logs).chain(results).collect();
         if let Some(name) = written.iter().find(|name| !stays_inside(name)) {
             return Err(refused("file", name, "a path inside the run directory"));
         }
-        for task in self.tasks.values_mut() {
+        for task in self.tasks.values() {
             if task.files.is_empty() {
                 return Err(refused("files", "[]", "the deck and what it needs"));
             }
@@ -179,14 +168,12 @@ impl Definition {
         if program.command.is_empty() {
             return Err(refused("program.command", "[]", "a program and arguments"));
         }
-        let known = || self.set.keys().map(|name| format!("{{{name}}}"));
         for word in &program.command {
             let filled = self.fill(word, "");
             if word != DIRECTORIES && filled.contains(['{', '}']) {
-                let names: Vec<String> = known().collect();
-                let own = names.iter().map(String::as_str);
-                let names: Vec<&str> = [DECK, DIRECTORIES].into_iter().chain(own).collect();
-                let accepted = format!("words with the placeholders {}", names.join(", "));
+                let mut known = vec![DECK.to_owned(), DIRECTORIES.to_owned()];
+                known.extend(self.set.keys().map(|name| format!("{{{name}}}")));
+                let accepted = format!("words with the placeholders {}", known.join(", "));
                 return Err(refused("program.command", word, accepted));
             }
         }
@@ -263,21 +250,13 @@ impl Definition {
         let limit = Duration::try_from_secs_f64(start + step * steps as f64);
         limit.unwrap_or(Duration::MAX)
     }
-
-    /// Refuses a restitution that the manifest rules out.
-    pub(super) fn check_restitution(&self, asked: f64) -> Result<(), InvalidValue> {
-        let Some(RefusedValues { values, because }) = &self.refused.restitution else {
-            return Ok(());
-        };
-        if !values.contains(&asked) {
-            return Ok(());
-        }
-        let accepted = format!("any other number for {}: {because}", self.name);
-        Err(refused("convention.restitution", asked, accepted))
-    }
 }
 
-fn refused(key: &str, value: impl ToString, accepted: impl Into<String>) -> InvalidValue {
+pub(super) fn refused(
+    key: &str,
+    value: impl ToString,
+    accepted: impl Into<String>,
+) -> InvalidValue {
     InvalidValue {
         key: key.to_owned(),
         value: value.to_string(),

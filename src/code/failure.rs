@@ -11,32 +11,26 @@ use thiserror::Error;
 
 /// The reason why a code delivered no series.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what each is.
 pub enum FailureKind {
-    /// The code cannot run this case.
     #[error("the code cannot run the case: {0}")]
     Unsupported(InvalidValue),
     /// The run directory could not be prepared.
     #[error(transparent)]
     RunDirectory(#[from] FileError),
-    /// The program could not be started.
     #[error("cannot start the program: {0}")]
-    Start(std::io::Error),
-    /// The program is not the one whose version and hash were taken at the start.
+    Start(#[from] std::io::Error),
+    /// It is no longer the one whose version and hash were taken at the start.
     #[error("{} was replaced while it was in use; start again", shown(.0))]
     Replaced(PathBuf),
-    /// The program ended before the case was done.
     #[error("the program ended without a series: {0}")]
     Ended(ExitStatus),
-    /// The program went on to other cases.
     #[error("the program delivered no series for this case and went on")]
     Skipped,
-    /// The case was not finished in time.
     #[error("no series after {0:?}; it was stopped")]
     TimedOut(Duration),
-    /// The user interrupted.
     #[error("interrupted")]
     Interrupted,
-    /// The series is not the one that was asked for.
     #[error("the series is not usable: {0}")]
     Series(#[from] SeriesError),
 }

@@ -23,17 +23,14 @@ pub enum ParameterFormat {
 impl ParameterFormat {
     /// The content of the file for `parameters`, an object of numbers.
     pub fn content(self, parameters: &serde_json::Value) -> String {
-        let lines = |line: &dyn Fn(&str, &serde_json::Value) -> String| {
-            let entries = parameters.as_object().into_iter().flatten();
-            entries.map(|(name, number)| line(name, number)).collect()
+        let (before, between) = match self {
+            Self::Json => return format!("{parameters:#}\n"),
+            Self::Toml => ("", " = "),
+            Self::LammpsVariables => ("variable ", " string "),
         };
-        match self {
-            Self::Json => format!("{parameters:#}\n"),
-            Self::Toml => lines(&|name, number| format!("{name} = {number}\n")),
-            Self::LammpsVariables => {
-                lines(&|name, number| format!("variable {name} string {number}\n"))
-            }
-        }
+        let entries = parameters.as_object().into_iter().flatten();
+        let lines = entries.map(|(name, number)| format!("{before}{name}{between}{number}\n"));
+        lines.collect()
     }
 }
 
@@ -50,24 +47,15 @@ pub enum ResultFormat {
 
 impl ResultFormat {
     /// The series of `case` in a result file.
-    ///
-    /// # Errors
-    /// If it is not there, or is not the series of the case.
     pub fn series(self, content: &[u8], case: &Case) -> Result<Series, SeriesError> {
-        let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
+        let protocol = &case.protocol;
         match self {
-            Self::Csv => Series::read(content, &schedule, time_step),
-            Self::LammpsThermo => {
-                let samples = last_table(content, &Series::COLUMNS)?;
-                Series::new(samples, &schedule, time_step)
-            }
+            Self::Csv => Series::read(content, protocol),
+            Self::LammpsThermo => Series::new(last_table(content, &Series::COLUMNS)?, protocol),
         }
     }
 
     /// The motion of a micro-test in a result file.
-    ///
-    /// # Errors
-    /// If it is not there, or is not the motion of the micro-test.
     pub fn motion(self, content: &[u8], test: &ContactTest) -> Result<Motion, SeriesError> {
         match self {
             Self::Csv => Motion::read(content, test.steps),
@@ -86,11 +74,9 @@ fn last_table<Row: DeserializeOwned>(
     let start = lines
         .iter()
         .rposition(|line| is_header(line, columns))
-        .ok_or_else(|| SeriesError::Absent {
-            message: format!(
-                "the log has no table with the columns {}",
-                columns.join(" ")
-            ),
+        .ok_or_else(|| {
+            let columns = columns.join(" ");
+            SeriesError::absent(format!("the log has no table with the columns {columns}"))
         })?;
     lines[start + 1..]
         .iter()
@@ -113,10 +99,7 @@ fn parse_row<Row: DeserializeOwned>(row: usize, line: &str) -> Result<Row, Serie
     let fields: csv::StringRecord = line.split_whitespace().collect();
     fields
         .deserialize(None)
-        .map_err(|error| SeriesError::Garbled {
-            row,
-            message: format!("{error} in `{line}`"),
-        })
+        .map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
 }
 
 /// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
@@ -141,9 +124,7 @@ fn last_loop_time(log: &str) -> Result<f64, SeriesError> {
     times
         .next_back()
         .and_then(|rest| rest.split_whitespace().next()?.parse().ok())
-        .ok_or_else(|| SeriesError::Absent {
-            message: "the log has no loop time".to_owned(),
-        })
+        .ok_or_else(|| SeriesError::absent("the log has no loop time"))
 }
 
 /// The rows `id x y`, in the order of the ids 1, 2, ….
@@ -158,10 +139,10 @@ fn centres(dump: &str) -> Result<Vec<[f64; 2]>, SeriesError> {
         let mut coordinate = || fields.next()?.parse().ok();
         match (coordinate(), coordinate()) {
             (Some(x), Some(y)) if id == Some(row) => Ok([x, y]),
-            _ => Err(SeriesError::Garbled {
-                row,
-                message: format!("`{line}` in the dump of the centres is not `{row} x y`"),
-            }),
+            _ => {
+                let message = format!("`{line}` in the dump of the centres is not `{row} x y`");
+                Err(SeriesError::garbled(row, message))
+            }
         }
     };
     (1..).zip(rows).map(row).collect()

@@ -2,10 +2,12 @@
 
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
-use super::manifest::{TaskKind, VersionQuestion};
-use super::process::{self, Ending, Environment, Interrupt, Job};
+use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestion};
+use super::process::{Interrupt, Job, run};
+use super::provenance::Identity;
 use super::registry::Code;
 use crate::model::sha256_hex;
+use nix::unistd::{AccessFlags, access};
 use std::ffi::OsString;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -17,29 +19,6 @@ const TRIES: usize = 3;
 /// Longest version in characters, as it is printed in tables.
 const LONGEST_VERSION: usize = 100;
 const UNKNOWN: &str = "unknown";
-
-/// An installed program.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Installation {
-    pub program: PathBuf,
-    /// Its own version, or that of its package.
-    pub version: String,
-    /// Distribution package and its version, if the program belongs to one.
-    pub package: Option<String>,
-    /// SHA-256 of the program file.
-    pub hash: String,
-    /// Changes when the file is written to or replaced.
-    stamp: Stamp,
-}
-
-impl Installation {
-    /// Refuses a program that has been replaced since it was found.
-    pub(crate) fn check_unchanged(&self) -> Result<(), FailureKind> {
-        let unchanged = Stamp::of(&self.program).is_some_and(|stamp| stamp == self.stamp);
-        let replaced = || FailureKind::Replaced(self.program.clone());
-        unchanged.then_some(()).ok_or_else(replaced)
-    }
-}
 
 /// Device and number of a file, and when it last changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,71 +32,72 @@ impl Stamp {
     }
 }
 
-/// A code whose program is installed.
-pub(crate) struct InstalledProgram {
-    /// The code it belongs to.
-    pub code: Code,
+/// An external code whose program is installed.
+pub(crate) struct ExternalCode {
+    pub name: Code,
+    pub definition: &'static Definition,
+    pub program: &'static Program,
     /// First word of the command: that of the manifest, or a build in another precision.
-    pub word: String,
+    word: String,
     /// The file that was found.
-    pub installation: Installation,
+    pub file: PathBuf,
+    pub identity: Identity,
+    /// Changes when the file is written to or replaced.
+    stamp: Stamp,
 }
 
-impl InstalledProgram {
-    /// The program `word` as it is installed here, started like that of `code`.
-    pub fn find(code: Code, word: &str) -> Option<Self> {
-        let program = code.definition().program.as_ref()?;
+impl ExternalCode {
+    /// The code `name` with the program `word`, looked for in the search path. The package manager or the program itself
+    /// is asked for the version; a program that gives none within [`LONGEST_START`] counts as not installed: its
+    /// runs would be kept under a wrong name.
+    pub fn find(name: Code, word: &str) -> Option<Self> {
+        let definition = name.definition();
+        let program = definition.program.as_ref()?;
+        let question = &program.version;
+        let file = in_search_path(word)?;
+        let stamp = Stamp::of(&file)?;
+        let package = owning_package(&file).ok()?;
+        let version = match &package {
+            Some((_, version)) if question.package => upstream(version).to_owned(),
+            _ => own_version(&file, question, &program.environment).ok()?,
+        };
+        let hash = sha256_hex(&std::fs::read(&file).ok()?);
         Some(Self {
-            code,
+            name,
+            definition,
+            program,
             word: word.to_owned(),
-            installation: find(word, &program.version, &program.environment)?,
+            file,
+            identity: Identity {
+                code: name.as_str().to_owned(),
+                version,
+                package: package.map(|(package, version)| format!("{package} {version}")),
+                program_hash: Some(hash),
+            },
+            stamp,
         })
+    }
+
+    /// Refuses a program that has been replaced since it was found.
+    pub fn check_unchanged(&self) -> Result<(), FailureKind> {
+        let unchanged = Stamp::of(&self.file) == Some(self.stamp);
+        let replaced = || FailureKind::Replaced(self.file.clone());
+        unchanged.then_some(()).ok_or_else(replaced)
     }
 
     /// Program and arguments that carry out tasks of one kind in `directories`.
     pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
-        let mut command = self.code.definition().command(kind, directories);
+        let mut command = self.definition.command(kind, directories);
         command[0].clone_from(&self.word);
         command
     }
-}
-
-/// Looks for `program` in the search path and asks the package manager, or the program itself in its
-/// `environment`, for its version. A program that gives none within [`LONGEST_START`] counts as not
-/// installed: its runs would be kept under a wrong name.
-fn find(
-    program: &str,
-    question: &VersionQuestion,
-    environment: &Environment,
-) -> Option<Installation> {
-    let program = in_search_path(program)?;
-    let stamp = Stamp::of(&program)?;
-    let package = owning_package(&program).ok()?;
-    let version = match &package {
-        Some((_, version)) if question.package => upstream(version).to_owned(),
-        _ => own_version(&program, question, environment).ok()?,
-    };
-    let hash = sha256_hex(&std::fs::read(&program).ok()?);
-    Some(Installation {
-        program,
-        hash,
-        stamp,
-        version,
-        package: package.map(|(name, version)| format!("{name} {version}")),
-    })
 }
 
 fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path)
         .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
-        .find(|candidate| is_executable(candidate))
-}
-
-fn is_executable(path: &Path) -> bool {
-    use std::os::unix::fs::PermissionsExt;
-    let metadata = std::fs::metadata(path);
-    metadata.is_ok_and(|metadata| metadata.is_file() && metadata.permissions().mode() & 0o111 != 0)
+        .find(|candidate| candidate.is_file() && access(candidate, AccessFlags::X_OK).is_ok())
 }
 
 /// Debian package and version that the program, links followed, belongs to.
@@ -200,13 +180,13 @@ fn answer(
         interrupt: &Interrupt::new(),
     };
     for _ in 0..TRIES {
-        match process::answer(&job) {
-            Ok((Ending::Exited(status), text)) if status.code().is_some() => {
-                let text = String::from_utf8_lossy(&text).into_owned();
+        match run(&job, Vec::new(), std::io::sink(), || false) {
+            Ok((status, text)) if status.code().is_some() => {
+                let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
                 return Ok(status.success().then_some(text));
             }
-            Ok((Ending::Exited(_), _)) => {}
-            Ok(_) => return Err(TooSlow),
+            Ok(_) => {}
+            Err(FailureKind::TimedOut(_)) => return Err(TooSlow),
             Err(_) => return Ok(None),
         }
     }
@@ -238,8 +218,7 @@ mod tests {
 
     #[test]
     fn a_program_that_does_not_exist_is_not_installed() {
-        let question = VersionQuestion::default();
-        let found = find("tristack-has-no-such-code", &question, &Environment::new());
-        assert_eq!(found, None);
+        let code = Code::named("yade").unwrap();
+        assert!(ExternalCode::find(code, "tristack-has-no-such-code").is_none());
     }
 }

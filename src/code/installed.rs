@@ -7,10 +7,7 @@ use super::registry::Code;
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{Motion, PyramidRun};
 use std::path::Path;
-use std::time::Duration;
-
-/// Progress callback: index of the case, steps done.
-pub(crate) type Advanced<'a> = &'a (dyn Fn(usize, u64) + Sync);
+use std::time::{Duration, Instant};
 
 /// The conditions under which runs are made.
 #[derive(Clone, Copy)]
@@ -23,8 +20,8 @@ pub struct RunContext<'a> {
     pub time_limit: Option<Duration>,
     /// Stops the runs when requested.
     pub interrupt: &'a Interrupt,
-    /// Receives the progress of long runs.
-    pub advanced: Advanced<'a>,
+    /// Receives the progress of long runs: index of the case, steps done.
+    pub advanced: &'a (dyn Fn(usize, u64) + Sync),
 }
 
 impl<'a> RunContext<'a> {
@@ -37,6 +34,11 @@ impl<'a> RunContext<'a> {
             interrupt,
             advanced: &|_, _| (),
         }
+    }
+
+    /// The time limit, if it has passed since `start`.
+    pub(super) fn late_since(&self, start: Instant) -> Option<Duration> {
+        self.time_limit.filter(|&limit| start.elapsed() > limit)
     }
 }
 
@@ -65,62 +67,22 @@ pub trait InstalledCode: Send + Sync {
     /// The distribution of cases over calls.
     fn batching(&self) -> Batching;
 
-    /// Carries out `tasks`.
-    fn carry_out(&self, tasks: Tasks, context: &RunContext);
-}
+    /// Compresses the stacks of `cases`, and hands each result to `finished`. A failure does not keep the others from
+    /// running.
+    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>);
 
-/// Tasks of one kind, and the receiver of their outcomes.
-pub enum Tasks<'a, 'f> {
-    /// Stacks to be compressed. A failure does not keep the others from running.
-    Cases(&'a [Case], Finished<'f, Run>),
-    /// Micro-tests. The first failure ends the call.
-    ContactTests(&'a [ContactTest], Finished<'f, Motion>),
-    /// Pyramids. The first failure ends the call.
-    Pyramids(&'a [Pyramid], Finished<'f, PyramidRun>),
-}
-
-impl dyn InstalledCode + '_ {
-    /// Runs `cases`, and hands each result to `finished`.
-    pub fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        self.carry_out(Tasks::Cases(cases, finished), context);
-    }
-
-    /// The motions of micro-tests, in order.
-    pub fn probe(
+    /// The motions of micro-tests, in order, or the first failure.
+    fn probe(
         &self,
         tests: &[ContactTest],
         context: &RunContext,
-    ) -> Result<Vec<Motion>, Box<Failure>> {
-        collect(tests.len(), |finished| {
-            self.carry_out(Tasks::ContactTests(tests, finished), context);
-        })
-    }
+    ) -> Result<Vec<Motion>, Box<Failure>>;
 
-    /// The runs of pyramids, in order.
-    ///
-    /// # Errors
-    /// The first failure, if there is one: the code may not build pyramids, or not with this convention.
-    pub fn build(
+    /// The runs of pyramids, in order, or the first failure: the code may not build pyramids, or not with this
+    /// convention.
+    fn build(
         &self,
         pyramids: &[Pyramid],
         context: &RunContext,
-    ) -> Result<Vec<PyramidRun>, Box<Failure>> {
-        collect(pyramids.len(), |finished| {
-            self.carry_out(Tasks::Pyramids(pyramids, finished), context);
-        })
-    }
-}
-
-/// The outcomes of `count` tasks in the order of their indices, or the first failure.
-fn collect<T>(count: usize, carry_out: impl FnOnce(Finished<T>)) -> Result<Vec<T>, Box<Failure>> {
-    let mut outcomes: Vec<Option<T>> = (0..count).map(|_| None).collect();
-    let mut failure = None;
-    carry_out(&mut |index, result| match result {
-        Ok(outcome) => outcomes[index] = Some(outcome),
-        Err(error) => failure = failure.take().or(Some(error)),
-    });
-    match failure {
-        Some(failure) => Err(Box::new(failure)),
-        None => Ok(outcomes.into_iter().flatten().collect()),
-    }
+    ) -> Result<Vec<PyramidRun>, Box<Failure>>;
 }

@@ -1,7 +1,6 @@
 //! The keys of a manifest.
 
 use super::format::{ParameterFormat, ResultFormat};
-use super::process::Environment;
 use crate::model::ContactConvention;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -66,16 +65,13 @@ pub enum TaskKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
-    /// Its shape.
     pub shape: Shape,
-    /// Its colour.
     pub colour: Colour,
 }
 
 /// Outlines, so that marks at the same place do not hide each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum Shape {
     Dot,
     Circle,
@@ -88,7 +84,6 @@ pub enum Shape {
 /// Colours that the colour-blind tell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum Colour {
     Ink,
     Blue,
@@ -115,6 +110,9 @@ impl Default for Seconds {
     }
 }
 
+/// Variables for the environment of a program.
+pub(super) type Environment = BTreeMap<String, String>;
+
 /// How a code is started.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -127,7 +125,7 @@ pub(super) struct Program {
     pub(super) version: VersionQuestion,
     #[serde(default)]
     pub(super) environment: Environment,
-    /// Files in the working directory that say why a run failed.
+    /// Files in the working directory that say why a run failed, and are quoted then.
     #[serde(default)]
     pub(super) logs: Vec<String>,
 }

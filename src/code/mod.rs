@@ -19,16 +19,18 @@ mod registry;
 mod task;
 mod written;
 
-pub use definition::ManifestError;
+pub(crate) use definition::ManifestError;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub(crate) use guard::{COMMAND as GUARD_COMMAND, end_like};
 pub use guard::{guard, guard_foreign_programs};
+use installation::ExternalCode;
 pub use installation::version_in_answer;
-pub use installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
-pub(crate) use manifest::Angle;
-pub use manifest::{Colour, Definition, Mark, Shape, TaskKind};
+pub use installed::{Batching, Finished, InstalledCode, RunContext};
+pub(crate) use manifest::{Angle, Colour, Shape};
+pub use manifest::{Definition, TaskKind};
 pub(crate) use native::observe;
+use native::{Arithmetic, Native};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
@@ -39,19 +41,23 @@ impl Code {
     /// The code as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
-            return Some(Box::new(native::Native::new()));
+            return Some(Box::new(Native::new(Arithmetic::Double)));
         }
-        let command = self.definition().command(TaskKind::Stack, &[]);
-        external::ExternalCode::find(self, command.first()?)
+        let program = self.definition().program.as_ref()?;
+        Some(Box::new(ExternalCode::find(
+            self,
+            program.command.first()?,
+        )?))
     }
 
     /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
     /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
     pub fn find_precise(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
-            return Some(Box::new(native::Native::precise()));
+            return Some(Box::new(Native::new(Arithmetic::DoubleDouble)));
         }
         let program = self.definition().program.as_ref()?;
-        external::ExternalCode::find(self, program.higher_precision.as_deref()?)
+        let word = program.higher_precision.as_deref()?;
+        Some(Box::new(ExternalCode::find(self, word)?))
     }
 }

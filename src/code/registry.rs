@@ -1,7 +1,7 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
-use super::definition::ManifestError;
-use super::manifest::{Definition, Integration, Mark, TaskKind};
+use super::definition::{ManifestError, refused};
+use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -180,17 +180,20 @@ impl Code {
         if self.accepts_any_convention() {
             return Ok(());
         }
-        self.definition().check_restitution(asked.restitution)?;
+        let restitution = asked.restitution;
+        if let Some(RefusedValues { values, because }) = &self.definition().refused.restitution
+            && values.contains(&restitution)
+        {
+            let accepted = format!("any other number for {self}: {because}");
+            return Err(refused("convention.restitution", restitution, accepted));
+        }
         let own = ContactConvention {
-            restitution: asked.restitution,
+            restitution,
             ..self.convention()
         };
         asked.difference(&own).map_or(Ok(()), |(key, value, own)| {
-            Err(InvalidValue {
-                key: format!("convention.{key}"),
-                value,
-                accepted: format!("{own} for {self}"),
-            })
+            let key = format!("convention.{key}");
+            Err(refused(&key, value, format!("{own} for {self}")))
         })
     }
 
@@ -210,24 +213,18 @@ impl Code {
             return Ok(());
         }
         if kind == TaskKind::SideWalls {
-            return Err(InvalidValue {
-                key: "protocol.preparation.kind".to_owned(),
-                value: "side-walls".to_owned(),
-                accepted: format!("gravity-ramp for {self}"),
-            });
+            let accepted = format!("gravity-ramp for {self}");
+            return Err(refused("protocol.preparation.kind", "side-walls", accepted));
         }
-        let able = Self::all().into_iter();
-        let able = able.filter(|code| code.definition().runs(kind));
-        let able: Vec<&str> = able.map(Self::as_str).collect();
+        let runs = |code: &Self| code.definition().runs(kind);
+        let able = Self::all().into_iter().filter(runs).map(Self::as_str);
+        let able: Vec<&str> = able.collect();
         let task = match kind {
             TaskKind::Pyramid => "a pyramid",
             _ => "a micro-test",
         };
-        Err(InvalidValue {
-            key: "code".to_owned(),
-            value: self.as_str().to_owned(),
-            accepted: format!("one of {} for {task}", able.join(", ")),
-        })
+        let accepted = format!("one of {} for {task}", able.join(", "));
+        Err(refused("code", self, accepted))
     }
 
     /// Whether it can shorten runs.
@@ -240,11 +237,8 @@ impl Code {
         if !asked || self.takes_shortcuts() {
             return Ok(());
         }
-        Err(InvalidValue {
-            key: "protocol.shortcuts".to_owned(),
-            value: "given".to_owned(),
-            accepted: format!("none for {self}; native takes them"),
-        })
+        let accepted = format!("none for {self}; native takes them");
+        Err(refused("protocol.shortcuts", "given", accepted))
     }
 
     /// Hash of the files for a task of this kind, or of the sources of the native code.
@@ -275,10 +269,8 @@ impl Registry {
             return Err(ManifestError::new(folder, message));
         }
         if let Some(new) = read.iter().find(|new| new.program.is_none()) {
-            let message = format!(
-                "{} has no [program]; accepted is one with a command",
-                new.name
-            );
+            let accepted = "accepted is one with a command";
+            let message = format!("{} has no [program]; {accepted}", new.name);
             return Err(ManifestError::new(folder, message));
         }
         let first = self.definitions.len();

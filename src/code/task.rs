@@ -2,12 +2,11 @@
 
 use super::format::pyramid_in_log;
 use super::manifest::{ResultFile, TaskKind};
-use super::parameters::{DeckParameters, ProbeParameters, PyramidParameters, placed_cylinders};
+use super::parameters;
 use super::registry::Code;
 use super::written::read;
 use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
-use serde::Serialize;
 use std::path::Path;
 
 /// File with the centres of a pyramid. Decks write it last, so that it is of this run if the code succeeds.
@@ -64,7 +63,7 @@ impl Task for Case {
     }
 
     fn parameters(&self) -> serde_json::Value {
-        named(&DeckParameters::new(self))
+        parameters::of_case(self)
     }
 
     fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Series, SeriesError> {
@@ -88,7 +87,7 @@ impl Task for ContactTest {
     }
 
     fn parameters(&self) -> serde_json::Value {
-        named(&ProbeParameters::new(self))
+        parameters::of_contact_test(self)
     }
 
     fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Motion, SeriesError> {
@@ -114,7 +113,7 @@ impl Task for Pyramid {
     }
 
     fn parameters(&self) -> serde_json::Value {
-        named(&PyramidParameters::new(self))
+        parameters::of_pyramid(self)
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {
@@ -122,7 +121,7 @@ impl Task for Pyramid {
     }
 
     fn files(&self) -> Vec<(&'static str, String)> {
-        vec![placed_cylinders(self)]
+        vec![parameters::placed_cylinders(self)]
     }
 
     fn read_outcome(
@@ -149,8 +148,4 @@ impl Code {
         let given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
         sha256_hex(format!("{}\n{given}", self.files_hash(kind)).as_bytes())
     }
-}
-
-fn named(parameters: &impl Serialize) -> serde_json::Value {
-    serde_json::to_value(parameters).expect("a struct of finite numbers has a JSON form")
 }

@@ -12,18 +12,14 @@ const LONGEST_READ: u64 = 256 << 20;
 const LONGEST_KEPT: u64 = 4 << 20;
 
 /// The file `name` in `directory`.
-///
-/// # Errors
-/// If it cannot be read, or is longer than any series.
 pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
-    let absent = |message| SeriesError::Absent { message };
     let mut content = Vec::new();
     File::open(directory.join(name))
         .and_then(|file| file.take(LONGEST_READ + 1).read_to_end(&mut content))
-        .map_err(|error| absent(format!("cannot read {name}: {error}")))?;
+        .map_err(|error| SeriesError::absent(format!("cannot read {name}: {error}")))?;
     if content.len() as u64 > LONGEST_READ {
         let message = format!("{name} is longer than {LONGEST_READ} bytes, the most that is read");
-        return Err(absent(message));
+        return Err(SeriesError::absent(message));
     }
     Ok(content)
 }

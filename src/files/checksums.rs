@@ -1,17 +1,22 @@
 //! Digests beside the files of an entry, in the form that `sha256sum --check` reads.
 
 use super::FileError;
+use super::draft::write_by_draft;
 use crate::model::sha256_hex;
+use std::ffi::OsStr;
+use std::fmt::Display;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The file with the digests of all others of an entry.
 pub(crate) const CHECKSUMS: &str = "SHA256SUMS";
 
 /// Content of the file with the digests of `files`.
-pub(crate) fn checksums(files: &[(&str, Vec<u8>)]) -> String {
-    let lines = files
-        .iter()
-        .map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
+pub(crate) fn checksums<'a>(
+    files: impl IntoIterator<Item = (impl Display, &'a Vec<u8>)>,
+) -> String {
+    let files = files.into_iter();
+    let lines = files.map(|(name, content)| format!("{}  {name}\n", sha256_hex(content)));
     lines.collect()
 }
 
@@ -66,6 +71,24 @@ pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> 
     })
 }
 
+/// Writes the sealed `content` to `path` whole or not at all, by way of the directory `drafts`, which the caller cleans
+/// up.
+///
+/// # Errors
+/// If the file system refuses; `path` is then as it was.
+pub(crate) fn write_sealed(drafts: &Path, path: &Path, content: &[u8]) -> Result<(), FileError> {
+    write_by_draft(drafts, OsStr::new("draft-"), path, &seal(content))
+}
+
+/// The content of the sealed file at `path`, if there is one.
+pub(crate) fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
+    match std::fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(FileError::reading(path)(error)),
+        Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,20 +101,13 @@ mod tests {
     }
 
     #[test]
-    fn a_single_flipped_bit_is_noticed_wherever_it_is() {
-        let sealed = seal(b"0.25");
+    fn a_flipped_bit_and_a_cut_are_noticed_wherever_they_are() {
+        let sealed = seal(b"0.25\n");
         for bit in 0..8 * sealed.len() {
             let mut damaged = sealed.clone();
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(unseal(Path::new("x"), &damaged).is_err(), "bit {bit}");
-        }
-    }
-
-    #[test]
-    fn a_file_that_is_cut_anywhere_is_noticed() {
-        let sealed = seal(b"0.25\n");
-        for length in 0..sealed.len() {
-            assert!(unseal(Path::new("x"), &sealed[..length]).is_err());
+            assert!(unseal(Path::new("x"), &sealed[..bit / 8]).is_err());
         }
     }
 }

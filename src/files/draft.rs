@@ -25,18 +25,7 @@ pub(crate) fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileEr
 }
 
 /// The same by way of a draft in the directory `drafts`, which the caller cleans up.
-///
-/// # Errors
-/// If the file system refuses; `path` is then as it was.
-pub(crate) fn write_atomically_via(
-    drafts: &Path,
-    path: &Path,
-    content: &[u8],
-) -> Result<(), FileError> {
-    write_by_draft(drafts, OsStr::new("draft-"), path, content)
-}
-
-fn write_by_draft(
+pub(super) fn write_by_draft(
     drafts: &Path,
     prefix: &OsStr,
     path: &Path,

@@ -4,11 +4,11 @@ mod checksums;
 mod draft;
 mod error;
 
-pub(crate) use checksums::{CHECKSUMS, check, checksums};
+pub(crate) use checksums::{CHECKSUMS, check, checksums, read_sealed, write_sealed};
 pub use checksums::{seal, unseal};
 pub(crate) use draft::{
     create_parent, locked_directory, remove_abandoned, sync_directory, write_atomically,
-    write_atomically_via, write_synced,
+    write_synced,
 };
 pub use error::FileError;
 pub(crate) use error::parse_json;

@@ -4,175 +4,113 @@ use super::summary::{ESTIMATOR, RunSummary};
 use crate::code::Run;
 use crate::files::{
     CHECKSUMS, FileError, check, checksums, create_parent, locked_directory, parse_json,
-    remove_abandoned, sync_directory, write_synced,
+    read_sealed, seal, sync_directory, write_sealed, write_synced,
 };
 use crate::model::Case;
 use crate::series::Series;
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
-use serde::{Deserialize, Serialize};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
-const SUMMARY: &str = "summary.json";
 const DRAFT: &str = ".draft-";
 
-/// The summary of a run as it is kept beside its series, so that the series need not be read again.
-#[derive(Serialize, Deserialize)]
-struct KeptSummary {
-    /// Digest of the sources that made the summary.
-    estimator: String,
-    summary: RunSummary,
+/// Reads the entry in `directory`; `None` if there is none.
+///
+/// # Errors
+/// If it is there but damaged.
+pub fn read_entry(directory: &Path) -> Result<Option<Run>, FileError> {
+    if !directory.is_dir() {
+        return Ok(None);
+    }
+    let checked = checked_files(directory)?;
+    let case = Case::parse(&checked(CASE)?, &directory.join(CASE))?;
+    let series = parse_series(&directory.join(SERIES), &checked(SERIES)?, &case)?;
+    let provenance = parse_json(&checked(PROVENANCE)?, &directory.join(PROVENANCE))?;
+    Ok(Some(Run {
+        case,
+        series,
+        provenance,
+    }))
 }
 
-/// A directory of entries.
-#[derive(Debug, Clone)]
-pub struct Archive {
-    root: PathBuf,
-    drafts: PathBuf,
+/// Reads the summary of the entry in `directory`; `None` if there is none. Beside its series an entry has the summary
+/// that today's sources make of it, or is given one, by way of a draft in the directory `drafts`.
+///
+/// # Errors
+/// If the entry is there but damaged, its series included.
+pub(super) fn read_summary(
+    directory: &Path,
+    drafts: &Path,
+) -> Result<Option<RunSummary>, FileError> {
+    let path = directory.join(summary_file());
+    if let Ok(Some(kept)) = read_sealed(&path)
+        && let Ok(summary) = parse_json(&kept, &path)
+    {
+        checked_files(directory)?(SERIES)?;
+        return Ok(Some(summary));
+    }
+    let summary = read_entry(directory)?.map(RunSummary::new);
+    if let Some(summary) = &summary {
+        // Without it the next reader is slower.
+        let _ = write_sealed(drafts, &path, &summary_json(summary));
+    }
+    Ok(summary)
 }
 
-impl Archive {
-    /// An archive at `root`, which need not exist yet.
-    pub fn new(root: impl Into<PathBuf>) -> Self {
-        let root = root.into();
-        let drafts = root.clone();
-        Self { root, drafts }
-    }
-
-    /// The same archive with its drafts in `drafts`, a directory in the same file system.
-    pub(crate) fn with_drafts_in(self, drafts: impl Into<PathBuf>) -> Self {
-        let drafts = drafts.into();
-        Self { drafts, ..self }
-    }
-
-    /// The directory of the archive.
-    pub fn root(&self) -> &Path {
-        &self.root
-    }
-
-    /// Reads the entry `name`; `None` if there is none.
-    ///
-    /// # Errors
-    /// If it is there but damaged.
-    pub fn load(&self, name: &Path) -> Result<Option<Run>, FileError> {
-        let Some(entry) = Entry::open(self.root.join(name))? else {
-            return Ok(None);
-        };
-        let case = Case::parse(&entry.read(CASE)?, &entry.path(CASE))?;
-        let series = parse_series(&entry.path(SERIES), &entry.read(SERIES)?, &case)?;
-        let provenance = parse_json(&entry.read(PROVENANCE)?, &entry.path(PROVENANCE))?;
-        Ok(Some(Run {
-            case,
-            series,
-            provenance,
-        }))
-    }
-
-    /// The summary of the entry `name`; `None` if there is none. It is made anew from the series where the one beside
-    /// it was made by other sources than today's.
-    ///
-    /// # Errors
-    /// If the entry is there but damaged, its series included.
-    pub(crate) fn load_summary(&self, name: &Path) -> Result<Option<RunSummary>, FileError> {
-        let Some(entry) = Entry::open(self.root.join(name))? else {
-            return Ok(None);
-        };
-        if entry.has(SUMMARY) {
-            let kept: KeptSummary = parse_json(&entry.read(SUMMARY)?, &entry.path(SUMMARY))?;
-            if kept.estimator == *ESTIMATOR {
-                entry.read(SERIES)?;
-                return Ok(Some(kept.summary));
-            }
-        }
-        Ok(self.load(name)?.map(RunSummary::new))
-    }
-
-    /// Writes `run` as the entry `name`, in place of an older one.
-    ///
-    /// # Errors
-    /// If the file system refuses; an older entry is then unchanged.
-    pub fn save(&self, name: &Path, run: &Run) -> Result<(), FileError> {
-        let target = self.root.join(name);
-        let parent = create_parent(&target)?;
-        if self.drafts == self.root {
-            // The owner of any other place cleans it up.
-            remove_abandoned(&self.drafts, DRAFT.as_ref());
-        }
-        let draft = locked_directory(&self.drafts, DRAFT);
-        let (draft, _lock) = draft.map_err(FileError::writing(&self.drafts))?;
-        write_entry(draft.path(), run)?;
-        put_in_place(draft.path(), &target)?;
-        // Removes the older entry, if there was one.
-        drop(draft);
-        sync_directory(&parent)
-    }
-
-    /// Moves the entry `name`, if it is still there, to `target`, which does not exist.
-    pub(crate) fn move_away(&self, name: &Path, target: &Path) -> Result<(), FileError> {
-        create_parent(target)?;
-        match fs::rename(self.root.join(name), target) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
-            renamed => renamed.map_err(FileError::writing(target)),
-        }
-    }
+/// The file with the summary. It belongs to the sources that made it.
+fn summary_file() -> String {
+    format!("summary-{}.json", &ESTIMATOR[..16])
 }
 
-/// An entry that is being read.
-struct Entry {
-    directory: PathBuf,
-    checksums: String,
+fn summary_json(summary: &RunSummary) -> Vec<u8> {
+    serde_json::to_vec(summary).expect("plain data has a JSON form")
 }
 
-impl Entry {
-    /// The entry in `directory`; `None` if there is none.
-    fn open(directory: PathBuf) -> Result<Option<Self>, FileError> {
-        if !directory.is_dir() {
-            return Ok(None);
-        }
-        let checksums = read(&directory.join(CHECKSUMS))?;
-        let checksums = String::from_utf8_lossy(&checksums).into_owned();
-        Ok(Some(Self {
-            directory,
-            checksums,
-        }))
-    }
-
-    fn path(&self, file: &str) -> PathBuf {
-        self.directory.join(file)
-    }
-
-    /// Whether `file` belongs to the entry.
-    fn has(&self, file: &str) -> bool {
-        self.checksums.lines().any(|line| line.ends_with(file))
-    }
-
-    /// The content of `file`, which has the digest that it was written with.
-    fn read(&self, file: &str) -> Result<Vec<u8>, FileError> {
-        let content = read(&self.path(file))?;
-        check(&self.checksums, &self.directory, file, &content)?;
+/// Reads files of the entry in `directory` by their names, and refuses those that do not have the digest with which
+/// they were written.
+fn checked_files(
+    directory: &Path,
+) -> Result<impl Fn(&str) -> Result<Vec<u8>, FileError>, FileError> {
+    let checksums = read(&directory.join(CHECKSUMS))?;
+    let checksums = String::from_utf8_lossy(&checksums).into_owned();
+    Ok(move |file: &str| {
+        let content = read(&directory.join(file))?;
+        check(&checksums, directory, file, &content)?;
         Ok(content)
-    }
+    })
 }
 
-fn write_entry(directory: &Path, run: &Run) -> Result<(), FileError> {
-    let summary = KeptSummary {
-        estimator: ESTIMATOR.clone(),
-        summary: RunSummary::new(run.clone()),
-    };
-    let summary = serde_json::to_vec(&summary).expect("plain data has a JSON form");
+/// Writes `run` as the entry in `target`, in place of an older one, by way of a draft in the directory `drafts`,
+/// which the caller cleans up.
+///
+/// # Errors
+/// If the file system refuses; an older entry is then unchanged.
+pub(super) fn write_entry(target: &Path, drafts: &Path, run: &Run) -> Result<(), FileError> {
+    let parent = create_parent(target)?;
+    let draft = locked_directory(drafts, DRAFT).map_err(FileError::writing(drafts))?;
+    let (draft, _lock) = draft;
+    write_files(draft.path(), run)?;
+    put_in_place(draft.path(), target)?;
+    // Removes the older entry, if there was one.
+    drop(draft);
+    sync_directory(&parent)
+}
+
+fn write_files(directory: &Path, run: &Run) -> Result<(), FileError> {
     let files = [
         (CASE, run.case.to_json().into_bytes()),
         (SERIES, run.series.to_csv()),
         (PROVENANCE, run.provenance.to_json().into_bytes()),
-        (SUMMARY, summary),
     ];
+    let summary = summary_json(&RunSummary::new(run.clone()));
+    write_synced(&directory.join(summary_file()), &seal(&summary))?;
     for (name, content) in &files {
         write_synced(&directory.join(name), content)?;
     }
-    let sums = checksums(&files);
+    let sums = checksums(files.iter().map(|(name, content)| (name, content)));
     write_synced(&directory.join(CHECKSUMS), sums.as_bytes())?;
     sync_directory(directory)
 }
@@ -214,16 +152,14 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 
 /// The series of `case` in the `content` of the file at `path`.
 pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
-    let schedule = case.protocol.schedule();
-    Series::read(content, &schedule, case.protocol.time_step).map_err(|source| FileError::Series {
-        path: path.to_owned(),
-        source,
-    })
+    let series = Series::read(content, &case.protocol);
+    series.map_err(FileError::series(path))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::PathBuf;
 
     fn directory_with(root: &Path, name: &str, content: &str) -> PathBuf {
         let directory = root.join(name);

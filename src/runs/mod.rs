@@ -10,11 +10,13 @@ mod schedule;
 mod store;
 mod summary;
 
-pub use entry::Archive;
+pub use entry::read_entry;
 pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
-pub use recorded::{Recorded, RecordedError, RecordedRun, Recording};
-pub(crate) use schedule::read_all;
-pub use schedule::{Progress, Reading, RunError, ScheduledTask, SelectedCode, Settings, Workload};
-pub use store::{Kind, LockOwner, Store, StoreError};
+pub(crate) use recorded::RecordedError;
+pub use recorded::{Recorded, RecordedRun, Recording};
+pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload};
+pub(crate) use schedule::{Reading, ScheduledTask, read_all};
+pub use store::Store;
+pub(crate) use store::{Kind, LockOwner, StoreError};
 pub use summary::RunSummary;

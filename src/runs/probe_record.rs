@@ -50,12 +50,8 @@ impl ProbeRecord {
     pub fn parse(text: &[u8], path: &Path) -> Result<Self, FileError> {
         let record: Self = parse_json(text, path)?;
         for Answer { test, motion, .. } in &record.answers {
-            Motion::new(motion.rows().to_vec(), test.steps).map_err(|source| {
-                FileError::Series {
-                    path: path.to_owned(),
-                    source,
-                }
-            })?;
+            let checked = Motion::new(motion.rows().to_vec(), test.steps);
+            checked.map_err(FileError::series(path))?;
         }
         Ok(record)
     }

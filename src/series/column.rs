@@ -29,6 +29,12 @@ macro_rules! columns {
                 meaning: $meaning,
                 value: |row| row.$name as f64,
             }),*];
+
+            /// Whether every value is a finite number.
+            pub fn is_finite(&self) -> bool {
+                let mut columns = Self::COLUMNS.iter();
+                columns.all(|column| (column.value)(self).is_finite())
+            }
         }
 
         impl $file {

@@ -63,11 +63,6 @@ impl MotionRow {
             },
         ]
     }
-
-    fn is_finite(&self) -> bool {
-        let mut columns = Self::COLUMNS.iter();
-        columns.all(|column| (column.value)(self).is_finite())
-    }
 }
 
 /// One for every step and one for the beginning.
@@ -99,33 +94,22 @@ impl Motion {
                 });
             }
             if !row.is_finite() {
-                return Err(SeriesError::Garbled {
-                    row: index + 1,
-                    message: "not every value is a finite number".to_owned(),
-                });
+                let message = "not every value is a finite number";
+                return Err(SeriesError::garbled(index + 1, message));
             }
         }
-        let expected = planned_rows(steps);
-        if rows.len() != expected {
-            return Err(SeriesError::Truncated {
-                found: rows.len(),
-                expected,
-            });
+        let (found, expected) = (rows.len(), planned_rows(steps));
+        if found != expected {
+            return Err(SeriesError::Truncated { found, expected });
         }
         Ok(Self { rows })
     }
 
     /// Reads a motion in CSV and checks it.
-    ///
-    /// # Errors
-    /// As for [`Motion::new`], and if a row cannot be read.
     pub fn read(input: impl Read, steps: u64) -> Result<Self, SeriesError> {
         let mut reader = csv::Reader::from_reader(input);
         let rows = reader.deserialize().enumerate().map(|(index, row)| {
-            row.map_err(|error: csv::Error| SeriesError::Garbled {
-                row: index + 1,
-                message: error.to_string(),
-            })
+            row.map_err(|error: csv::Error| SeriesError::garbled(index + 1, error))
         });
         // One row too many is enough to refuse the motion.
         let rows = rows.take(planned_rows(steps).saturating_add(1));

@@ -21,23 +21,18 @@ impl PyramidRun {
         timed_seconds: f64,
         count: usize,
     ) -> Result<Self, SeriesError> {
-        if centres.len() != count {
-            return Err(SeriesError::Truncated {
-                found: centres.len(),
-                expected: count,
-            });
+        let (found, expected) = (centres.len(), count);
+        if found != expected {
+            return Err(SeriesError::Truncated { found, expected });
         }
         let finite = |centre: &[f64; 2]| centre.iter().all(|coordinate| coordinate.is_finite());
         if let Some(index) = centres.iter().position(|centre| !finite(centre)) {
-            return Err(SeriesError::Garbled {
-                row: index + 1,
-                message: format!("the centre is {:?}", centres[index]),
-            });
+            let message = format!("the centre is {:?}", centres[index]);
+            return Err(SeriesError::garbled(index + 1, message));
         }
         if !(timed_seconds.is_finite() && timed_seconds >= 0.0) {
-            return Err(SeriesError::Absent {
-                message: format!("the timed steps took {timed_seconds} seconds"),
-            });
+            let message = format!("the timed steps took {timed_seconds} seconds");
+            return Err(SeriesError::absent(message));
         }
         Ok(Self {
             centres,

@@ -2,7 +2,7 @@
 
 use super::column::columns;
 use super::drop::DropWatch;
-use crate::model::Schedule;
+use crate::model::{Protocol, Schedule};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
@@ -35,82 +35,54 @@ impl Sample {
         let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
         (2.0 - (dx * dx + dy * dy).sqrt()).max(0.0)
     }
-
-    /// Whether every value is a finite number.
-    pub fn is_finite(&self) -> bool {
-        self.values().all(f64::is_finite)
-    }
-
-    fn values(&self) -> impl Iterator<Item = f64> {
-        Self::COLUMNS.iter().map(|column| (column.value)(self))
-    }
 }
 
-/// Why a series is not the one that was asked for.
+/// Why a series is not the one that was asked for. Rows are counted from 1, which is the one after the header.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // The messages say what each is.
 pub enum SeriesError {
-    /// There is no series at all.
     #[error("{message}")]
-    Absent {
-        /// The file or table that is missing, and what was found instead.
-        message: String,
-    },
-    /// A row cannot be read.
+    Absent { message: String },
     #[error("row {row}: {message}")]
-    Garbled {
-        /// Row, the first one after the header being 1.
-        row: usize,
-        /// The defect.
-        message: String,
-    },
-    /// The columns are not the shared ones.
+    Garbled { row: usize, message: String },
     #[error("the columns are `{found}`, but must be `{}`", Series::COLUMNS.join(","))]
-    Columns {
-        /// The header as found.
-        found: String,
-    },
-    /// A value is not a finite number.
+    Columns { found: String },
     #[error("row {row} (step {step}): `{column}` is {value}, but must be a finite number")]
     NotFinite {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// Its step.
         step: u64,
-        /// Name of the column.
         column: &'static str,
-        /// The value.
         value: f64,
     },
-    /// A row is at the wrong step.
     #[error("row {row} is at step {found}, but must be at step {expected}")]
     WrongStep {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// The step found.
         found: u64,
-        /// The step planned.
         expected: u64,
     },
-    /// A row is at the wrong time.
     #[error("row {row} (step {step}) is at time {found}, but must be at {expected}")]
     WrongTime {
-        /// Row, the first one after the header being 1.
         row: usize,
-        /// Its step.
         step: u64,
-        /// The time found.
         found: f64,
-        /// step × time step.
         expected: f64,
     },
-    /// The series ends early, or has rows beyond its end.
     #[error("the series has {found} rows{}, but must have {expected}", or_more(*found, *expected))]
-    Truncated {
-        /// Rows found; of those beyond the end one at least.
-        found: usize,
-        /// Rows planned.
-        expected: usize,
-    },
+    Truncated { found: usize, expected: usize },
+}
+
+impl SeriesError {
+    /// There is no series at all: `message` names what is missing, and what was found instead.
+    pub(crate) fn absent(message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self::Absent { message }
+    }
+
+    /// `row` cannot be read.
+    pub(crate) fn garbled(row: usize, message: impl ToString) -> Self {
+        let message = message.to_string();
+        Self::Garbled { row, message }
+    }
 }
 
 fn planned_rows(schedule: &Schedule) -> usize {
@@ -139,12 +111,9 @@ pub struct Series {
 }
 
 impl Series {
-    /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
-    pub fn new(
-        samples: Vec<Sample>,
-        schedule: &Schedule,
-        time_step: f64,
-    ) -> Result<Self, SeriesError> {
+    /// A series of `samples`, which must be finite and lie exactly at the steps of `protocol`.
+    pub fn new(samples: Vec<Sample>, protocol: &Protocol) -> Result<Self, SeriesError> {
+        let schedule = protocol.schedule();
         let mut planned = schedule.sampled_steps();
         for (row, sample) in (1..).zip(&samples) {
             check_finite(row, sample)?;
@@ -158,27 +127,20 @@ impl Series {
                     expected,
                 });
             }
-            check_time(row, sample, time_step)?;
+            check_time(row, sample, protocol.time_step)?;
         }
-        let (found, expected) = (samples.len(), planned_rows(schedule));
-        if found > expected || (found < expected && !ends_with_the_drop(&samples, schedule)) {
+        let (found, expected) = (samples.len(), planned_rows(&schedule));
+        if found > expected || (found < expected && !ends_with_the_drop(&samples, &schedule)) {
             return Err(SeriesError::Truncated { found, expected });
         }
         Ok(Self { samples })
     }
 
     /// Reads the shared CSV format and checks it against the plan.
-    pub fn read(
-        input: impl Read,
-        schedule: &Schedule,
-        time_step: f64,
-    ) -> Result<Self, SeriesError> {
+    pub fn read(input: impl Read, protocol: &Protocol) -> Result<Self, SeriesError> {
         let mut reader = csv::Reader::from_reader(input);
-        let garbled = |row: usize, error: csv::Error| SeriesError::Garbled {
-            row,
-            message: error.to_string(),
-        };
-        let header = reader.headers().map_err(|error| garbled(0, error))?;
+        let header = reader.headers();
+        let header = header.map_err(|error| SeriesError::garbled(0, error))?;
         if !header.iter().eq(Series::COLUMNS) {
             return Err(SeriesError::Columns {
                 found: header.iter().collect::<Vec<_>>().join(","),
@@ -191,10 +153,11 @@ impl Series {
             Ok(false) => None,
             Err(error) => Some(Err(error)),
         };
+        let garbled = SeriesError::garbled;
         let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is enough to refuse the series.
-        let rows = rows.take(planned_rows(schedule).saturating_add(1));
-        Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)
+        let rows = rows.take(planned_rows(&protocol.schedule()).saturating_add(1));
+        Self::new(rows.collect::<Result<_, _>>()?, protocol)
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.
@@ -215,14 +178,14 @@ impl Series {
 }
 
 fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {
-    let mut values = Sample::COLUMNS.iter().zip(sample.values());
-    let offending = values.find(|(_, value)| !value.is_finite());
-    offending.map_or(Ok(()), |(column, value)| {
+    let mut columns = Sample::COLUMNS.iter();
+    let offending = columns.find(|column| !(column.value)(sample).is_finite());
+    offending.map_or(Ok(()), |column| {
         Err(SeriesError::NotFinite {
             row,
             step: sample.step,
             column: column.name,
-            value,
+            value: (column.value)(sample),
         })
     })
 }

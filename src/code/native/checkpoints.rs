@@ -1,9 +1,10 @@
 //! Checkpoints of unfinished native runs on disk, so that an interruption loses little.
 
+use crate::code::RunContext;
 use crate::dem::Checkpoint;
-use crate::files::{seal, unseal, write_atomically_via};
+use crate::files::{read_sealed, write_sealed};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Time between two checkpoints of a run.
@@ -19,35 +20,22 @@ pub(super) struct Unfinished {
     pub(super) checkpoint: Checkpoint,
 }
 
-/// The unfinished runs below a directory, by the address that each will have when it is finished.
-///
-/// The store removes a checkpoint when it keeps the finished run.
-pub(super) struct Checkpoints<'a> {
-    directory: &'a Path,
-    drafts: &'a Path,
+/// Writes a checkpoint under the `address` that the run will have when it is finished; the store removes it then. If
+/// writing fails, the run goes on without it.
+pub(super) fn keep(context: &RunContext, address: &str, run: &Unfinished) {
+    if let Some(path) = path(context, address) {
+        let content = serde_json::to_vec(run).expect("plain data has a JSON form");
+        let _ = write_sealed(context.directory, &path, &content);
+    }
 }
 
-impl<'a> Checkpoints<'a> {
-    /// Checkpoints in `directory`; `drafts` is a directory on the same file system.
-    pub(super) fn new(directory: &'a Path, drafts: &'a Path) -> Self {
-        Self { directory, drafts }
-    }
+/// The checkpoint under `address`, if there is a readable one.
+pub(super) fn take_up(context: &RunContext, address: &str) -> Option<Unfinished> {
+    let content = read_sealed(&path(context, address)?).ok()??;
+    serde_json::from_slice(&content).ok()
+}
 
-    /// Writes a checkpoint. If that fails, the run goes on without it.
-    pub(super) fn keep(&self, address: &str, run: &Unfinished) {
-        let content = serde_json::to_vec(run).expect("plain data has a JSON form");
-        let _ = write_atomically_via(self.drafts, &self.path(address), &seal(&content));
-    }
-
-    /// The checkpoint under `address`, if there is a readable one.
-    pub(super) fn take_up(&self, address: &str) -> Option<Unfinished> {
-        let path = self.path(address);
-        let sealed = std::fs::read(&path).ok()?;
-        let content = unseal(&path, &sealed).ok()?;
-        serde_json::from_slice(content).ok()
-    }
-
-    fn path(&self, address: &str) -> PathBuf {
-        self.directory.join(format!("{address}.json"))
-    }
+fn path(context: &RunContext, address: &str) -> Option<PathBuf> {
+    let directory = context.checkpoints?;
+    Some(directory.join(format!("{address}.json")))
 }

@@ -1,6 +1,6 @@
 //! Native runs that share vector instructions: longest first, timed, with checkpoints.
 
-use super::checkpoints::{CHECKPOINT_INTERVAL, Checkpoints, Unfinished};
+use super::checkpoints::{CHECKPOINT_INTERVAL, Unfinished, keep, take_up};
 use super::{Native, cause, failure};
 use crate::code::{Code, FailureKind, Finished, Run, RunContext};
 use crate::dem::{Checkpoint, OpenRun, OpenRuns, RunQueue};
@@ -17,7 +17,6 @@ pub(super) struct Lanes<'a, 'f> {
     waiting: VecDeque<usize>,
     context: &'a RunContext<'a>,
     finished: Finished<'f, Run>,
-    checkpoints: Option<Checkpoints<'a>>,
     /// Run time of each run in a lane: its share of the time of the vector.
     open: BTreeMap<usize, Duration>,
     /// End of the time that is shared out.
@@ -43,9 +42,6 @@ impl<'a, 'f> Lanes<'a, 'f> {
             waiting: indices.into(),
             context,
             finished,
-            checkpoints: context
-                .checkpoints
-                .map(|directory| Checkpoints::new(directory, context.directory)),
             open: BTreeMap::new(),
             shared: now,
             last_finished: now,
@@ -72,8 +68,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
     }
 
     fn late(&self) -> Option<Duration> {
-        let limit = self.context.time_limit;
-        limit.filter(|&limit| self.last_finished.elapsed() > limit)
+        self.context.late_since(self.last_finished)
     }
 
     fn address(&self, index: usize) -> String {
@@ -85,16 +80,13 @@ impl<'a, 'f> Lanes<'a, 'f> {
     fn keep(&mut self, open: Vec<(usize, Checkpoint)>) {
         self.share_time();
         self.last_kept = Instant::now();
-        let Some(checkpoints) = &self.checkpoints else {
-            return;
-        };
         for (index, checkpoint) in open {
             let seconds = self.open.get(&index).map_or(0.0, Duration::as_secs_f64);
             let unfinished = Unfinished {
                 seconds,
                 checkpoint,
             };
-            checkpoints.keep(&self.address(index), &unfinished);
+            keep(self.context, &self.address(index), &unfinished);
         }
     }
 }
@@ -112,8 +104,7 @@ impl RunQueue for Lanes<'_, '_> {
         }
         let index = self.waiting.pop_front()?;
         self.share_time();
-        let checkpoints = self.checkpoints.as_ref();
-        let unfinished = checkpoints.and_then(|kept| kept.take_up(&self.address(index)));
+        let unfinished = take_up(self.context, &self.address(index));
         let unfinished = unfinished.filter(|kept| kept.checkpoint.fits(&self.cases[index]));
         let seconds = unfinished.as_ref().map_or(0.0, |kept| kept.seconds);
         self.open.insert(index, duration(seconds));

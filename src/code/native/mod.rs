@@ -4,13 +4,13 @@ mod checkpoints;
 mod lanes;
 
 use super::failure::{Failure, FailureKind};
-use super::installed::{Batching, Finished, InstalledCode, RunContext, Tasks};
+use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
 use crate::dem::{EventRun, LaneKind, LaneWidth, Observation};
 use crate::dem::{compress_stack_precisely, run_contact_test, run_pyramid};
-use crate::model::Case;
-use crate::series::{Series, SeriesError};
+use crate::model::{Case, ContactTest, Pyramid};
+use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use lanes::Lanes;
 use std::time::{Duration, Instant};
 
@@ -21,23 +21,17 @@ pub struct Native {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Arithmetic {
+pub(super) enum Arithmetic {
     Double,
     DoubleDouble,
 }
 
 impl Native {
-    pub(super) fn new() -> Self {
-        Self::computing(env!("CARGO_PKG_VERSION"), Arithmetic::Double)
-    }
-
-    /// The native DEM in double-double arithmetic.
-    pub(super) fn precise() -> Self {
-        let version = concat!(env!("CARGO_PKG_VERSION"), " double-double");
-        Self::computing(version, Arithmetic::DoubleDouble)
-    }
-
-    fn computing(version: &str, arithmetic: Arithmetic) -> Self {
+    pub(super) fn new(arithmetic: Arithmetic) -> Self {
+        let version = match arithmetic {
+            Arithmetic::Double => env!("CARGO_PKG_VERSION"),
+            Arithmetic::DoubleDouble => concat!(env!("CARGO_PKG_VERSION"), " double-double"),
+        };
         Self {
             identity: Identity {
                 version: version.to_owned(),
@@ -49,28 +43,19 @@ impl Native {
 
     /// Runs all of `cases` that may share a vector, in its lanes; a single one runs faster without vectors.
     fn run_in_lanes(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        for kind in kinds(cases) {
-            let alike = |index: &usize| LaneKind::of(&cases[*index]) == kind;
-            let indices: Vec<usize> = (0..cases.len()).filter(alike).collect();
-            let width = match indices.len() {
+        let mut left: Vec<usize> = (0..cases.len()).collect();
+        while let Some(&first) = left.first() {
+            let kind = LaneKind::of(&cases[first]);
+            let is_alike = |index: &usize| LaneKind::of(&cases[*index]) == kind;
+            let (alike, others): (Vec<usize>, _) = left.into_iter().partition(is_alike);
+            left = others;
+            let width = match alike.len() {
                 1 => LaneWidth::ONE,
                 _ => LaneWidth::widest(),
             };
-            let mut lanes = Lanes::new(self, cases, indices, context, &mut *finished);
+            let mut lanes = Lanes::new(self, cases, alike, context, &mut *finished);
             width.compress_stacks(&mut lanes);
             lanes.give_up_waiting();
-        }
-    }
-
-    fn run_cases(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        match self.arithmetic {
-            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
-            Arithmetic::DoubleDouble => {
-                for (index, case) in cases.iter().enumerate() {
-                    let result = self.run_precisely(case, context);
-                    finished(index, result.map_err(|kind| failure(case, kind)));
-                }
-            }
         }
     }
 
@@ -93,27 +78,13 @@ impl Native {
     }
 }
 
-/// The kinds of `cases`, each once.
-fn kinds(cases: &[Case]) -> Vec<LaneKind> {
-    let mut kinds = Vec::new();
-    for kind in cases.iter().map(LaneKind::of) {
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
-    kinds
-}
-
 /// Calls `run` with a test whether to go on; if it was stopped, the error is the interrupt or the time limit.
 fn while_wanted<T>(
     context: &RunContext,
     run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
 ) -> Result<T, FailureKind> {
     let start = Instant::now();
-    let late = || {
-        let limit = context.time_limit;
-        limit.filter(|&limit| start.elapsed() > limit)
-    };
+    let late = || context.late_since(start);
     let wanted = || !context.interrupt.requested() && late().is_none();
     run(&wanted).map_err(|error| cause(error, context, late()))
 }
@@ -158,32 +129,41 @@ impl InstalledCode for Native {
         }
     }
 
-    fn carry_out(&self, tasks: Tasks, context: &RunContext) {
-        match tasks {
-            Tasks::Cases(cases, finished) => self.run_cases(cases, context, finished),
-            Tasks::ContactTests(tests, finished) => up_to_failure(tests, finished, |test| {
-                run_contact_test(test).map_err(FailureKind::from)
-            }),
-            Tasks::Pyramids(pyramids, finished) => up_to_failure(pyramids, finished, |pyramid| {
-                pyramid.validate().map_err(FailureKind::Unsupported)?;
-                while_wanted(context, |wanted| run_pyramid(pyramid, wanted))
-            }),
+    fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
+        match self.arithmetic {
+            Arithmetic::Double => self.run_in_lanes(cases, context, finished),
+            Arithmetic::DoubleDouble => {
+                for (index, case) in cases.iter().enumerate() {
+                    let result = self.run_precisely(case, context);
+                    finished(index, result.map_err(|kind| failure(case, kind)));
+                }
+            }
         }
+    }
+
+    fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
+        outcomes(tests, |test| Ok(run_contact_test(test)?))
+    }
+
+    fn build(
+        &self,
+        pyramids: &[Pyramid],
+        context: &RunContext,
+    ) -> Result<Vec<PyramidRun>, Box<Failure>> {
+        outcomes(pyramids, |pyramid| {
+            pyramid.validate().map_err(FailureKind::Unsupported)?;
+            while_wanted(context, |wanted| run_pyramid(pyramid, wanted))
+        })
     }
 }
 
-/// Carries out `tasks` one after another, up to the first failure.
-fn up_to_failure<Task: ToString, Outcome>(
+/// The outcomes of `tasks`, up to the first failure.
+fn outcomes<Task: ToString, Outcome>(
     tasks: &[Task],
-    finished: Finished<Outcome>,
     carry_out: impl Fn(&Task) -> Result<Outcome, FailureKind>,
-) {
-    for (index, task) in tasks.iter().enumerate() {
-        let result = carry_out(task).map_err(|kind| failure(task, kind));
-        let failed = result.is_err();
-        finished(index, result);
-        if failed {
-            return;
-        }
-    }
+) -> Result<Vec<Outcome>, Box<Failure>> {
+    let outcomes = tasks
+        .iter()
+        .map(|task| carry_out(task).map_err(|kind| failure(task, kind).into()));
+    outcomes.collect()
 }

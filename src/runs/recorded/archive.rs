@@ -21,12 +21,8 @@ pub(super) fn pack(members: &Members) -> Vec<u8> {
 
 fn write(members: &Members) -> std::io::Result<Vec<u8>> {
     let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::best()));
-    let files: Vec<(&str, Vec<u8>)> = members
-        .iter()
-        .map(|(name, content)| (name.as_str(), content.clone()))
-        .collect();
-    append(&mut archive, CHECKSUMS, checksums(&files).as_bytes())?;
-    for (name, content) in &files {
+    append(&mut archive, CHECKSUMS, checksums(members).as_bytes())?;
+    for (name, content) in members {
         append(&mut archive, name, content)?;
     }
     archive.into_inner()?.finish()
@@ -122,7 +118,7 @@ mod tests {
     #[test]
     fn a_file_that_is_not_the_listed_one_is_named() {
         let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::fast()));
-        let listed = checksums(&[("a.csv", b"1".to_vec())]);
+        let listed = checksums([("a.csv", &b"1".to_vec())]);
         append(&mut archive, CHECKSUMS, listed.as_bytes()).unwrap();
         append(&mut archive, "a.csv", b"2").unwrap();
         let packed = archive.into_inner().unwrap().finish().unwrap();

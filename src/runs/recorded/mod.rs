@@ -12,7 +12,7 @@ use crate::files::FileError;
 use crate::model::{Case, shown};
 use crate::runs::{ProbeRecord, RunSummary};
 use archive::{Members, unpack};
-use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_of, table_path};
+use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_in, table_path};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
@@ -27,7 +27,7 @@ const MAX_FILE: u64 = 1 << 24;
 
 /// The recorded runs of all codes, those in the program or in a directory. The files of a code are read when
 /// something of it is asked for, and once.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Recorded {
     /// Their directory; they are in the program if absent.
     directory: Option<PathBuf>,
@@ -47,32 +47,23 @@ type Table = HashMap<String, Row>;
 /// The reason why a recorded run cannot stand in.
 #[derive(Debug, Error)]
 pub enum RecordedError {
-    /// There is none.
     #[error("{code} is not installed, and there is no recorded {what} in {}; install it ({}), record it where it is installed (tristack record --codes {code}), or let TRISTACK_REFERENCE name the directory of recorded runs", shown(path), code.installation_hint())]
     Absent {
-        /// The code.
         code: Code,
-        /// The kind of record that is missing.
         what: &'static str,
-        /// The file that lacks it.
         path: PathBuf,
     },
-    /// It was made with another deck than today's.
+    /// The `recorded` and the `current` hash of its inputs differ.
     #[error(
         "the recorded run in {} was made with another deck (hash {recorded}, now {current}); refresh it with: tristack record --codes {code}",
         shown(path)
     )]
     OtherDeck {
-        /// The code.
         code: Code,
-        /// The file with the run.
         path: PathBuf,
-        /// Deck hash it was made with.
         recorded: String,
-        /// Deck hash of this version of tristack.
         current: String,
     },
-    /// It cannot be read.
     #[error(transparent)]
     Damaged(#[from] Arc<FileError>),
 }
@@ -86,15 +77,14 @@ impl From<FileError> for RecordedError {
 impl Recorded {
     /// The recorded runs inside this program.
     pub fn embedded() -> Self {
-        let (directory, codes) = (None, Arc::default());
-        Self { directory, codes }
+        Self::default()
     }
 
     /// The recorded runs in `directory`.
     pub fn new(directory: &Path) -> Self {
         Self {
             directory: Some(directory.to_owned()),
-            ..Self::embedded()
+            ..Self::default()
         }
     }
 
@@ -106,18 +96,14 @@ impl Recorded {
         let files = self.files(code);
         let row = self.row(&files, code, case)?;
         let path = archive_path(self.directory(), code);
-        let series = match row.series {
-            Some(_) => series_of(row, self.members(&files, code)?, &path)?,
-            None => None,
+        let Some(name) = &row.series else {
+            return Err(self.absent(code, "series of this case"));
         };
-        let series = series.ok_or_else(|| self.absent(code, "series of this case"))?;
-        let RunSummary {
-            case, provenance, ..
-        } = row.summary.clone();
+        let series = series_in(self.members(&files, code)?, name, case, &path)?;
         Ok(Run {
-            case,
+            case: *case,
             series,
-            provenance,
+            provenance: row.summary.provenance.clone(),
         })
     }
 
@@ -199,20 +185,15 @@ impl Recorded {
     fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
         let table = files.table.get_or_init(|| {
             let path = table_path(self.directory(), code);
-            Ok(self.read_table(&path, code)?)
+            let Some(content) = self.read(&path)? else {
+                return Ok(Table::new());
+            };
+            let rows = parse_table(&String::from_utf8_lossy(&content), &path, code)?;
+            let keyed = rows.into_iter();
+            let keyed = keyed.map(|row| (row.summary.case.content_hash(), row));
+            Ok(keyed.collect())
         });
         table.as_ref().map_err(|error| Arc::clone(error).into())
-    }
-
-    fn read_table(&self, path: &Path, code: Code) -> Result<Table, FileError> {
-        let Some(content) = self.read(path)? else {
-            return Ok(Table::new());
-        };
-        let rows = parse_table(&String::from_utf8_lossy(&content), path, code)?;
-        let keyed = rows.into_iter();
-        Ok(keyed
-            .map(|row| (row.summary.case.content_hash(), row))
-            .collect())
     }
 
     fn members<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Members, RecordedError> {

@@ -8,7 +8,7 @@ use crate::model::Case;
 use crate::runs::entry::parse_series;
 use crate::runs::{ProbeRecord, RunSummary};
 use crate::series::Series;
-use serde_json::Value;
+use serde_json::{Value, from_value};
 use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -120,8 +120,9 @@ impl Recording {
         let members = unpack(archive, &path)?;
         let rows = parse_table(table, &table_path(directory, code), code)?;
         let runs = rows.into_iter().map(|row| {
-            let series = series_of(&row, &members, &path)?;
-            let summary = row.summary;
+            let Row { summary, series } = row;
+            let series = series.map(|name| series_in(&members, &name, &summary.case, &path));
+            let series = series.transpose()?;
             Ok(RecordedRun { summary, series })
         });
         Ok(Self {
@@ -138,10 +139,9 @@ fn compare(left: &Case, right: &Case) -> Ordering {
         let (mu, stiffness) = (stack.floor_friction, stack.stiffness);
         [mu, stiffness, -protocol.wall_speed, protocol.time_step]
     };
-    let pairs = numbers(left).into_iter().zip(numbers(right));
-    let ordered = pairs.map(|(left, right)| left.total_cmp(&right));
-    let first = ordered.into_iter().find(|order| order.is_ne());
-    first.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
+    let ordered = numbers(left).partial_cmp(&numbers(right));
+    let ordered = ordered.filter(|order| order.is_ne());
+    ordered.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
 }
 
 /// Name of the series of `case`, readable and not yet among `members`.
@@ -174,30 +174,24 @@ pub(super) fn archive_path(directory: &Path, code: Code) -> PathBuf {
 /// If it is damaged, or holds an impossible case, one twice, or a run of another code.
 pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row>, FileError> {
     let rows = from_csv(text).and_then(|rows| {
-        let rows = rows.into_iter().map(|row| parse_row(row, code));
-        rows.collect::<Result<Vec<Row>, String>>()
+        let mut known = HashSet::new();
+        let rows = rows.into_iter().map(|row| {
+            let row = parse_row(row, code)?;
+            let case = &row.summary.case;
+            match known.insert(case.content_hash()) {
+                true => Ok(row),
+                false => Err(format!("{case} is there twice")),
+            }
+        });
+        rows.collect()
     });
-    let rows = rows.and_then(|rows| match repeated(&rows) {
-        Some(case) => Err(format!("{case} is there twice")),
-        None => Ok(rows),
-    });
-    rows.map_err(|message| FileError::Content {
-        path: path.to_owned(),
-        message,
-    })
-}
-
-fn repeated(rows: &[Row]) -> Option<&Case> {
-    let mut known = HashSet::new();
-    let mut cases = rows.iter().map(|row| &row.summary.case);
-    cases.find(|case| !known.insert(case.content_hash()))
+    rows.map_err(|message| FileError::content(path, message))
 }
 
 fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
     let series = row.as_object_mut().and_then(|row| row.remove(SERIES));
-    let series =
-        serde_json::from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
-    let summary: RunSummary = serde_json::from_value(row).map_err(|error| error.to_string())?;
+    let series = from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
+    let summary: RunSummary = from_value(row).map_err(|error| error.to_string())?;
     let case = &summary.case;
     case.validate()
         .map_err(|invalid| format!("{case}: {invalid}"))?;
@@ -210,24 +204,19 @@ fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
     Ok(Row { summary, series })
 }
 
-/// The series of `row`, if it is kept among `members` of the archive at `path`.
-///
-/// # Errors
-/// If it is missing, or is not the series of the case.
-pub(super) fn series_of(
-    row: &Row,
+/// The series `name` of `case` among `members` of the archive at `path`.
+pub(super) fn series_in(
     members: &Members,
+    name: &str,
+    case: &Case,
     path: &Path,
-) -> Result<Option<Series>, FileError> {
-    let Some(name) = &row.series else {
-        return Ok(None);
-    };
+) -> Result<Series, FileError> {
     let path = path.join(name);
     let Some(content) = members.get(name) else {
         let absent = std::io::Error::other("the table names it, but the archive lacks it");
         return Err(FileError::reading(&path)(absent));
     };
-    parse_series(&path, content, &row.summary.case).map(Some)
+    parse_series(&path, content, case)
 }
 
 /// The micro-tests among `members` of the archive at `path`.

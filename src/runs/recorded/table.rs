@@ -17,57 +17,40 @@ const MAX_DEPTH: usize = 8;
 
 /// A row by its columns.
 type Row = BTreeMap<String, Value>;
-/// Values that stand in every row, with their keys.
-type Shared<'a> = Vec<(&'a str, &'a Value)>;
 
 /// The table of `objects`, under `title`. Columns that begin with one of `first` come first, in that order.
 pub(super) fn to_csv(objects: &[Value], title: &str, first: &[&str]) -> String {
     let rows: Vec<Row> = objects.iter().map(flattened).collect();
-    let (shared, columns) = columns(&rows, first);
+    let keys: BTreeSet<&str> = rows
+        .iter()
+        .flat_map(|row| row.keys().map(String::as_str))
+        .collect();
+    let is_shared = |key: &&str| {
+        let value = rows[0].get(*key);
+        rows.len() > 1 && value.is_some() && rows.iter().all(|row| row.get(*key) == value)
+    };
+    let (shared, mut columns): (Vec<&str>, Vec<&str>) = keys.into_iter().partition(is_shared);
+    let rank = |key: &str| first.iter().position(|start| key.starts_with(start));
+    columns.sort_by_key(|key| rank(key).unwrap_or(first.len()));
     let mut text = format!("# {title}\n");
-    for (key, value) in shared {
-        text += &format!("{SHARED}{key} = {}\n", cell(value));
+    for key in shared {
+        text += &format!("{SHARED}{key} = {}\n", cell(&rows[0][key]));
     }
     text += &body(&rows, &columns);
     format!("{DIGEST}{}\n{text}", sha256_hex(text.as_bytes()))
 }
 
-/// Values that all rows share, and the columns of the others.
-fn columns<'a>(rows: &'a [Row], first: &[&str]) -> (Shared<'a>, Vec<&'a str>) {
-    let keys: BTreeSet<&str> = rows
-        .iter()
-        .flat_map(Row::keys)
-        .map(String::as_str)
-        .collect();
-    let (mut shared, mut columns) = (Vec::new(), Vec::new());
-    for key in keys {
-        let value = &rows[0].get(key);
-        match value {
-            Some(value) if rows.iter().all(|row| row.get(key) == Some(value)) && rows.len() > 1 => {
-                shared.push((key, *value));
-            }
-            _ => columns.push(key),
-        }
-    }
-    let rank = |key: &str| first.iter().position(|start| key.starts_with(start));
-    columns.sort_by_key(|key| rank(key).unwrap_or(first.len()));
-    (shared, columns)
-}
-
 fn body(rows: &[Row], columns: &[&str]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |cells: Vec<String>| {
-        let written = writer.write_record(cells);
+    let header = columns.iter().map(|&key| key.to_owned()).collect();
+    let cells = rows.iter().map(|row| {
+        let values = columns.iter().map(|&key| row.get(key));
+        let cells = values.map(|value| value.map_or_else(String::new, cell));
+        cells.collect()
+    });
+    for record in std::iter::once::<Vec<String>>(header).chain(cells) {
+        let written = writer.write_record(record);
         written.expect("rows are written to memory");
-    };
-    write(columns.iter().map(|&key| key.to_owned()).collect());
-    for row in rows {
-        let cells = columns.iter().map(|&key| row.get(key));
-        write(
-            cells
-                .map(|value| value.map_or_else(String::new, cell))
-                .collect(),
-        );
     }
     let bytes = writer.into_inner().expect("memory is flushed");
     String::from_utf8(bytes).expect("cells are text")

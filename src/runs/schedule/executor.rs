@@ -266,7 +266,7 @@ impl<'a, R: Reading> Executor<'a, R> {
             .map(|&request| self.task(request).address(job.code));
         let addresses: Vec<String> = addresses.collect();
         let store = &self.settings.store;
-        let owners = store.claim(&addresses).unwrap_or_else(|error| {
+        let owners = store.session.claim(&addresses).unwrap_or_else(|error| {
             let name = R::Task::KIND.name();
             let message = format!("other programs may make the same {name}s again: {error}");
             self.progress.warn(&message);

@@ -23,7 +23,7 @@ impl Drop for Claim<'_> {
         if self.addresses.is_empty() {
             return;
         }
-        if let Err(error) = self.store.release(&self.addresses) {
+        if let Err(error) = self.store.session.release(&self.addresses) {
             let message = format!("other programs may wait for this one to end: {error}");
             self.progress.warn(&message);
         }

@@ -5,50 +5,42 @@
 
 mod format;
 mod lock;
-mod owner;
 mod session;
 
-pub use owner::LockOwner;
+pub use lock::LockOwner;
 
 use crate::code::{Identity, Provenance, Run};
-use crate::files::{FileError, seal, unseal, write_atomically_via};
+use crate::files::{FileError, create_parent, read_sealed, write_sealed};
 use crate::model::{Case, shown};
-use crate::runs::{Archive, RunSummary};
+use crate::runs::RunSummary;
+use crate::runs::entry::{read_entry, read_summary, write_entry};
 use session::Session;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
 
+const CHECKPOINTS: &str = "checkpoints";
+
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    /// A file or directory could not be read or written.
     #[error(transparent)]
     Files(#[from] FileError),
-    /// It has the format of another version of tristack.
     #[error(
         "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
         shown(path)
     )]
     OtherFormat {
-        /// The file with the format.
         path: PathBuf,
-        /// The format found.
         found: String,
-        /// The format of this version.
         accepted: &'static str,
     },
-    /// Another program keeps its lock.
     #[error(
         "{}: locked by {owner}, which does not release it; continue or end that process",
         shown(path)
     )]
-    Busy {
-        /// The lock.
-        path: PathBuf,
-        /// The owner of the lock.
-        owner: String,
-    },
+    Busy { path: PathBuf, owner: String },
 }
 
 /// A kind of result that a store keeps.
@@ -71,21 +63,12 @@ impl Kind {
             Self::Observation => "observation",
         }
     }
-
-    /// The place of the result under `address`, relative to the root of the store.
-    fn place(self, address: &str) -> PathBuf {
-        match self {
-            Self::Run => Path::new("runs").join(&address[..2]).join(&address[2..]),
-            _ => PathBuf::from(format!("{}s/{address}.json", self.name())),
-        }
-    }
 }
 
 /// The finished runs of a user.
 #[derive(Debug, Clone)]
 pub struct Store {
-    archive: Archive,
-    session: Arc<Session>,
+    pub(crate) session: Arc<Session>,
 }
 
 impl Store {
@@ -95,17 +78,11 @@ impl Store {
     /// If it cannot be written to, or has another format.
     pub fn open(root: &Path) -> Result<Self, StoreError> {
         format::check(root)?;
-        let session = Session::begin(root)?;
-        Ok(Self {
-            archive: Archive::new(root).with_drafts_in(session.work()),
-            session: Arc::new(session),
-        })
+        let session = Arc::new(Session::begin(root)?);
+        Ok(Self { session })
     }
 
-    /// The finished run of `case` by the code with `identity`, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
+    /// The finished run of `case` by the code with `identity`, if there is one; an error if it is damaged.
     pub fn get(
         &self,
         identity: &Identity,
@@ -113,7 +90,7 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<Run>, FileError> {
         let address = identity.address(case, deck_hash);
-        let run = self.archive.load(&Kind::Run.place(&address))?;
+        let run = read_entry(&self.path(Kind::Run, &address))?;
         let run =
             run.filter(|run| is_of(&run.provenance, identity, deck_hash) && run.case == *case);
         if run.is_some() {
@@ -122,10 +99,7 @@ impl Store {
         Ok(run)
     }
 
-    /// The summary of that run: kept beside its series, or made from it.
-    ///
-    /// # Errors
-    /// If there is such a run, but damaged.
+    /// The summary of that run; an error if the run is damaged.
     pub(crate) fn summary(
         &self,
         identity: &Identity,
@@ -133,7 +107,7 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<RunSummary>, FileError> {
         let address = identity.address(case, deck_hash);
-        let summary = self.archive.load_summary(&Kind::Run.place(&address))?;
+        let summary = read_summary(&self.path(Kind::Run, &address), self.work_directory())?;
         let summary = summary.filter(|summary| {
             is_of(&summary.provenance, identity, deck_hash) && summary.case == *case
         });
@@ -145,49 +119,45 @@ impl Store {
 
     /// Keeps a finished run and removes its checkpoint.
     pub fn put(&self, run: &Run) -> Result<(), FileError> {
-        let Provenance {
-            identity,
-            deck_hash,
-            ..
-        } = &run.provenance;
-        let address = identity.address(&run.case, deck_hash);
-        self.archive.save(&Kind::Run.place(&address), run)?;
+        let made = &run.provenance;
+        let address = made.identity.address(&run.case, &made.deck_hash);
+        write_entry(&self.path(Kind::Run, &address), self.work_directory(), run)?;
         self.forget_checkpoint(&address);
         Ok(())
     }
 
     fn forget_checkpoint(&self, address: &str) {
-        let checkpoint = self.checkpoint_directory().join(format!("{address}.json"));
         // Most runs have none.
-        let _ = std::fs::remove_file(checkpoint);
+        let _ = std::fs::remove_file(self.checkpoint_directory().join(format!("{address}.json")));
     }
 
-    /// Puts the damaged result under `address` into quarantine, and returns its place there.
+    /// Puts the damaged result under `address` into quarantine, and returns its place there. It may have been moved
+    /// already.
     pub(crate) fn put_aside(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
-        let directory = self.archive.root().join("quarantine");
+        let directory = self.session.root.join("quarantine");
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| !place.exists());
         let aside = free.expect("there are more numbers than files");
-        self.archive.move_away(&kind.place(address), &aside)?;
-        Ok(aside)
+        create_parent(&aside)?;
+        match std::fs::rename(self.path(kind, address), &aside) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(FileError::writing(&aside)(error))
+            }
+            _ => Ok(aside),
+        }
     }
 
-    /// The result of the given kind under `address`, a single file that `parse` reads, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
+    /// The result of the given kind under `address`, a single file that `parse` reads, if there is one; an error if it
+    /// is damaged.
     pub(crate) fn sealed<T>(
         &self,
         kind: Kind,
         address: &str,
         parse: impl FnOnce(&[u8], &Path) -> Result<T, FileError>,
     ) -> Result<Option<T>, FileError> {
-        let path = self.archive.root().join(kind.place(address));
-        match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(FileError::reading(&path)(error)),
-            Ok(sealed) => parse(unseal(&path, &sealed)?, &path).map(Some),
-        }
+        let path = self.path(kind, address);
+        let text = read_sealed(&path)?;
+        text.map(|text| parse(&text, &path)).transpose()
     }
 
     /// Keeps the `content` of a result of the given kind under `address`.
@@ -197,35 +167,27 @@ impl Store {
         address: &str,
         content: &str,
     ) -> Result<(), FileError> {
-        let path = self.archive.root().join(kind.place(address));
-        write_atomically_via(self.session.work(), &path, &seal(content.as_bytes()))
-    }
-
-    /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
-    /// other program that is making it, if there is one.
-    ///
-    /// # Errors
-    /// If the claims cannot be read or written.
-    pub fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
-        self.session.claim(addresses)
-    }
-
-    /// Releases the claims to the runs under `addresses`.
-    ///
-    /// # Errors
-    /// If the claims cannot be written; they end with this program in any case.
-    pub fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
-        self.session.release(addresses)
+        let path = self.path(kind, address);
+        write_sealed(self.work_directory(), &path, content.as_bytes())
     }
 
     /// Directory of the checkpoints of native runs.
     pub fn checkpoint_directory(&self) -> PathBuf {
-        self.archive.root().join("checkpoints")
+        self.session.root.join(CHECKPOINTS)
     }
 
     /// Directory of the run directories; those of failed runs stay.
     pub(crate) fn work_directory(&self) -> &Path {
-        self.session.work()
+        &self.session.work
+    }
+
+    /// The place of the result of the given kind under `address`.
+    fn path(&self, kind: Kind, address: &str) -> PathBuf {
+        let directory = self.session.root.join(format!("{}s", kind.name()));
+        match kind {
+            Kind::Run => directory.join(&address[..2]).join(&address[2..]),
+            _ => directory.join(format!("{address}.json")),
+        }
     }
 }
 

@@ -4,13 +4,12 @@
 //! when the program ends, however it ends: an unlocked file belongs to a dead program, whose leftovers the next one
 //! removes.
 
-use super::lock::Lock;
+use super::lock::{Lock, overwrite};
 use super::{LockOwner, StoreError};
 use crate::files::FileError;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
 use std::fs::{self, File};
-use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -24,10 +23,12 @@ struct Claims {
 
 /// This program in a store.
 #[derive(Debug)]
-pub(super) struct Session {
-    root: PathBuf,
+pub(crate) struct Session {
+    /// The store.
+    pub(super) root: PathBuf,
     path: PathBuf,
-    work: PathBuf,
+    /// Directory for unfinished work.
+    pub(super) work: PathBuf,
     state: Mutex<State>,
 }
 
@@ -73,32 +74,30 @@ impl Session {
         Ok(session)
     }
 
-    /// Directory for unfinished work.
-    pub(super) fn work(&self) -> &Path {
-        &self.work
-    }
-
-    /// Claims `addresses` for this session, except those that other sessions have claimed, whose owners it returns.
-    pub(super) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
+    /// Claims the runs under `addresses` for this program, until it releases them or ends. Returns, for each, the
+    /// other program that is making it, if there is one.
+    ///
+    /// # Errors
+    /// If the claims cannot be read or written.
+    pub(crate) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
         let mut state = self.state();
         let _lock = self.lock(&state)?;
         let others = self.others();
-        let owners: Vec<Option<LockOwner>> = addresses
-            .iter()
-            .map(|address| others.get(address).cloned())
-            .collect();
-        let free = addresses.iter().zip(&owners);
-        let free = free.filter(|(_, owner)| owner.is_none());
-        let free: Vec<String> = free.map(|(address, _)| address.clone()).collect();
+        let is_free = |address: &&String| !others.contains_key(*address);
+        let free: Vec<String> = addresses.iter().filter(is_free).cloned().collect();
         if !free.is_empty() {
             state.claims.addresses.extend(free);
             state.write(&self.path)?;
         }
-        Ok(owners)
+        let owners = addresses.iter().map(|address| others.get(address).cloned());
+        Ok(owners.collect())
     }
 
-    /// Releases claims.
-    pub(super) fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
+    /// Releases the claims to the runs under `addresses`.
+    ///
+    /// # Errors
+    /// If the claims cannot be written; they end with this program in any case.
+    pub(crate) fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
         let mut state = self.state();
         let _lock = self.lock(&state)?;
         for address in addresses {
@@ -114,21 +113,14 @@ impl Session {
     /// Addresses claimed by other live sessions, with their owners.
     fn others(&self) -> HashMap<String, LockOwner> {
         remove_dead(&self.root);
-        let mut others = HashMap::new();
-        for path in session_files(&self.root) {
-            if path == self.path || is_unlocked(&path) {
-                continue;
-            }
-            let Some(Claims { owner, addresses }) = claims(&path) else {
-                continue;
-            };
-            others.extend(
-                addresses
-                    .into_iter()
-                    .map(|address| (address, owner.clone())),
-            );
-        }
-        others
+        let sessions = session_files(&self.root).into_iter();
+        let alive = sessions.filter(|path| *path != self.path && !is_unlocked(path));
+        let claimed = alive.filter_map(|path| claims(&path));
+        let owned = claimed.flat_map(|Claims { owner, addresses }| {
+            let owned = addresses.into_iter();
+            owned.map(move |address| (address, owner.clone()))
+        });
+        owned.collect()
     }
 
     /// A panic cannot leave a set of addresses half changed, so that poison does not matter.
@@ -140,12 +132,7 @@ impl Session {
 impl State {
     fn write(&mut self, path: &Path) -> Result<(), StoreError> {
         let text = serde_json::to_vec(&self.claims).expect("plain data has a JSON form");
-        let file = &mut self.file;
-        let written = file
-            .set_len(0)
-            .and_then(|()| file.rewind())
-            .and_then(|()| file.write_all(&text));
-        Ok(written.map_err(FileError::writing(path))?)
+        Ok(overwrite(&mut self.file, &text).map_err(FileError::writing(path))?)
     }
 }
 
@@ -222,21 +209,25 @@ mod tests {
         assert_eq!(one.claim(&bc).unwrap(), [None, None]);
     }
 
+    /// Session file and work directory of an `owner` that claimed "a", and has no lock any more.
+    fn leftovers(root: &Path, owner: LockOwner) -> [PathBuf; 2] {
+        let [file, work] = ["sessions/other.json", "work/other"].map(|name| root.join(name));
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::create_dir_all(work.join("yade-1")).unwrap();
+        let claims = Claims {
+            owner,
+            addresses: addresses(&["a"]).into_iter().collect(),
+        };
+        fs::write(&file, serde_json::to_vec(&claims).unwrap()).unwrap();
+        [file, work]
+    }
+
     #[test]
     fn a_dead_session_holds_nothing_and_its_leftovers_go() {
         let root = tempfile::tempdir().unwrap();
-        let dead = root.path().join("sessions/dead.json");
-        let left = root.path().join("work/dead/yade-1");
+        let [dead, left] = leftovers(root.path(), LockOwner::this_program());
         let evidence = root.path().join("work/ended/yade-2");
-        for directory in [&left, &evidence] {
-            fs::create_dir_all(directory).unwrap();
-        }
-        fs::create_dir_all(dead.parent().unwrap()).unwrap();
-        let claims = Claims {
-            owner: LockOwner::this_program(),
-            addresses: addresses(&["a"]).into_iter().collect(),
-        };
-        fs::write(&dead, serde_json::to_vec(&claims).unwrap()).unwrap();
+        fs::create_dir_all(&evidence).unwrap();
         let session = Session::begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(!dead.exists() && !left.exists());
@@ -246,16 +237,9 @@ mod tests {
     #[test]
     fn a_session_of_another_machine_holds_nothing_without_a_lock_but_is_left_alone() {
         let root = tempfile::tempdir().unwrap();
-        let path = root.path().join("sessions/elsewhere.json");
-        let work = root.path().join("work/elsewhere");
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::create_dir_all(&work).unwrap();
-        let mut claims = Claims {
-            owner: LockOwner::this_program(),
-            addresses: addresses(&["a"]).into_iter().collect(),
-        };
-        claims.owner.host += "-not";
-        fs::write(&path, serde_json::to_vec(&claims).unwrap()).unwrap();
+        let mut owner = LockOwner::this_program();
+        owner.host += "-not";
+        let [path, work] = leftovers(root.path(), owner);
         let session = Session::begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(path.exists() && work.exists());

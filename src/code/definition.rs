@@ -2,7 +2,7 @@
 //! tasks.
 
 use super::format::ResultFormat;
-use super::manifest::{Definition, RefusedValues, ResultFile, TaskKind};
+use super::manifest::{Definition, ResultFile, TaskKind};
 use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
@@ -77,36 +77,32 @@ impl Definition {
         // The whole manifest first: its errors have a line.
         let manifest: Self = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
         let table: Table = toml::from_str(&text).map_err(|error| failed(error.to_string()))?;
+        let family = manifest.name.clone();
         let codes = manifest.expand(table).map_err(failed)?;
-        let finished = codes.into_iter().map(|code| code.finish(read));
+        let finished = codes.into_iter().map(|code| code.finish(&family, read));
         finished.collect::<Result<_, _>>().map_err(failed)
     }
 
     /// The code itself, or one code for each of its variants, whose keys override its own.
     fn expand(self, mut table: Table) -> Result<Vec<Self>, String> {
-        let family = self.name.clone();
         if self.variants.is_empty() {
-            return Ok(vec![Self { family, ..self }]);
+            return Ok(vec![self]);
         }
         table.remove("variants");
         let variants = self.variants.into_iter().map(|(name, overrides)| {
             let mut table = table.clone();
             table.insert("name".to_owned(), Value::String(name.clone()));
             merge(&mut table, overrides);
-            let code: Self = table
-                .try_into()
-                .map_err(|error| format!("variants.{name}: {error}"))?;
-            Ok(Self {
-                family: family.clone(),
-                ..code
-            })
+            let code = table.try_into();
+            code.map_err(|error| format!("variants.{name}: {error}"))
         });
         variants.collect()
     }
 
     /// Checks what the types cannot, and reads the files of the tasks.
-    fn finish(mut self, read: ReadFile) -> Result<Self, String> {
+    fn finish(mut self, family: &str, read: ReadFile) -> Result<Self, String> {
         self.check().map_err(|invalid| invalid.to_string())?;
+        family.clone_into(&mut self.family);
         if self.title.is_empty() {
             self.title.clone_from(&self.family);
         }
@@ -256,18 +252,6 @@ impl Definition {
         let step = at_least(self.seconds.step, LONGEST_STEP);
         let limit = Duration::try_from_secs_f64(start + step * steps as f64);
         limit.unwrap_or(Duration::MAX)
-    }
-
-    /// Refuses a restitution that the manifest rules out.
-    pub(super) fn check_restitution(&self, asked: f64) -> Result<(), InvalidValue> {
-        let Some(RefusedValues { values, because }) = &self.refused.restitution else {
-            return Ok(());
-        };
-        if !values.contains(&asked) {
-            return Ok(());
-        }
-        let accepted = format!("any other number for {}: {because}", self.name);
-        Err(refused("convention.restitution", asked, accepted))
     }
 }
 

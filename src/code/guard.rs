@@ -173,9 +173,6 @@ fn parent(process: i32) -> Option<Pid> {
     let status = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // The name, in parentheses, may hold anything.
     let (_, rest) = status.rsplit_once(')')?;
-    rest.split_whitespace()
-        .nth(1)?
-        .parse()
-        .ok()
-        .map(Pid::from_raw)
+    let parent = rest.split_whitespace().nth(1)?;
+    parent.parse().ok().map(Pid::from_raw)
 }

@@ -66,16 +66,13 @@ pub enum TaskKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
-    /// Its shape.
     pub shape: Shape,
-    /// Its colour.
     pub colour: Colour,
 }
 
 /// Outlines, so that marks at the same place do not hide each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum Shape {
     Dot,
     Circle,
@@ -88,7 +85,6 @@ pub enum Shape {
 /// Colours that the colour-blind tell apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum Colour {
     Ink,
     Blue,

@@ -1,7 +1,7 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
 use super::definition::{ManifestError, refused};
-use super::manifest::{Definition, Integration, Mark, TaskKind};
+use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -180,9 +180,15 @@ impl Code {
         if self.accepts_any_convention() {
             return Ok(());
         }
-        self.definition().check_restitution(asked.restitution)?;
+        let restitution = asked.restitution;
+        if let Some(RefusedValues { values, because }) = &self.definition().refused.restitution
+            && values.contains(&restitution)
+        {
+            let accepted = format!("any other number for {self}: {because}");
+            return Err(refused("convention.restitution", restitution, accepted));
+        }
         let own = ContactConvention {
-            restitution: asked.restitution,
+            restitution,
             ..self.convention()
         };
         asked.difference(&own).map_or(Ok(()), |(key, value, own)| {

@@ -3,9 +3,9 @@
 use super::failure::{Failure, FailureKind};
 use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
-use super::manifest::{Definition, ResultFile};
+use super::manifest::ResultFile;
 use super::parameters::only_numbers;
-use super::process::{Ending, Environment, Job, run};
+use super::process::{Ending, Job, run};
 use super::task::Task;
 use crate::files::{FileError, locked_directory, remove_abandoned};
 use std::ffi::OsString;
@@ -24,7 +24,6 @@ const STANDARD_ERROR: &str = "stderr.txt";
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
     code: &'a ExternalCode,
-    definition: &'static Definition,
     result: ResultFile,
     tasks: &'a [T],
     directory: PathBuf,
@@ -41,7 +40,6 @@ type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 impl<'a, T: Task> Batch<'a, T> {
     /// `tasks`, at least one, for one process of `code`, in `directory`.
     pub fn new(code: &'a ExternalCode, tasks: &'a [T], directory: PathBuf) -> Self {
-        let definition = code.name.definition();
         let task_directories: Vec<String> = match tasks {
             [_] => vec![".".to_owned()],
             _ => (0..tasks.len())
@@ -50,8 +48,7 @@ impl<'a, T: Task> Batch<'a, T> {
         };
         Self {
             code,
-            definition,
-            result: definition.result(tasks[0].kind()),
+            result: code.definition.result(tasks[0].kind()),
             tasks,
             directory,
             task_directories,
@@ -106,7 +103,7 @@ impl<'a, T: Task> Batch<'a, T> {
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let (file, parameters) = (&self.definition.parameters, task.parameters());
+            let (file, parameters) = (&self.code.definition.parameters, task.parameters());
             only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
             let content = file.format.content(&parameters);
             write(&directory.join(&file.file), content.as_bytes())?;
@@ -114,20 +111,14 @@ impl<'a, T: Task> Batch<'a, T> {
                 write(&directory.join(name), content.as_bytes())?;
             }
             // Files of an earlier run must not pass for results of this one.
-            for stale in self.logs().iter().chain([&self.result.file]) {
+            for stale in self.code.program.logs.iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
         }
-        for (name, content) in self.definition.files(self.tasks[0].kind()) {
+        for (name, content) in self.code.definition.files(self.tasks[0].kind()) {
             write(&self.directory.join(name), content)?;
         }
         Ok(())
-    }
-
-    /// Log files of the program, quoted when it fails.
-    fn logs(&self) -> &'static [String] {
-        let program = self.definition.program.as_ref();
-        program.map_or(&[], |program| &program.logs)
     }
 
     fn run_process(
@@ -138,9 +129,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let kind = self.tasks[0].kind();
         let command = self.code.command(kind, &self.task_directories);
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
-        command[0] = self.code.program.clone().into_os_string();
-        let none = Environment::new();
-        let own = self.definition.program.as_ref();
+        command[0] = self.code.file.clone().into_os_string();
         let directory = self.directory.clone();
         // A killed process may have left its home in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
@@ -149,7 +138,7 @@ impl<'a, T: Task> Batch<'a, T> {
             command: &command,
             directory: &directory,
             home: &std::path::absolute(home.path()).map_err(FailureKind::Start)?,
-            environment: own.map_or(&none, |program| &program.environment),
+            environment: &self.code.program.environment,
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
@@ -161,7 +150,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn time_limit(&self, context: &RunContext) -> Duration {
         let steps = self.tasks.iter().map(Task::steps).max();
-        let longest = self.definition.time_limit(steps.unwrap_or(0));
+        let longest = self.code.definition.time_limit(steps.unwrap_or(0));
         context.time_limit.unwrap_or(longest)
     }
 
@@ -177,7 +166,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn is_complete(&self, index: usize) -> bool {
         let file = self.task_directory(index).join(&self.result.file);
-        self.definition.runs_many() && file.is_file()
+        self.code.definition.runs_many() && file.is_file()
     }
 
     fn task_directory(&self, index: usize) -> PathBuf {
@@ -231,7 +220,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     fn last_lines(&self) -> Vec<String> {
-        let logs = self.logs().iter().map(String::as_str);
+        let logs = self.code.program.logs.iter().map(String::as_str);
         logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
             .flat_map(|name| {
                 let lines = tail(&self.directory.join(name));

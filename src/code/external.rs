@@ -28,7 +28,7 @@ impl ExternalCode {
         all_or_nothing: bool,
         finished: Finished<(T::Outcome, f64)>,
     ) {
-        let many = self.name.definition().runs_many();
+        let many = self.definition.runs_many();
         let at_once = if many { range.len() } else { 1 };
         let mut next = range.start;
         while next < range.end {
@@ -110,7 +110,7 @@ impl InstalledCode for ExternalCode {
     }
 
     fn batching(&self) -> Batching {
-        match self.name.definition().runs_many() {
+        match self.definition.runs_many() {
             true => Batching::FewCalls,
             false => Batching::OneCallACase,
         }

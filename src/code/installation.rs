@@ -2,7 +2,7 @@
 
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
-use super::manifest::{TaskKind, VersionQuestion};
+use super::manifest::{Definition, Program, TaskKind, VersionQuestion};
 use super::process::{Ending, Environment, Interrupt, Job, run};
 use super::provenance::Identity;
 use super::registry::Code;
@@ -35,10 +35,12 @@ impl Stamp {
 /// An external code whose program is installed.
 pub(crate) struct ExternalCode {
     pub name: Code,
+    pub definition: &'static Definition,
+    pub program: &'static Program,
     /// First word of the command: that of the manifest, or a build in another precision.
     word: String,
     /// The file that was found.
-    pub program: PathBuf,
+    pub file: PathBuf,
     pub identity: Identity,
     /// Changes when the file is written to or replaced.
     stamp: Stamp,
@@ -49,20 +51,23 @@ impl ExternalCode {
     /// is asked for the version; a program that gives none within [`LONGEST_START`] counts as not installed: its
     /// runs would be kept under a wrong name.
     pub fn find(name: Code, word: &str) -> Option<Self> {
-        let definition = name.definition().program.as_ref()?;
-        let question = &definition.version;
-        let program = in_search_path(word)?;
-        let stamp = Stamp::of(&program)?;
-        let package = owning_package(&program).ok()?;
+        let definition = name.definition();
+        let program = definition.program.as_ref()?;
+        let question = &program.version;
+        let file = in_search_path(word)?;
+        let stamp = Stamp::of(&file)?;
+        let package = owning_package(&file).ok()?;
         let version = match &package {
             Some((_, version)) if question.package => upstream(version).to_owned(),
-            _ => own_version(&program, question, &definition.environment).ok()?,
+            _ => own_version(&file, question, &program.environment).ok()?,
         };
-        let hash = sha256_hex(&std::fs::read(&program).ok()?);
+        let hash = sha256_hex(&std::fs::read(&file).ok()?);
         Some(Self {
             name,
-            word: word.to_owned(),
+            definition,
             program,
+            word: word.to_owned(),
+            file,
             identity: Identity {
                 code: name.as_str().to_owned(),
                 version,
@@ -75,14 +80,14 @@ impl ExternalCode {
 
     /// Refuses a program that has been replaced since it was found.
     pub fn check_unchanged(&self) -> Result<(), FailureKind> {
-        let unchanged = Stamp::of(&self.program) == Some(self.stamp);
-        let replaced = || FailureKind::Replaced(self.program.clone());
+        let unchanged = Stamp::of(&self.file) == Some(self.stamp);
+        let replaced = || FailureKind::Replaced(self.file.clone());
         unchanged.then_some(()).ok_or_else(replaced)
     }
 
     /// Program and arguments that carry out tasks of one kind in `directories`.
     pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
-        let mut command = self.name.definition().command(kind, directories);
+        let mut command = self.definition.command(kind, directories);
         command[0].clone_from(&self.word);
         command
     }

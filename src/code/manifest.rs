@@ -123,7 +123,7 @@ pub(super) struct Program {
     pub(super) version: VersionQuestion,
     #[serde(default)]
     pub(super) environment: Environment,
-    /// Files in the working directory that say why a run failed.
+    /// Files in the working directory that say why a run failed, and are quoted then.
     #[serde(default)]
     pub(super) logs: Vec<String>,
 }

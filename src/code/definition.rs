@@ -49,9 +49,6 @@ type ReadFile<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 impl Definition {
     /// The codes that `folder` describes, one a variant, in the order of their names.
-    ///
-    /// # Errors
-    /// The first error in the manifest or its files.
     pub fn read(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         Self::read_with(folder, &|name| {
             std::fs::read(folder.join(name)).map_err(|error| error.to_string())

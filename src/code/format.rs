@@ -50,9 +50,6 @@ pub enum ResultFormat {
 
 impl ResultFormat {
     /// The series of `case` in a result file.
-    ///
-    /// # Errors
-    /// If it is not there, or is not the series of the case.
     pub fn series(self, content: &[u8], case: &Case) -> Result<Series, SeriesError> {
         let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
         match self {
@@ -65,9 +62,6 @@ impl ResultFormat {
     }
 
     /// The motion of a micro-test in a result file.
-    ///
-    /// # Errors
-    /// If it is not there, or is not the motion of the micro-test.
     pub fn motion(self, content: &[u8], test: &ContactTest) -> Result<Motion, SeriesError> {
         match self {
             Self::Csv => Motion::read(content, test.steps),

@@ -12,9 +12,6 @@ const LONGEST_READ: u64 = 256 << 20;
 const LONGEST_KEPT: u64 = 4 << 20;
 
 /// The file `name` in `directory`.
-///
-/// # Errors
-/// If it cannot be read, or is longer than any series.
 pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
     let mut content = Vec::new();
     File::open(directory.join(name))

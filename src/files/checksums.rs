@@ -101,20 +101,13 @@ mod tests {
     }
 
     #[test]
-    fn a_single_flipped_bit_is_noticed_wherever_it_is() {
-        let sealed = seal(b"0.25");
+    fn a_flipped_bit_and_a_cut_are_noticed_wherever_they_are() {
+        let sealed = seal(b"0.25\n");
         for bit in 0..8 * sealed.len() {
             let mut damaged = sealed.clone();
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(unseal(Path::new("x"), &damaged).is_err(), "bit {bit}");
-        }
-    }
-
-    #[test]
-    fn a_file_that_is_cut_anywhere_is_noticed() {
-        let sealed = seal(b"0.25\n");
-        for length in 0..sealed.len() {
-            assert!(unseal(Path::new("x"), &sealed[..length]).is_err());
+            assert!(unseal(Path::new("x"), &sealed[..bit / 8]).is_err());
         }
     }
 }

@@ -106,9 +106,6 @@ impl Motion {
     }
 
     /// Reads a motion in CSV and checks it.
-    ///
-    /// # Errors
-    /// As for [`Motion::new`], and if a row cannot be read.
     pub fn read(input: impl Read, steps: u64) -> Result<Self, SeriesError> {
         let mut reader = csv::Reader::from_reader(input);
         let rows = reader.deserialize().enumerate().map(|(index, row)| {

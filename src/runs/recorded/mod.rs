@@ -101,14 +101,11 @@ impl Recorded {
             let what = "series of this case";
             return Err(RecordedError::Absent { code, what, path });
         };
-        let RunSummary {
-            case, provenance, ..
-        } = row.summary.clone();
-        let series = series_in(self.members(&files, code)?, name, &case, &path)?;
+        let series = series_in(self.members(&files, code)?, name, case, &path)?;
         Ok(Run {
-            case,
+            case: *case,
             series,
-            provenance,
+            provenance: row.summary.provenance.clone(),
         })
     }
 

@@ -206,9 +206,6 @@ fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
 }
 
 /// The series `name` of `case` among `members` of the archive at `path`.
-///
-/// # Errors
-/// If it is missing, or is not the series of the case.
 pub(super) fn series_in(
     members: &Members,
     name: &str,

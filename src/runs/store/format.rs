@@ -10,9 +10,6 @@ const FILE: &str = "format";
 const CURRENT: &str = "tristack store, format 2\n";
 
 /// Refuses a store at `root` with another format; a new one gets the current format.
-///
-/// # Errors
-/// If it has another one, or cannot be read or written.
 pub(super) fn check(root: &Path) -> Result<(), StoreError> {
     create_parent(&root.join(FILE))?;
     // Looked for first, because the format is written before the first run.

@@ -74,10 +74,7 @@ impl Store {
         Ok(Self { session })
     }
 
-    /// The finished run of `case` by the code with `identity`, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
+    /// The finished run of `case` by the code with `identity`, if there is one; an error if it is damaged.
     pub fn get(
         &self,
         identity: &Identity,
@@ -126,10 +123,7 @@ impl Store {
         Ok(aside)
     }
 
-    /// The kept probe with the given address, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
+    /// The kept probe with the given address, if there is one; an error if it is damaged.
     pub fn probe(&self, address: &str) -> Result<Option<ProbeRecord>, FileError> {
         let path = self.path(PROBES, address);
         let text = read_sealed(&path)?;
@@ -143,10 +137,7 @@ impl Store {
         write_sealed(self.work_directory(), &path, content.as_bytes())
     }
 
-    /// The kept observation of `run`, if there is one.
-    ///
-    /// # Errors
-    /// If there is one, but damaged.
+    /// The kept observation of `run`, if there is one; an error if it is damaged.
     pub fn observation(&self, run: &EventRun) -> Result<Option<Observation>, FileError> {
         let path = self.path(OBSERVATIONS, &run.address());
         let Some(text) = read_sealed(&path)? else {

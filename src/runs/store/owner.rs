@@ -31,15 +31,10 @@ impl LockOwner {
 
 impl std::fmt::Display for LockOwner {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self {
-            process,
-            host,
-            command,
-            since,
-        } = self;
         write!(
             formatter,
-            "process {process} on {host} (`{command}`, since {since})"
+            "process {} on {} (`{}`, since {})",
+            self.process, self.host, self.command, self.since
         )
     }
 }

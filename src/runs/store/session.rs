@@ -209,21 +209,25 @@ mod tests {
         assert_eq!(one.claim(&bc).unwrap(), [None, None]);
     }
 
+    /// Session file and work directory of an `owner` that claimed "a", and has no lock any more.
+    fn leftovers(root: &Path, owner: LockOwner) -> [PathBuf; 2] {
+        let [file, work] = ["sessions/other.json", "work/other"].map(|name| root.join(name));
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::create_dir_all(work.join("yade-1")).unwrap();
+        let claims = Claims {
+            owner,
+            addresses: addresses(&["a"]).into_iter().collect(),
+        };
+        fs::write(&file, serde_json::to_vec(&claims).unwrap()).unwrap();
+        [file, work]
+    }
+
     #[test]
     fn a_dead_session_holds_nothing_and_its_leftovers_go() {
         let root = tempfile::tempdir().unwrap();
-        let dead = root.path().join("sessions/dead.json");
-        let left = root.path().join("work/dead/yade-1");
+        let [dead, left] = leftovers(root.path(), LockOwner::this_program());
         let evidence = root.path().join("work/ended/yade-2");
-        for directory in [&left, &evidence] {
-            fs::create_dir_all(directory).unwrap();
-        }
-        fs::create_dir_all(dead.parent().unwrap()).unwrap();
-        let claims = Claims {
-            owner: LockOwner::this_program(),
-            addresses: addresses(&["a"]).into_iter().collect(),
-        };
-        fs::write(&dead, serde_json::to_vec(&claims).unwrap()).unwrap();
+        fs::create_dir_all(&evidence).unwrap();
         let session = Session::begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(!dead.exists() && !left.exists());
@@ -233,16 +237,9 @@ mod tests {
     #[test]
     fn a_session_of_another_machine_holds_nothing_without_a_lock_but_is_left_alone() {
         let root = tempfile::tempdir().unwrap();
-        let path = root.path().join("sessions/elsewhere.json");
-        let work = root.path().join("work/elsewhere");
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::create_dir_all(&work).unwrap();
-        let mut claims = Claims {
-            owner: LockOwner::this_program(),
-            addresses: addresses(&["a"]).into_iter().collect(),
-        };
-        claims.owner.host += "-not";
-        fs::write(&path, serde_json::to_vec(&claims).unwrap()).unwrap();
+        let mut owner = LockOwner::this_program();
+        owner.host += "-not";
+        let [path, work] = leftovers(root.path(), owner);
         let session = Session::begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(path.exists() && work.exists());

@@ -23,17 +23,14 @@ pub enum ParameterFormat {
 impl ParameterFormat {
     /// The content of the file for `parameters`, an object of numbers.
     pub fn content(self, parameters: &serde_json::Value) -> String {
-        let lines = |line: &dyn Fn(&str, &serde_json::Value) -> String| {
-            let entries = parameters.as_object().into_iter().flatten();
-            entries.map(|(name, number)| line(name, number)).collect()
+        let (before, between) = match self {
+            Self::Json => return format!("{parameters:#}\n"),
+            Self::Toml => ("", " = "),
+            Self::LammpsVariables => ("variable ", " string "),
         };
-        match self {
-            Self::Json => format!("{parameters:#}\n"),
-            Self::Toml => lines(&|name, number| format!("{name} = {number}\n")),
-            Self::LammpsVariables => {
-                lines(&|name, number| format!("variable {name} string {number}\n"))
-            }
-        }
+        let entries = parameters.as_object().into_iter().flatten();
+        let lines = entries.map(|(name, number)| format!("{before}{name}{between}{number}\n"));
+        lines.collect()
     }
 }
 

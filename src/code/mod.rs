@@ -29,6 +29,7 @@ pub use installation::version_in_answer;
 pub use installed::{Batching, Finished, InstalledCode, RunContext};
 pub(crate) use manifest::{Angle, Colour, Shape};
 pub use manifest::{Definition, TaskKind};
+use native::{Arithmetic, Native};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
@@ -39,7 +40,7 @@ impl Code {
     /// The code as it is installed here; `None` if it is not.
     pub fn find(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
-            return Some(Box::new(native::Native::new()));
+            return Some(Box::new(Native::new(Arithmetic::Double)));
         }
         let program = self.definition().program.as_ref()?;
         Some(Box::new(ExternalCode::find(
@@ -52,7 +53,7 @@ impl Code {
     /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
     pub fn find_precise(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
-            return Some(Box::new(native::Native::precise()));
+            return Some(Box::new(Native::new(Arithmetic::DoubleDouble)));
         }
         let program = self.definition().program.as_ref()?;
         let word = program.higher_precision.as_deref()?;

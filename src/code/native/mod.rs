@@ -20,23 +20,17 @@ pub struct Native {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Arithmetic {
+pub(super) enum Arithmetic {
     Double,
     DoubleDouble,
 }
 
 impl Native {
-    pub(super) fn new() -> Self {
-        Self::computing(env!("CARGO_PKG_VERSION"), Arithmetic::Double)
-    }
-
-    /// The native DEM in double-double arithmetic.
-    pub(super) fn precise() -> Self {
-        let version = concat!(env!("CARGO_PKG_VERSION"), " double-double");
-        Self::computing(version, Arithmetic::DoubleDouble)
-    }
-
-    fn computing(version: &str, arithmetic: Arithmetic) -> Self {
+    pub(super) fn new(arithmetic: Arithmetic) -> Self {
+        let version = match arithmetic {
+            Arithmetic::Double => env!("CARGO_PKG_VERSION"),
+            Arithmetic::DoubleDouble => concat!(env!("CARGO_PKG_VERSION"), " double-double"),
+        };
         Self {
             identity: Identity {
                 code: Code::NATIVE.as_str().to_owned(),
@@ -50,14 +44,17 @@ impl Native {
 
     /// Runs all of `cases` that may share a vector, in its lanes; a single one runs faster without vectors.
     fn run_in_lanes(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
-        for kind in kinds(cases) {
-            let alike = |index: &usize| LaneKind::of(&cases[*index]) == kind;
-            let indices: Vec<usize> = (0..cases.len()).filter(alike).collect();
-            let width = match indices.len() {
+        let mut left: Vec<usize> = (0..cases.len()).collect();
+        while let Some(&first) = left.first() {
+            let kind = LaneKind::of(&cases[first]);
+            let is_alike = |index: &usize| LaneKind::of(&cases[*index]) == kind;
+            let (alike, others): (Vec<usize>, _) = left.into_iter().partition(is_alike);
+            left = others;
+            let width = match alike.len() {
                 1 => LaneWidth::ONE,
                 _ => LaneWidth::widest(),
             };
-            let mut lanes = Lanes::new(self, cases, indices, context, &mut *finished);
+            let mut lanes = Lanes::new(self, cases, alike, context, &mut *finished);
             width.compress_stacks(&mut lanes);
             lanes.give_up_waiting();
         }
@@ -80,17 +77,6 @@ impl Native {
             provenance: Provenance::now(identity, deck_hash, command, steps, seconds),
         }
     }
-}
-
-/// The kinds of `cases`, each once.
-fn kinds(cases: &[Case]) -> Vec<LaneKind> {
-    let mut kinds = Vec::new();
-    for kind in cases.iter().map(LaneKind::of) {
-        if !kinds.contains(&kind) {
-            kinds.push(kind);
-        }
-    }
-    kinds
 }
 
 /// Calls `run` with a test whether to go on; if it was stopped, the error is the interrupt or the time limit.

@@ -139,10 +139,9 @@ fn compare(left: &Case, right: &Case) -> Ordering {
         let (mu, stiffness) = (stack.floor_friction, stack.stiffness);
         [mu, stiffness, -protocol.wall_speed, protocol.time_step]
     };
-    let pairs = numbers(left).into_iter().zip(numbers(right));
-    let ordered = pairs.map(|(left, right)| left.total_cmp(&right));
-    let first = ordered.into_iter().find(|order| order.is_ne());
-    first.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
+    let ordered = numbers(left).partial_cmp(&numbers(right));
+    let ordered = ordered.filter(|order| order.is_ne());
+    ordered.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
 }
 
 /// Name of the series of `case`, readable and not yet among `members`.

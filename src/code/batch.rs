@@ -5,13 +5,14 @@ use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
 use super::manifest::ResultFile;
 use super::parameters::only_numbers;
-use super::process::{Ending, Job, run};
+use super::process::{Job, run};
 use super::task::Task;
 use crate::files::{FileError, locked_directory, remove_abandoned};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
 const LAST_LINES: usize = 4;
@@ -85,13 +86,9 @@ impl<'a, T: Task> Batch<'a, T> {
             return;
         }
         match outcome {
-            Ok(Ending::Exited(status)) if status.success() => self.read(delivered, report),
-            Ok(Ending::Exited(status)) => self.fail(delivered, FailureKind::Ended(status), report),
-            Ok(Ending::TimedOut) => {
-                let limit = self.time_limit(context);
-                self.fail(delivered, FailureKind::TimedOut(limit), report);
-            }
-            Ok(Ending::Interrupted) => self.interrupt_from(delivered, report),
+            Ok(status) if status.success() => self.read(delivered, report),
+            Ok(status) => self.fail(delivered, FailureKind::Ended(status), report),
+            Err(FailureKind::Interrupted) => self.interrupt_from(delivered, report),
             Err(kind) => self.fail(delivered, kind, report),
         }
     }
@@ -125,7 +122,7 @@ impl<'a, T: Task> Batch<'a, T> {
         &mut self,
         context: &RunContext,
         report: Report<T>,
-    ) -> Result<Ending, FailureKind> {
+    ) -> Result<ExitStatus, FailureKind> {
         let kind = self.tasks[0].kind();
         let command = self.code.command(kind, &self.task_directories);
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
@@ -133,19 +130,19 @@ impl<'a, T: Task> Batch<'a, T> {
         let directory = self.directory.clone();
         // A killed process may have left its home in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
-        let (home, _lock) = locked_directory(&directory, HOME).map_err(FailureKind::Start)?;
+        let (home, _lock) = locked_directory(&directory, HOME)?;
         let job = Job {
             command: &command,
             directory: &directory,
-            home: &std::path::absolute(home.path()).map_err(FailureKind::Start)?,
+            home: &std::path::absolute(home.path())?,
             environment: &self.code.program.environment,
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
         let [output, error] =
             [STANDARD_OUTPUT, STANDARD_ERROR].map(|name| File::create(directory.join(name)));
-        let ended = output.and_then(|output| run(&job, output, error?, || self.harvest(report)));
-        ended.map(|(ending, _)| ending).map_err(FailureKind::Start)
+        let (status, _) = run(&job, output?, error?, || self.harvest(report))?;
+        Ok(status)
     }
 
     fn time_limit(&self, context: &RunContext) -> Duration {

@@ -19,7 +19,7 @@ pub enum FailureKind {
     #[error(transparent)]
     RunDirectory(#[from] FileError),
     #[error("cannot start the program: {0}")]
-    Start(std::io::Error),
+    Start(#[from] std::io::Error),
     /// It is no longer the one whose version and hash were taken at the start.
     #[error("{} was replaced while it was in use; start again", shown(.0))]
     Replaced(PathBuf),

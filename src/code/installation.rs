@@ -2,8 +2,8 @@
 
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
-use super::manifest::{Definition, Program, TaskKind, VersionQuestion};
-use super::process::{Ending, Environment, Interrupt, Job, run};
+use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestion};
+use super::process::{Interrupt, Job, run};
 use super::provenance::Identity;
 use super::registry::Code;
 use crate::model::sha256_hex;
@@ -181,12 +181,12 @@ fn answer(
     };
     for _ in 0..TRIES {
         match run(&job, Vec::new(), std::io::sink(), || false) {
-            Ok((Ending::Exited(status), text)) if status.code().is_some() => {
+            Ok((status, text)) if status.code().is_some() => {
                 let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
                 return Ok(status.success().then_some(text));
             }
-            Ok((Ending::Exited(_), _)) => {}
-            Ok(_) => return Err(TooSlow),
+            Ok(_) => {}
+            Err(FailureKind::TimedOut(_)) => return Err(TooSlow),
             Err(_) => return Ok(None),
         }
     }

@@ -1,7 +1,6 @@
 //! The keys of a manifest.
 
 use super::format::{ParameterFormat, ResultFormat};
-use super::process::Environment;
 use crate::model::ContactConvention;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -110,6 +109,9 @@ impl Default for Seconds {
         }
     }
 }
+
+/// Variables for the environment of a program.
+pub(super) type Environment = BTreeMap<String, String>;
 
 /// How a code is started.
 #[derive(Debug, Clone, Deserialize)]

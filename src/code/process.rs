@@ -1,9 +1,10 @@
 //! The one runner of foreign programs: a process group of its own, no shell, a time limit, bounded output.
 
 use super::capture::capture;
+use super::failure::FailureKind;
 use super::guard;
+use super::manifest::Environment;
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
-use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
@@ -18,9 +19,6 @@ const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 /// Longest wait for a pipe after its program has ended: a process that outlives it may keep the pipe open.
 const LONGEST_REST: Duration = Duration::from_secs(1);
-
-/// Variables for the environment of a program.
-pub type Environment = BTreeMap<String, String>;
 
 /// A request to stop, shared by everything that runs.
 #[derive(Debug, Default)]
@@ -59,57 +57,47 @@ pub(crate) struct Job<'a> {
     pub interrupt: &'a Interrupt,
 }
 
-/// How a program ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ending {
-    /// By itself.
-    Exited(ExitStatus),
-    /// Killed after the time limit.
-    TimedOut,
-    /// Killed because the user interrupted.
-    Interrupted,
-}
-
-/// Runs `job` to its end, and copies its output to `output` and `error`; returns how it ended, and `output` if it is
-/// complete. `progress` is polled while it runs; whenever it returns true, the time limit starts anew.
+/// Runs `job` to its end, and copies its output to `output` and `error`; returns the status with which it ended by itself,
+/// and `output` if it is complete. `progress` is polled while it runs; whenever it returns true, the time limit starts
+/// anew.
 pub fn run<W: Write + Send + 'static>(
     job: &Job,
     output: W,
     error: impl Write + Send + 'static,
     progress: impl FnMut() -> bool,
-) -> std::io::Result<(Ending, Option<W>)> {
+) -> Result<(ExitStatus, Option<W>), FailureKind> {
     let mut child = spawn(job)?;
     let output = child.stdout().take().map(|pipe| capture(pipe, output));
     let error = child.stderr().take().map(|pipe| capture(pipe, error));
-    let ending = watch(job, child, progress)?;
+    let status = watch(job, child, progress);
     error.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
     let output = output.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
-    Ok((ending, output))
+    Ok((status?, output))
 }
 
 fn watch(
     job: &Job,
     mut child: Box<dyn ChildWrapper>,
     mut progress: impl FnMut() -> bool,
-) -> std::io::Result<Ending> {
+) -> Result<ExitStatus, FailureKind> {
     let mut waited = Duration::ZERO;
     let mut last_poll = Instant::now();
     loop {
         if let Some(status) = child.try_wait()? {
             // Kills what is left of its process group.
             let _ = child.start_kill();
-            return Ok(Ending::Exited(status));
+            return Ok(status);
         }
         if job.interrupt.requested() {
             kill(child.as_mut())?;
-            return Ok(Ending::Interrupted);
+            return Err(FailureKind::Interrupted);
         }
         if progress() {
             waited = Duration::ZERO;
         }
         if waited > job.time_limit {
             kill(child.as_mut())?;
-            return Ok(Ending::TimedOut);
+            return Err(FailureKind::TimedOut(job.time_limit));
         }
         std::thread::sleep(POLL_INTERVAL);
         waited += last_poll.elapsed().min(LONGEST_INTERVAL);
@@ -120,11 +108,14 @@ fn watch(
 fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let prefix = guard::prefix();
-    let mut words = prefix
-        .iter()
-        .copied()
-        .chain(job.command.iter().map(OsString::as_os_str));
+    let command = job.command.iter().map(OsString::as_os_str);
+    let mut words = prefix.iter().copied().chain(command);
     let program = words.next().unwrap_or(OsStr::new(""));
+    // A guard ends when its input closes; other programs get no input.
+    let input = match prefix.as_slice() {
+        [] => Stdio::null(),
+        _ => Stdio::piped(),
+    };
     CommandWrap::with_new(program, |command| {
         command
             .args(words)
@@ -136,12 +127,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
             .env("LC_ALL", "C.UTF-8")
             .env("OMP_NUM_THREADS", "1")
             .envs(job.environment)
-            // A guard ends when its input closes; other programs get no input.
-            .stdin(if prefix.is_empty() {
-                Stdio::null()
-            } else {
-                Stdio::piped()
-            })
+            .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
     })

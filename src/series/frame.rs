@@ -1,10 +1,9 @@
 //! The stack at one moment, with every force that is known then: what figures and animations are made of.
 
 use super::samples::{Sample, Series};
-use serde::{Deserialize, Serialize};
 
 /// A cylinder of radius 1 as it is at one moment. Lengths in r.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedCylinder {
     /// Centre, the floor being at height 0.
     pub position: [f64; 2],
@@ -15,7 +14,7 @@ pub struct PlacedCylinder {
 }
 
 /// Body or wall that presses on a cylinder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Partner {
     /// The cylinder of that index.
     Cylinder(usize),
@@ -26,7 +25,7 @@ pub enum Partner {
 }
 
 /// A contact that bears a force. Forces in k_n r.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
     /// Index of the cylinder on which the force acts; on a partner that is a cylinder, its opposite does.
     pub cylinder: usize,
@@ -62,7 +61,7 @@ impl ContactPoint {
 }
 
 /// The stack at one moment.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Steps since the wall began to move.
     pub step: u64,

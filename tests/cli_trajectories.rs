@@ -186,7 +186,6 @@ fn with_wall_force_times(factor: f64, series: &Series, case: &Case) -> Series {
     for sample in &mut samples {
         sample.wall_force *= factor;
     }
-    let protocol = &case.protocol;
-    let changed = Series::new(samples, &protocol.schedule(), protocol.time_step);
+    let changed = Series::new(samples, &case.protocol);
     changed.expect("the same rows")
 }

@@ -173,8 +173,7 @@ fn a_live_run_repeats_its_recording() {
         let line = format!("simulate --code {code} --out run --case case.json");
         bench.tristack(&line).assert().code(0);
         let live = fs::read(bench.path("run/series.csv")).expect("a series");
-        let protocol = &case.protocol;
-        let live = Series::read(live.as_slice(), &protocol.schedule(), protocol.time_step);
+        let live = Series::read(live.as_slice(), &case.protocol);
         let largest = largest_deviation(&series, &live.expect("a series"));
         println!("{code}: largest deviation from its recording {largest:e}");
         // Another build of the same version may round differently; positions are of order 1.
@@ -203,8 +202,7 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
             let mut halved = case;
             halved.protocol.time_step *= 0.5;
             let series = fs::File::open(bench.path("run/series.csv")).expect("a series");
-            let schedule = case.protocol.schedule();
-            let own = Series::read(series, &schedule, case.protocol.time_step).expect("a series");
+            let own = Series::read(series, &case.protocol).expect("a series");
             let native = |case: &Case| compress_stack(case, || true).expect("a finite series");
             let own = contact_and_slip(&own, &case);
             let twin = contact_and_slip(&native(&case), &case);

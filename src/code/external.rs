@@ -9,6 +9,7 @@ use super::registry::Code;
 use super::task::Task;
 use crate::model::{Case, ContactTest, InvalidValue, Pyramid};
 use crate::series::{Motion, PyramidRun, Series};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Whether two cases are run with the same deck.
@@ -61,21 +62,12 @@ impl ExternalCode {
             let checked = checked.and_then(|()| self.name.check_task(task.kind()));
             checked.map_err(|refusal| self.unsupported(task, refusal))?;
         }
-        let mut outcomes: Vec<Option<T::Outcome>> = tasks.iter().map(|_| None).collect();
-        let mut first = Ok(());
-        let all = 0..tasks.len();
-        self.carry_out(
-            tasks,
-            all,
-            context,
-            true,
-            &mut |index, result| match result {
-                Ok((outcome, _)) => outcomes[index] = Some(outcome),
-                Err(failure) if first.is_ok() => first = Err(Box::new(failure)),
-                Err(_) => {}
-            },
-        );
-        first.map(|()| outcomes.into_iter().flatten().collect())
+        let (all, mut outcomes) = (0..tasks.len(), BTreeMap::new());
+        self.carry_out(tasks, all, context, true, &mut |index, result| {
+            outcomes.insert(index, result.map(|(outcome, _)| outcome));
+        });
+        let outcomes: Result<_, Failure> = outcomes.into_values().collect();
+        Ok(outcomes?)
     }
 
     fn run_of(&self, case: Case, (series, seconds): (Series, f64)) -> Run {

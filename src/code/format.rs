@@ -48,13 +48,10 @@ pub enum ResultFormat {
 impl ResultFormat {
     /// The series of `case` in a result file.
     pub fn series(self, content: &[u8], case: &Case) -> Result<Series, SeriesError> {
-        let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
+        let protocol = &case.protocol;
         match self {
-            Self::Csv => Series::read(content, &schedule, time_step),
-            Self::LammpsThermo => {
-                let samples = last_table(content, &Series::COLUMNS)?;
-                Series::new(samples, &schedule, time_step)
-            }
+            Self::Csv => Series::read(content, protocol),
+            Self::LammpsThermo => Series::new(last_table(content, &Series::COLUMNS)?, protocol),
         }
     }
 

@@ -71,20 +71,15 @@ pub trait InstalledCode: Send + Sync {
     /// running.
     fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>);
 
-    /// The motions of micro-tests, in order.
-    ///
-    /// # Errors
-    /// The first failure.
+    /// The motions of micro-tests, in order, or the first failure.
     fn probe(
         &self,
         tests: &[ContactTest],
         context: &RunContext,
     ) -> Result<Vec<Motion>, Box<Failure>>;
 
-    /// The runs of pyramids, in order.
-    ///
-    /// # Errors
-    /// The first failure, if there is one: the code may not build pyramids, or not with this convention.
+    /// The runs of pyramids, in order, or the first failure: the code may not build pyramids, or not with this
+    /// convention.
     fn build(
         &self,
         pyramids: &[Pyramid],

@@ -129,10 +129,8 @@ fn merged<const N: usize>(objects: [Value; N]) -> Value {
 /// LAMMPS and LIGGGHTS understands: atom, type, diameter, density, centre. Three types, as the contacts of
 /// LIGGGHTS have them; the mass is set by the deck.
 pub(super) fn placed_cylinders(pyramid: &Pyramid) -> (&'static str, String) {
-    let (x, y) = (
-        pyramid.half_width() + 1.0,
-        2.0 * f64::from(pyramid.rows) + 1.0,
-    );
+    let x = pyramid.half_width() + 1.0;
+    let y = 2.0 * f64::from(pyramid.rows) + 1.0;
     let mut text = format!(
         "{pyramid}\n\n{} atoms\n3 atom types\n{} {x} xlo xhi\n-1 {y} ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms\n\n",
         pyramid.cylinder_count(),

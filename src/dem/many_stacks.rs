@@ -208,8 +208,7 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
     }
 
     fn ended(&mut self, lane: Lane) {
-        let protocol = &lane.case.protocol;
-        let series = Series::new(lane.samples, &protocol.schedule(), protocol.time_step);
+        let series = Series::new(lane.samples, &lane.case.protocol);
         self.queue.ended(lane.index, series);
     }
 }

@@ -61,8 +61,7 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
         samples: Vec::new(),
     };
     LaneGroup::new(StackScene::of(case, model, number)).run(&mut single);
-    let protocol = &case.protocol;
-    Series::new(single.samples, &protocol.schedule(), protocol.time_step)
+    Series::new(single.samples, &case.protocol)
 }
 
 /// Supervises the one run of a stack.

@@ -2,7 +2,7 @@
 
 use super::column::columns;
 use super::drop::DropWatch;
-use crate::model::Schedule;
+use crate::model::{Protocol, Schedule};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
@@ -111,12 +111,9 @@ pub struct Series {
 }
 
 impl Series {
-    /// A series of `samples`, which must be finite and lie exactly at the steps of `schedule`.
-    pub fn new(
-        samples: Vec<Sample>,
-        schedule: &Schedule,
-        time_step: f64,
-    ) -> Result<Self, SeriesError> {
+    /// A series of `samples`, which must be finite and lie exactly at the steps of `protocol`.
+    pub fn new(samples: Vec<Sample>, protocol: &Protocol) -> Result<Self, SeriesError> {
+        let schedule = protocol.schedule();
         let mut planned = schedule.sampled_steps();
         for (row, sample) in (1..).zip(&samples) {
             check_finite(row, sample)?;
@@ -130,21 +127,17 @@ impl Series {
                     expected,
                 });
             }
-            check_time(row, sample, time_step)?;
+            check_time(row, sample, protocol.time_step)?;
         }
-        let (found, expected) = (samples.len(), planned_rows(schedule));
-        if found > expected || (found < expected && !ends_with_the_drop(&samples, schedule)) {
+        let (found, expected) = (samples.len(), planned_rows(&schedule));
+        if found > expected || (found < expected && !ends_with_the_drop(&samples, &schedule)) {
             return Err(SeriesError::Truncated { found, expected });
         }
         Ok(Self { samples })
     }
 
     /// Reads the shared CSV format and checks it against the plan.
-    pub fn read(
-        input: impl Read,
-        schedule: &Schedule,
-        time_step: f64,
-    ) -> Result<Self, SeriesError> {
+    pub fn read(input: impl Read, protocol: &Protocol) -> Result<Self, SeriesError> {
         let mut reader = csv::Reader::from_reader(input);
         let header = reader.headers();
         let header = header.map_err(|error| SeriesError::garbled(0, error))?;
@@ -163,8 +156,8 @@ impl Series {
         let garbled = SeriesError::garbled;
         let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is enough to refuse the series.
-        let rows = rows.take(planned_rows(schedule).saturating_add(1));
-        Self::new(rows.collect::<Result<_, _>>()?, schedule, time_step)
+        let rows = rows.take(planned_rows(&protocol.schedule()).saturating_add(1));
+        Self::new(rows.collect::<Result<_, _>>()?, protocol)
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.

@@ -27,15 +27,14 @@ fn a_motion_of_2_to_the_64_steps_is_refused() {
 #[test]
 fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
     let case = short_case();
-    let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
     let csv = compress_stack(&case, || true)
         .expect("a finite series")
         .to_csv();
     let text = String::from_utf8(csv).expect("text");
     let last = text.lines().last().expect("a row");
-    let rows = usize::try_from(schedule.rows()).expect("few");
+    let rows = usize::try_from(case.protocol.schedule().rows()).expect("few");
     let long = format!("{text}{}", format!("{last}\n").repeat(1000));
-    let refusal = Series::read(long.as_bytes(), &schedule, time_step).unwrap_err();
+    let refusal = Series::read(long.as_bytes(), &case.protocol).unwrap_err();
     let SeriesError::Truncated { found, expected } = refusal else {
         panic!("{refusal}");
     };
@@ -92,11 +91,7 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
     for far in [1e12, -1e300, f64::MAX] {
         rows.last_mut().expect("a row").x2 = far;
         rows.last_mut().expect("a row").y1 = far.abs();
-        let series = Series::new(
-            rows.clone(),
-            &case.protocol.schedule(),
-            case.protocol.time_step,
-        );
+        let series = Series::new(rows.clone(), &case.protocol);
         let frames = Frames::of_series(&series.expect("finite"), case.protocol.wall_speed);
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }

@@ -23,10 +23,9 @@ pub fn check(data: &[u8]) {
 }
 
 fn check_series(text: &[u8], case: &Case) {
-    let (schedule, time_step) = (case.protocol.schedule(), case.protocol.time_step);
-    match Series::read(text, &schedule, time_step) {
+    match Series::read(text, &case.protocol) {
         Ok(series) => {
-            let again = Series::read(&series.to_csv()[..], &schedule, time_step);
+            let again = Series::read(&series.to_csv()[..], &case.protocol);
             assert_eq!(again.expect("its own CSV is a series"), series);
             is_sound(&series, case);
             // Pictures take a hundred times longer.

@@ -39,10 +39,8 @@ mod tests {
         let codes = Code::all().into_iter();
         for code in codes.filter(|code| !code.accepts_any_convention()) {
             for ending in ["csv", "tar.gz"] {
-                assert!(
-                    file(&format!("{code}.{ending}")).is_some(),
-                    "{code}.{ending}"
-                );
+                let name = format!("{code}.{ending}");
+                assert!(file(&name).is_some(), "{name}");
             }
         }
     }

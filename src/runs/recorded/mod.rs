@@ -27,7 +27,7 @@ const MAX_FILE: u64 = 1 << 24;
 
 /// The recorded runs of all codes, those in the program or in a directory. The files of a code are read when
 /// something of it is asked for, and once.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Recorded {
     /// Their directory; they are in the program if absent.
     directory: Option<PathBuf>,
@@ -77,15 +77,14 @@ impl From<FileError> for RecordedError {
 impl Recorded {
     /// The recorded runs inside this program.
     pub fn embedded() -> Self {
-        let (directory, codes) = (None, Arc::default());
-        Self { directory, codes }
+        Self::default()
     }
 
     /// The recorded runs in `directory`.
     pub fn new(directory: &Path) -> Self {
         Self {
             directory: Some(directory.to_owned()),
-            ..Self::embedded()
+            ..Self::default()
         }
     }
 

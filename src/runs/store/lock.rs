@@ -1,8 +1,9 @@
 //! The lock that guards the session files of a store. It is held for less than a millisecond, and the system frees
 //! it when its owner dies.
 
-use super::{LockOwner, StoreError};
+use super::StoreError;
 use crate::files::FileError;
+use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
 use std::io::{Seek, Write};
 use std::path::Path;
@@ -11,6 +12,43 @@ use std::time::{Duration, Instant};
 /// Longest wait for the lock: an owner that keeps it longer is suspended.
 const PATIENCE: Duration = Duration::from_secs(20);
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
+
+/// A running tristack.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LockOwner {
+    /// Its process id.
+    pub process: u32,
+    /// The machine it runs on.
+    pub host: String,
+    /// Its command line.
+    pub command: String,
+    /// When it began, UTC.
+    pub since: String,
+}
+
+impl LockOwner {
+    pub(crate) fn this_program() -> Self {
+        let host = std::fs::read_to_string("/proc/sys/kernel/hostname");
+        let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+        Self {
+            process: std::process::id(),
+            host: host.map_or_else(|_| "unknown".to_owned(), |host| host.trim().to_owned()),
+            command: words.collect::<Vec<_>>().join(" "),
+            since: jiff::Timestamp::now().to_string(),
+        }
+    }
+}
+
+impl std::fmt::Display for LockOwner {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            formatter,
+            "process {} on {} (`{}`, since {})",
+            self.process, self.host, self.command, self.since
+        )
+    }
+}
 
 /// The lock, held as long as this lives.
 pub(super) struct Lock {

@@ -5,10 +5,9 @@
 
 mod format;
 mod lock;
-mod owner;
 mod session;
 
-pub use owner::LockOwner;
+pub use lock::LockOwner;
 
 use crate::code::{Identity, Run};
 use crate::dem::{EventRun, Observation};

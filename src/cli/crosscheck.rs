@@ -65,10 +65,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             ("crosscheck.csv", tables[0].csv()),
             ("budget.csv", budget(&judgements).csv()),
             ("crosscheck.json", json(&tables, command)),
-            (
-                "crosscheck.md",
-                crosscheck_markdown(&judgements, command).into_bytes(),
-            ),
+            ("crosscheck.md", crosscheck_markdown(&judgements, command)),
         ]
     })?;
     let people = || crosscheck_text(&judgements);

@@ -51,7 +51,7 @@ pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus,
     };
     let twin = with_progress(|progress| measure_with_twin(&judgement.study, &settings, progress))
         .map(|result| result.map_err(|error| error.to_string()));
-    print(explanation(judgement, twin.as_ref()).as_bytes())?;
+    print(&explanation(judgement, twin.as_ref()))?;
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

@@ -44,10 +44,10 @@ impl Format {
         people: impl FnOnce() -> String,
     ) -> Result<ExitStatus, CliError> {
         print(&match self {
-            Self::Table if tables.iter().all(DataTable::is_empty) => Vec::new(),
-            Self::Table => people().into_bytes(),
+            Self::Table if tables.iter().all(DataTable::is_empty) => String::new(),
+            Self::Table => people(),
             Self::Json => json(tables, command),
-            Self::Csv => tables.first().map_or_else(Vec::new, DataTable::csv),
+            Self::Csv => tables.first().map_or_else(String::new, DataTable::csv),
         })
     }
 }
@@ -351,14 +351,14 @@ pub(super) fn writable(directory: Option<&Path>) -> Result<(), FileError> {
 /// when rows are missing.
 pub(super) fn write_all<'a, const N: usize>(
     directory: Option<&Path>,
-    files: impl FnOnce() -> [(&'a str, Vec<u8>); N],
+    files: impl FnOnce() -> [(&'a str, String); N],
 ) -> Result<(), FileError> {
     let Some(directory) = directory.filter(|_| !INTERRUPT.requested()) else {
         return Ok(());
     };
     files()
         .iter()
-        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content))
+        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content.as_bytes()))
 }
 
 /// Reads `--mu`: a number, or the word `critical`.

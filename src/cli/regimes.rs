@@ -64,11 +64,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             ("regimes.csv", regimes(&maps, GRID.0, GRID.1).csv()),
             ("boundaries.csv", tables[0].csv()),
             ("largest_forces.csv", tables[1].csv()),
-            (
-                "regimes.md",
-                regimes_markdown(&survey, command).into_bytes(),
-            ),
-            ("regimes.svg", regimes_svg(&maps, &survey).into_bytes()),
+            ("regimes.md", regimes_markdown(&survey, command)),
+            ("regimes.svg", regimes_svg(&maps, &survey)),
         ]
     })?;
     let people = || survey_text(&survey);

@@ -109,7 +109,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let tables = [simulations(&simulated)];
     if let Some(directory) = &arguments.out {
         write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
-        write_atomically(&directory.join(SUMMARY), &json(&tables, command))?;
+        write_atomically(&directory.join(SUMMARY), json(&tables, command).as_bytes())?;
     }
     draw(arguments, &run)?;
     let people = || tables[0].transposed(&["value"]).terminal();

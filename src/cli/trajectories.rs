@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             ("trajectories.json", json(&tables, command)),
             (
                 "trajectories.md",
-                trajectories_markdown(&judgements, command).into_bytes(),
+                trajectories_markdown(&judgements, command),
             ),
         ]
     })?;

@@ -47,31 +47,28 @@ pub(crate) fn inventory(codes: &[Inventory]) -> DataTable<'_> {
         "`tristack codes`",
     )
     .code(|own| own.code)
-    .text("installed", "whether it can run here", |own| {
-        own.identity.is_some()
-    })
-    .text("version", "its version", |own| own.version())
+    .text("installed", |own| own.identity.is_some())
+    .means("whether it can run here")
+    .text("version", |own| own.version())
+    .means("its version")
     .shown("version")
     .cell(|own| {
         let absent = || format!("not installed ({})", own.code.installation_hint());
         own.version().unwrap_or_else(absent)
     })
-    .text("package", "distribution package and its version", |own| {
-        own.package()
-    })
+    .text("package", |own| own.package())
+    .means("distribution package and its version")
     .shown("package")
     .arms(|own| own.code.convention().arms)
     .right("pair arm", |own| own.arms(own.code.convention().arms.pair))
     .right("floor arm", |own| {
         own.arms(own.code.convention().arms.floor)
     })
-    .text("deck_hash", "SHA-256 of the deck", |own| {
-        own.code.files_hash(TaskKind::Stack)
-    })
+    .text("deck_hash", |own| own.code.files_hash(TaskKind::Stack))
+    .means("SHA-256 of the deck")
     .shown("deck")
     .cell(|own| own.code.files_hash(TaskKind::Stack)[..12].to_owned())
-    .text("install", "how to install it", |own| {
-        own.code.installation_hint()
-    })
+    .text("install", |own| own.code.installation_hint())
+    .means("how to install it")
     .rows(codes)
 }

@@ -1,7 +1,7 @@
 //! The regime map, and its comparison with the DEM.
 
 use super::number::{digits, one_digit, optional, relative, significant};
-use super::table::{Columns, DataTable, Table, Value};
+use super::table::{Columns, DataTable, Table};
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
@@ -18,24 +18,27 @@ pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTa
         "A row is one stack of a regime map and what happens first on its way up in load.",
         "`tristack regimes` (regimes.csv)",
     )
-    .text("map", "what varies besides μ", |(axis, ..)| axis.as_str())
+    .text("map", |(axis, ..)| axis.as_str())
+    .means("what varies besides μ")
     .stack(|(_, stack, _)| *stack)
-    .text("event", "the first event", |(.., outcome)| Value::word(outcome.first.event))
-    .text("stage", "when it comes: `own-weight` or `wall`", |(.., outcome)| {
-        Value::word(outcome.first.stage)
-    })
-    .number("force", "m g", "wall force F then; 0 under own weight", |(.., outcome)| outcome.first.force)
-    .number("T", "1", "T = tan(ψ/2) then", |(.., outcome)| outcome.first.tangent)
-    .number("largest_force", "m g", "largest F that the stack carries", |(.., outcome)| {
+    .word("event", |(.., outcome)| outcome.first.event)
+    .means("the first event")
+    .word("stage", |(.., outcome)| outcome.first.stage)
+    .means("when it comes: `own-weight` or `wall`")
+    .number("force", "m g", |(.., outcome)| outcome.first.force)
+    .means("wall force F then; 0 under own weight")
+    .number("T", "1", |(.., outcome)| outcome.first.tangent)
+    .means("T = tan(ψ/2) then")
+    .number("largest_force", "m g", |(.., outcome)| {
         outcome.largest_force
     })
-    .text("failure_mode", "what the first event does", |(.., outcome)| {
-        Value::word(outcome.failure_mode)
-    })
-    .text(
-        "then",
-        "the first slip or wall contact; another event than the first where contact 2–3 closes before it",
-        |(.., outcome)| Value::word(outcome.last.event),
+    .means("largest F that the stack carries")
+    .word("failure_mode", |(.., outcome)| outcome.failure_mode)
+    .means("what the first event does")
+    .word("then", |(.., outcome)| outcome.last.event)
+    .means(
+        "the first slip or wall contact; another event than the first where contact 2–3 \
+             closes before it",
     )
     .rows(maps.iter().flat_map(|map| grid(map, columns, rows)))
 }
@@ -63,26 +66,32 @@ pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     };
     Columns::<&Confirmation>::new(
         "boundaries",
-        "A row is one point of a boundary of a regime map, and what the native DEM shows on both sides of it.",
+        "A row is one point of a boundary of a regime map, and what the native DEM shows on both \
+         sides of it.",
         "`tristack regimes` (boundaries.csv)",
     )
-    .text("map", "what varies besides μ", |own| own.point.map.as_str())
-    .text("across", "what changes across the boundary", |own| match own.point.across {
+    .text("map", |own| own.point.map.as_str())
+    .means("what varies besides μ")
+    .text("across", |own| match own.point.across {
         Across::Friction => "mu",
         Across::Axis(axis) => axis.as_str(),
     })
+    .means("what changes across the boundary")
     .stack(|own| own.point.stack)
-    .number("distance", "1", "relative distance of the neighbours below and above", |own| {
-        own.point.distance
-    })
-    .text("below", "regime of the neighbour below, by theory", move |own| claimed(own, 0))
-    .text("above", "the same of the one above", move |own| claimed(own, 1))
-    .text("below_observed", "what the DEM shows below; absent if nothing happened", move |own| {
-        observed(own, 0)
-    })
-    .text("above_observed", "the same above", move |own| observed(own, 1))
-    .text("below_verdict", "verdict on the neighbour below", |own| own.sides[0].verdict.as_str())
-    .text("above_verdict", "the same above", |own| own.sides[1].verdict.as_str())
+    .number("distance", "1", |own| own.point.distance)
+    .means("relative distance of the neighbours below and above")
+    .text("below", move |own| claimed(own, 0))
+    .means("regime of the neighbour below, by theory")
+    .text("above", move |own| claimed(own, 1))
+    .means("the same of the one above")
+    .text("below_observed", move |own| observed(own, 0))
+    .means("what the DEM shows below; absent if nothing happened")
+    .text("above_observed", move |own| observed(own, 1))
+    .means("the same above")
+    .text("below_verdict", |own| own.sides[0].verdict.as_str())
+    .means("verdict on the neighbour below")
+    .text("above_verdict", |own| own.sides[1].verdict.as_str())
+    .means("the same above")
     .verdict(|own| own.verdict())
     .rows(confirmations)
 }
@@ -109,40 +118,25 @@ pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     .shown("mu_d")
     .again("kappa")
     .shown("kappa")
-    .text("event", "the first event", |own| {
-        Value::word(own.claimed.first.event)
-    })
+    .word("event", |own| own.claimed.first.event)
+    .means("the first event")
     .shown("first event")
     .cell(|own| own.claimed.regime().to_string())
-    .text("failure_mode", "what it does", |own| {
-        Value::word(own.claimed.failure_mode)
-    })
-    .number(
-        "largest_force",
-        "m g",
-        "largest F by theory; absent if it falls, or grows without a peak",
-        |own| own.claimed.largest_force,
-    )
+    .word("failure_mode", |own| own.claimed.failure_mode)
+    .means("what it does")
+    .number("largest_force", "m g", |own| own.claimed.largest_force)
+    .means("largest F by theory; absent if it falls, or grows without a peak")
     .shown("theory")
     .cell(move |own| or_why(own, own.claimed.largest_force))
-    .number(
-        "observed_force",
-        "m g",
-        "peak of F in the DEM at vanishing wall speed",
-        move |own| observed(own),
-    )
+    .number("observed_force", "m g", move |own| observed(own))
+    .means("peak of F in the DEM at vanishing wall speed")
     .shown("DEM")
     .cell(move |own| or_why(own, observed(own)))
-    .number("uncertainty", "m g", "uncertainty of the peak", |own| {
-        own.uncertainty
-    })
+    .number("uncertainty", "m g", |own| own.uncertainty)
+    .means("uncertainty of the peak")
     .shown_as("±", one_digit)
-    .number(
-        "error",
-        "1",
-        "(observed_force − largest_force)/(largest_force + 3)",
-        |own| own.error,
-    )
+    .number("error", "1", |own| own.error)
+    .means("(observed_force − largest_force)/(largest_force + 3)")
     .shown_as("error", relative)
     .verdict(|own| own.verdict)
     .rows(examinations)

@@ -46,9 +46,9 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     let first_above = |row: &Row, level: usize| row.own?.first_above[level];
     Columns::<Row>::new(
         "trajectories",
-        "A row is the distance between the series of a code and of its native twin, in one quantity on one \
-         branch at one time step; forces in units of their peak, lengths in r, angles in radians. A code \
-         without comparisons has one row without distances.",
+        "A row is the distance between the series of a code and of its native twin, in one \
+         quantity on one branch at one time step; forces in units of their peak, lengths in r, \
+         angles in radians. A code without comparisons has one row without distances.",
         "`tristack trajectories` (trajectories.csv, trajectories.json)",
     )
     .code(|row| row.judgement.code)
@@ -56,35 +56,53 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .source(|row| row.judgement.source)
     .stack(|_| trajectory_stack())
     .arms(|row| row.judgement.code.convention().arms)
-    .text("twin", "what the twin has of the convention of the code", |row| {
-        row.comparison.map(|own| own.twin.as_str())
+    .text("twin", |row| row.comparison.map(|own| own.twin.as_str()))
+    .means("what the twin has of the convention of the code")
+    .text("quantity", |row| {
+        row.comparison.map(|own| own.quantity.as_str())
     })
-    .text("quantity", "what is compared", |row| row.comparison.map(|own| own.quantity.as_str()))
-    .text("branch", "`compression`, `collapse` or `fall`", |row| row.comparison.map(|own| own.branch.as_str()))
-    .number("time_step", "√(m/k_n)", "time step of both", |row| row.own.map(|own| own.time_step))
-    .number("largest", "1", "largest distance", |row| row.own.map(|own| own.largest))
-    .number("rms", "1", "root mean square of the distance", |row| row.own.map(|own| own.rms))
-    .number("first_above_1e-6", "√(m/k_n)", "first time at which it exceeds 1e-6, if it does", move |row| {
+    .means("what is compared")
+    .text("branch", |row| {
+        row.comparison.map(|own| own.branch.as_str())
+    })
+    .means("`compression`, `collapse` or `fall`")
+    .number("time_step", "√(m/k_n)", |row| {
+        row.own.map(|own| own.time_step)
+    })
+    .means("time step of both")
+    .number("largest", "1", |row| row.own.map(|own| own.largest))
+    .means("largest distance")
+    .number("rms", "1", |row| row.own.map(|own| own.rms))
+    .means("root mean square of the distance")
+    .number("first_above_1e-6", "√(m/k_n)", move |row| {
         first_above(row, 0)
     })
-    .number("first_above_1e-4", "√(m/k_n)", "the same for 1e-4", move |row| first_above(row, 1))
-    .number("first_above_1e-2", "√(m/k_n)", "the same for 1e-2", move |row| first_above(row, 2))
-    .number(
-        "order",
-        "1",
-        "log₂ of the largest distance at twice the time step over this one; absent where nothing but rounding \
-         is expected",
-        |row| row.comparison?.order(row.coarser?, row.own?),
+    .means("first time at which it exceeds 1e-6, if it does")
+    .number("first_above_1e-4", "√(m/k_n)", move |row| {
+        first_above(row, 1)
+    })
+    .means("the same for 1e-4")
+    .number("first_above_1e-2", "√(m/k_n)", move |row| {
+        first_above(row, 2)
+    })
+    .means("the same for 1e-2")
+    .number("order", "1", |row| {
+        row.comparison?.order(row.coarser?, row.own?)
+    })
+    .means(
+        "log₂ of the largest distance at twice the time step over this one; absent where \
+             nothing but rounding is expected",
     )
-    .text("documented_order", "how the distance must fall with the time step", |row| {
+    .text("documented_order", |row| {
         row.comparison.map(|own| own.documented.order.as_str())
     })
-    .number("round_off", "1", "what rounding may have done to the largest distance", |row| {
-        row.own.map(|own| own.round_off)
-    })
-    .number("step_error", "1", "largest change of the twin itself when its time step is halved", |row| {
+    .means("how the distance must fall with the time step")
+    .number("round_off", "1", |row| row.own.map(|own| own.round_off))
+    .means("what rounding may have done to the largest distance")
+    .number("step_error", "1", |row| {
         row.comparison.map(|own| own.step_error)
     })
+    .means("largest change of the twin itself when its time step is halved")
     .verdict(|row| {
         let verdict = row.comparison.map(Comparison::verdict);
         verdict.unwrap_or_else(|| row.judgement.verdict())

@@ -83,44 +83,49 @@ pub(crate) fn programs<'a>(provenances: &'a [Provenance], recorded: &'a [Code]) 
         "A row is a program on one machine and its runs.",
         "`tristack report` (tables/environment.csv)",
     )
-    .text("code", "name of the code", |own| own.identity.code.clone())
+    .text("code", |own| own.identity.code.clone())
+    .means("name of the code")
     .shown("code")
-    .text("version", "its version", |own| own.identity.version.clone())
+    .text("version", |own| own.identity.version.clone())
+    .means("its version")
     .shown("version")
-    .text("package", "distribution package and its version", |own| {
-        own.identity.package.clone()
-    })
+    .text("package", |own| own.identity.package.clone())
+    .means("distribution package and its version")
     .shown("package")
-    .text("program_hash", "SHA-256 of the program", |own| {
-        own.identity.program_hash.clone()
-    })
+    .text("program_hash", |own| own.identity.program_hash.clone())
+    .means("SHA-256 of the program")
     .shown("program")
     .cell(|own| short(own.identity.program_hash.as_deref().unwrap_or("-")))
-    .text(
-        "source",
-        "`live` if it ran on this machine, `recorded` otherwise",
-        move |own| match recorded
+    .text("source", move |own| {
+        match recorded
             .iter()
             .any(|code| code.as_str() == own.identity.code)
         {
             true => Source::Recorded.as_str(),
             false => Source::Live.as_str(),
-        },
-    )
+        }
+    })
+    .means("`live` if it ran on this machine, `recorded` otherwise")
     .shown("source")
-    .number("runs", "1", "number of runs", |own| own.runs)
+    .number("runs", "1", |own| own.runs)
+    .means("number of runs")
     .shown("runs")
-    .number("steps", "1", "their steps", |own| own.steps)
+    .number("steps", "1", |own| own.steps)
+    .means("their steps")
     .shown_as("steps", |steps| format!("{steps:.1e}"))
-    .number("seconds", "s", "their wall time", |own| own.seconds)
+    .number("seconds", "s", |own| own.seconds)
+    .means("their wall time")
     .shown_as("seconds", |seconds| format!("{seconds:.1}"))
-    .text("first_run", "date of the first, UTC", |own| own.first)
+    .text("first_run", |own| own.first)
+    .means("date of the first, UTC")
     .shown("first run, UTC")
     .cell(|own| minute(own.first))
-    .text("last_run", "date of the last, UTC", |own| own.last)
+    .text("last_run", |own| own.last)
+    .means("date of the last, UTC")
     .shown("last run, UTC")
     .cell(|own| minute(own.last))
-    .text("machine", "processor and system", |own| own.machine)
+    .text("machine", |own| own.machine)
+    .means("processor and system")
     .shown("machine")
     .rows(programs_of(provenances))
 }
@@ -141,16 +146,12 @@ pub(crate) fn decks() -> DataTable<'static> {
         "`tristack report` (tables/decks.csv)",
     )
     .code(|code| *code)
-    .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
-        code.files_hash(TaskKind::Stack)
-    })
+    .text("deck_hash", |code| code.files_hash(TaskKind::Stack))
+    .means("SHA-256 of the deck of a stack")
     .shown("SHA-256 of the deck of a stack")
     .cell(|code| short(&code.files_hash(TaskKind::Stack)))
-    .text(
-        "probe_hash",
-        "SHA-256 of the deck of the micro-tests",
-        |code| code.files_hash(TaskKind::Motion),
-    )
+    .text("probe_hash", |code| code.files_hash(TaskKind::Motion))
+    .means("SHA-256 of the deck of the micro-tests")
     .shown("of the micro-tests")
     .cell(|code| short(&code.files_hash(TaskKind::Motion)))
     .rows(Code::all())

@@ -20,16 +20,6 @@ impl Inventory {
         }
     }
 
-    fn version(&self) -> Option<String> {
-        let identity = self.identity.as_ref();
-        identity.map(|identity| identity.version.clone())
-    }
-
-    fn package(&self) -> Option<String> {
-        let identity = self.identity.as_ref();
-        identity.and_then(|identity| identity.package.clone())
-    }
-
     /// Arms for people, marked where they are only the default of a code that accepts any.
     fn arms(&self, arms: ContactArms) -> String {
         match self.code.accepts_any_convention() {
@@ -49,14 +39,17 @@ pub(crate) fn inventory(codes: &[Inventory]) -> DataTable<'_> {
     .code(|own| own.code)
     .text("installed", |own| own.identity.is_some())
     .means("whether it can run here")
-    .text("version", |own| own.version())
+    .text("version", |own| {
+        Some(own.identity.as_ref()?.version.clone())
+    })
     .means("its version")
     .shown("version")
     .cell(|own| {
         let absent = || format!("not installed ({})", own.code.installation_hint());
-        own.version().unwrap_or_else(absent)
+        let identity = own.identity.as_ref();
+        identity.map_or_else(absent, |identity| identity.version.clone())
     })
-    .text("package", |own| own.package())
+    .text("package", |own| own.identity.as_ref()?.package.clone())
     .means("distribution package and its version")
     .shown("package")
     .arms(|own| own.code.convention().arms)

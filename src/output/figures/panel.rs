@@ -54,10 +54,14 @@ impl Panel {
     }
 
     /// A line through `points`, interrupted at missing values.
-    pub fn line(&mut self, stroke: Stroke, points: impl IntoIterator<Item = (f64, Option<f64>)>) {
+    pub fn line<Y: Into<Option<f64>>>(
+        &mut self,
+        stroke: Stroke,
+        points: impl IntoIterator<Item = (f64, Y)>,
+    ) {
         let mut part = Vec::new();
         for (x, y) in points {
-            match y.filter(|&y| self.y.scale != Scale::Log || y > 0.0) {
+            match y.into().filter(|&y| self.y.scale != Scale::Log || y > 0.0) {
                 Some(y) => part.push((x, y)),
                 None => self.lines.push((stroke, std::mem::take(&mut part))),
             }
@@ -82,13 +86,13 @@ impl Panel {
     /// A horizontal line across the panel.
     pub fn level(&mut self, stroke: Stroke, y: f64) {
         let (from, to) = self.x.range;
-        self.line(stroke, [(from, Some(y)), (to, Some(y))]);
+        self.line(stroke, [(from, y), (to, y)]);
     }
 
     /// A vertical line across the panel.
     pub fn upright(&mut self, stroke: Stroke, x: f64) {
         let (from, to) = self.y.range;
-        self.line(stroke, [(x, Some(from)), (x, Some(to))]);
+        self.line(stroke, [(x, from), (x, to)]);
     }
 
     /// A mark at each of `points`; those above or below the axis are drawn at its end.

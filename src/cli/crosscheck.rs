@@ -2,7 +2,9 @@
 
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
+use super::options::{
+    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
 use super::progress::with_progress;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
@@ -51,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     if let Some(row) = &arguments.explain {
         return explain(row, &arguments.run);
     }
-    let codes = arguments.codes.selected()?;
+    let codes = selected_codes(&arguments.codes.named)?;
     writable(arguments.out.as_deref())?;
     let measurements = measurements(arguments, &codes);
     let settings = arguments.run.settings()?;

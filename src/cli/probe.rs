@@ -1,6 +1,6 @@
 //! `tristack probe`.
 
-use super::options::{CodeOptions, Format, RunOptions};
+use super::options::{CodeOptions, Format, RunOptions, selected_codes};
 use super::progress::with_progress;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::output::{probe, probe_by_code};
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
 
 /// Probes the codes and prints the findings.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = arguments.codes.selected()?;
+    let codes = selected_codes(&arguments.codes.named)?;
     let settings = arguments.run.settings()?;
     let probed = with_progress(|progress| probe_all(&codes, &settings, progress));
     let findings: Vec<Finding> = probed

@@ -12,11 +12,11 @@ use crate::runs::{
     Workload, read_all, run_all,
 };
 use crate::study::Study;
-use crate::study::convention::{ProbeError, record_probe};
+use crate::study::convention::record_probe;
 use crate::study::yield_force::Profile;
 use clap::{Args, ValueEnum};
+use std::error::Error;
 use std::path::Path;
-use thiserror::Error;
 
 /// The recorded runs of one command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -50,24 +50,13 @@ pub(super) struct Arguments {
     run: RunOptions,
 }
 
-/// The reason why a code is not recorded.
-#[derive(Debug, Error)]
-enum RecordingError {
-    #[error(transparent)]
-    Run(#[from] RunError),
-    #[error(transparent)]
-    Probe(#[from] ProbeError),
-}
-
 /// Records code by code; a code with a failed run keeps its old recordings.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let external: Vec<Code> = match arguments.codes.as_slice() {
-        [] => Code::all()
-            .into_iter()
-            .filter(|name| !name.accepts_any_convention())
-            .collect(),
-        named => named.to_vec(),
-    };
+    let mut external = arguments.codes.clone();
+    if external.is_empty() {
+        external = Code::all();
+        external.retain(|code| !code.accepts_any_convention());
+    }
     let codes = selected_codes(&external)?;
     let directory = recording_directory()?;
     let settings = arguments.run.settings()?;
@@ -113,20 +102,20 @@ fn make(
     only: Option<Set>,
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<(), RecordingError> {
+) -> Result<(), Box<dyn Error>> {
     let wanted = |set: Set| only.is_none_or(|only| only == set);
     if wanted(Set::Probe) {
         recording.probe = Some(record_probe(selected, settings, progress)?);
     }
+    let mut summaries = Vec::new();
     if wanted(Set::Crosscheck) {
-        for summary in quick_profile(selected, settings, progress)? {
-            recording.put(RecordedRun::without_series(summary));
-        }
+        summaries = quick_profile(selected, settings, progress)?;
     }
     if wanted(Set::Report) {
-        for summary in summaries_to_record(selected, settings, progress)? {
-            recording.put(RecordedRun::without_series(summary));
-        }
+        summaries.extend(summaries_to_record(selected, settings, progress)?);
+    }
+    for summary in summaries {
+        recording.put(RecordedRun::without_series(summary));
     }
     if wanted(Set::Trajectories) {
         for run in trajectory_runs(selected, settings, progress)? {

@@ -1,7 +1,9 @@
 //! `tristack trajectories`.
 
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
+use super::options::{
+    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
 use super::progress::with_progress;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
@@ -39,7 +41,7 @@ pub(super) struct Arguments {
 /// Runs and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes.named)?;
-    let mut codes = arguments.codes.selected()?;
+    let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
     writable(arguments.out.as_deref())?;
     let plans = plans(codes.iter().map(|selected| selected.name));

@@ -7,8 +7,7 @@ use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
 use crate::theory::{
-    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingOutcome, LoadingPhase, Regime,
-    RegimeMap,
+    Across, Axis, EquilibriumPath, FailureMode, LoadingOutcome, LoadingPhase, Regime, RegimeMap,
 };
 
 /// The maps as grids of `columns` values on the axis by `rows` floor frictions.
@@ -207,73 +206,54 @@ fn tables(survey: &Survey) -> [Table; 3] {
     ]
 }
 
-/// Runs of successive confirmations with the same key; those without a key are left out.
-fn groups<Key: PartialEq>(
-    survey: &Survey,
-    key: impl Fn(&Confirmation) -> Option<Key>,
-) -> Vec<(Key, Vec<&Confirmation>)> {
-    let mut groups: Vec<(Key, Vec<&Confirmation>)> = Vec::new();
-    for confirmation in &survey.confirmations {
-        let Some(key) = key(confirmation) else {
-            continue;
-        };
-        match groups.last_mut() {
-            Some((last, members)) if *last == key => members.push(confirmation),
-            _ => groups.push((key, vec![confirmation])),
-        }
-    }
-    groups
+/// Successive boundary points that share a line of a table.
+type Group<'a> = &'a [&'a Confirmation];
+
+/// The points whose boundary is crossed in this way.
+fn crossed(survey: &Survey, wanted: impl Fn(Across) -> bool) -> Vec<&Confirmation> {
+    let all = survey.confirmations.iter();
+    all.filter(|own| wanted(own.point.across)).collect()
+}
+
+/// Name and value of what varies besides the floor friction.
+fn place(own: &Confirmation) -> (&'static str, f64) {
+    let map = own.point.map;
+    (map.as_str(), map.get(&own.point.stack))
 }
 
 fn friction_table(survey: &Survey) -> Table {
-    type Group<'a> = ((Axis, f64), Vec<&'a Confirmation>);
-    let key = |confirmation: &Confirmation| {
-        let point = &confirmation.point;
-        (point.across == Across::Friction).then(|| (point.map, point.map.get(&point.stack)))
-    };
-    let friction = |members: &[&Confirmation], own_weight: bool| {
-        let mut points = members.iter().map(|member| &member.point);
+    let friction = |group: &Group, own_weight: bool| {
+        let mut points = group.iter().map(|member| &member.point);
         let point = points
             .find(|point| (point.sides[0].last.stage == LoadingPhase::OwnWeight) == own_weight);
         optional(point, |point| significant(point.stack.floor_friction, 6))
     };
-    let beyond = |members: &[&Confirmation]| {
-        let last = members.last();
-        last.map_or_else(String::new, |member| {
-            member.point.sides[1].last.event.to_string()
-        })
-    };
+    let points = crossed(survey, |across| across == Across::Friction);
     Columns::<Group>::for_people()
-        .left("map", |((axis, _), _)| format!("mu, {}", axis.as_str()))
-        .right("at", |((_, value), _)| significant(*value, 4))
-        .right("own weight up to mu", move |(_, members)| {
-            friction(members, true)
+        .left("map", |group| format!("mu, {}", place(group[0]).0))
+        .right("at", |group| significant(place(group[0]).1, 4))
+        .right("own weight up to mu", move |group| friction(group, true))
+        .right("floor slip up to mu", move |group| friction(group, false))
+        .left("beyond it", |group| {
+            let last = group[group.len() - 1];
+            last.point.sides[1].last.event.to_string()
         })
-        .right("floor slip up to mu", move |(_, members)| {
-            friction(members, false)
-        })
-        .left("beyond it", move |(_, members)| beyond(members))
-        .right("DEM", |(_, members)| tally(members))
-        .rows(groups(survey, key))
+        .right("DEM", tally)
+        .rows(points.chunk_by(|one, other| place(one) == place(other)))
         .shown()
 }
 
 fn line_table(survey: &Survey) -> Table {
-    type Group<'a> = (
-        (Axis, String, [(Event, LoadingPhase); 2]),
-        Vec<&'a Confirmation>,
-    );
-    let key = |confirmation: &Confirmation| {
-        let point = &confirmation.point;
-        let Across::Axis(axis) = point.across else {
-            return None;
-        };
-        let first = point.sides.map(|side| (side.first.event, side.first.stage));
-        let value = significant(axis.get(&point.stack), 6);
-        Some((axis, format!("{} = {value}", axis.as_str()), first))
+    let line = |own: &Confirmation| {
+        let (name, value) = place(own);
+        format!("{name} = {}", significant(value, 6))
     };
-    let first = |members: &[&Confirmation], side: usize| {
-        let side = members[0].point.sides[side];
+    let events = |own: &Confirmation| {
+        let firsts = own.point.sides.map(|side| side.first);
+        firsts.map(|first| (first.event, first.stage))
+    };
+    let first = |group: &Group, side: usize| {
+        let side = group[0].point.sides[side];
         let regime = Regime {
             last: side.first.event,
             last_stage: side.first.stage,
@@ -281,22 +261,24 @@ fn line_table(survey: &Survey) -> Table {
         };
         regime.to_string()
     };
+    let points = crossed(survey, |across| across != Across::Friction);
+    let key = |own: &Confirmation| (line(own), events(own));
     Columns::<Group>::for_people()
-        .left("map", |((axis, ..), _)| format!("mu, {}", axis.as_str()))
-        .left("boundary", |((_, line, _), _)| line.clone())
-        .left("below", move |(_, members)| first(members, 0))
-        .left("above", move |(_, members)| first(members, 1))
-        .right("from mu", |(_, members)| {
-            significant(members[0].point.stack.floor_friction, 3)
+        .left("map", |group| format!("mu, {}", place(group[0]).0))
+        .left("boundary", move |group| line(group[0]))
+        .left("below", move |group| first(group, 0))
+        .left("above", move |group| first(group, 1))
+        .right("from mu", |group| {
+            significant(group[0].point.stack.floor_friction, 3)
         })
-        .right("DEM", |(_, members)| tally(members))
-        .rows(groups(survey, key))
+        .right("DEM", tally)
+        .rows(points.chunk_by(|one, other| key(one) == key(other)))
         .shown()
 }
 
 /// The number of neighbours for which the DEM agrees with theory.
-fn tally(members: &[&Confirmation]) -> String {
-    let sides = members.iter().flat_map(|member| &member.sides);
+fn tally(group: &Group) -> String {
+    let sides = group.iter().flat_map(|member| &member.sides);
     let agree = sides.filter(|side| side.verdict == Verdict::Agrees).count();
-    format!("{agree} of {}", 2 * members.len())
+    format!("{agree} of {}", 2 * group.len())
 }

@@ -21,7 +21,6 @@ pub(crate) use finding::Finding;
 pub use finding::TOLERANCE;
 pub use measured::probe_all;
 pub(crate) use measured::{
-    ProbeError, Probed, arms_are_measured, contradictions, is_contradicted, other_program,
-    record_probe,
+    Probed, arms_are_measured, contradictions, is_contradicted, other_program, record_probe,
 };
 pub use probe::probe;

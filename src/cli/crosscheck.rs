@@ -5,7 +5,7 @@ use super::interrupt::interrupted_after;
 use super::options::{
     CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
 };
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
@@ -58,9 +58,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let measurements = measurements(arguments, &codes);
     let settings = arguments.run.settings()?;
     let planned = measurements.len();
-    let judgements = with_progress(|progress| {
-        Campaign::new(&codes, &settings, progress).carry_out(measurements)
-    });
+    let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let tables = [crosscheck(&judgements)];
     write_all(arguments.out.as_deref(), || {
         [

@@ -1,7 +1,7 @@
 //! `tristack probe`.
 
 use super::options::{CodeOptions, Format, RunOptions, selected_codes};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::output::{probe, probe_by_code};
 use crate::runs::SelectedCode;
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = selected_codes(&arguments.codes.named)?;
     let settings = arguments.run.settings()?;
-    let probed = with_progress(|progress| probe_all(&codes, &settings, progress));
+    let probed = probe_all(&codes, &settings, &Reporter::new());
     let findings: Vec<Finding> = probed
         .iter()
         .flatten()

@@ -1,7 +1,7 @@
 //! `tristack record`.
 
 use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Run};
@@ -82,7 +82,7 @@ fn record(
         Some(_) => Recorded::new(directory).recording(name)?,
         None => Recording::default(),
     };
-    let made = with_progress(|progress| make(&mut recording, selected, only, settings, progress));
+    let made = make(&mut recording, selected, only, settings, &Reporter::new());
     if let Err(error) = made {
         tell!("{name} is not recorded: {error}");
         return Ok(ExitStatus::CodeFailed);

@@ -1,7 +1,7 @@
 //! `tristack regimes`.
 
 use super::options::{Format, RunOptions, as_flag, writable, write_all};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
     let settings = arguments.run.settings()?;
     let plan = SurveyPlan::new(&points, &examined_stacks());
-    let survey = with_progress(|progress| survey(&plan, &settings, progress));
+    let survey = survey(&plan, &settings, &Reporter::new());
     if INTERRUPT.requested() {
         tell!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);

@@ -1,7 +1,7 @@
 //! `tristack report`.
 
 use super::options::{CodeParser, RunOptions, selected_codes, writable};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::write_atomically;
@@ -49,7 +49,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         settings: &settings,
         literal: arguments.literal,
     };
-    let reproduced = match with_progress(|progress| reproduce(&scope, progress)) {
+    let outcome = reproduce(&scope, &Reporter::new());
+    let reproduced = match outcome {
         Ok(Some(reproduced)) => reproduced,
         Err(error) if !INTERRUPT.requested() => return Err(error.into()),
         _ => {

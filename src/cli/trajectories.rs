@@ -4,7 +4,7 @@ use super::interrupt::interrupted_after;
 use super::options::{
     CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
 };
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::model::InvalidValue;
@@ -48,8 +48,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();
-    let judgements =
-        with_progress(|progress| Campaign::new(&codes, &settings, progress).carry_out(plans));
+    let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
     let tables = [trajectories(&judgements)];
     write_all(arguments.out.as_deref(), || {
         [

@@ -1,7 +1,7 @@
 //! A panel: axes and everything drawn between them.
 
 use super::axis::{Axis, Scale};
-use super::drawing::{Drawing, Paint, Place};
+use super::drawing::{Drawing, Paint, Place, Setting};
 use super::style::{
     FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark, PADDING,
     SPACING, Shape, TEXT_SIZE, TICK,
@@ -197,9 +197,10 @@ impl View<'_> {
         let below = [0.5 * (left + right), bottom + MARGINS.3 - 6.5];
         drawing.text(&self.panel.x.label, below, LABEL_SIZE, Anchor::Middle);
         let beside = [left - MARGINS.0 + 15.8, 0.5 * (top + bottom)];
-        drawing.upward_text(&self.panel.y.label, beside, LABEL_SIZE);
+        let label = &self.panel.y.label;
+        drawing.set(label, beside, LABEL_SIZE, Anchor::Middle, Setting::Upwards);
         let corner = [left - MARGINS.0 + 8.0, top - 7.0];
-        drawing.bold_text(letter, corner, LETTER_SIZE);
+        drawing.set(letter, corner, LETTER_SIZE, Anchor::Start, Setting::Bold);
     }
 
     fn key(&self, drawing: &mut Drawing) {

@@ -8,7 +8,7 @@ use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, ke
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
 use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
-use crate::output::{Simulation, is_vtk_row, json, run_svg, simulations, vtk_series};
+use crate::output::{is_vtk_row, json, run_svg, simulations, vtk_series};
 use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
@@ -105,8 +105,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         }
         None => execute_in_scratch(code.as_ref(), &case, limit)?,
     };
-    let simulated = [Simulation::new(&run)];
-    let tables = [simulations(&simulated)];
+    let tables = [simulations(std::slice::from_ref(&run))];
     if let Some(directory) = &arguments.out {
         write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
         write_atomically(&directory.join(SUMMARY), json(&tables, command).as_bytes())?;

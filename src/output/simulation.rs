@@ -6,58 +6,48 @@ use crate::code::Run;
 use crate::model::{ContactConvention, Preparation, Protocol};
 use crate::series::YieldEstimates;
 
-/// One run and its yield force by both estimators.
-pub(crate) struct Simulation<'a> {
-    run: &'a Run,
-    estimates: YieldEstimates,
-}
-
-impl<'a> Simulation<'a> {
-    pub fn new(run: &'a Run) -> Self {
-        Self {
-            run,
-            estimates: YieldEstimates::read(&run.series, &run.case.stack),
-        }
-    }
-}
-
-type SimulationColumns<'a> = Columns<'a, &'a Simulation<'a>>;
+/// A run, and its yield force by both estimators.
+type Row<'a> = (&'a Run, YieldEstimates);
 
 /// One row per run.
-pub(crate) fn simulations<'a>(runs: &'a [Simulation<'a>]) -> DataTable<'a> {
+pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
+    let rows = runs.iter().map(|run| {
+        let estimates = YieldEstimates::read(&run.series, &run.case.stack);
+        (run, estimates)
+    });
     protocol(convention(subject()))
-        .number("peak_force", "m g", |own| Some(own.estimates.peak?.force))
+        .number("peak_force", "m g", |(_, found)| Some(found.peak?.force))
         .means("largest wall force; absent if the force still rises at the end")
         .shown_as("peak", digits::<9>)
-        .number("slip_force", "m g", |own| Some(own.estimates.slip?.force))
+        .number("slip_force", "m g", |(_, found)| Some(found.slip?.force))
         .means("wall force when the floor first slips; absent if it does not")
         .shown_as("slip onset", digits::<9>)
-        .number("steps", "1", |own| own.run.provenance.steps)
+        .number("steps", "1", |(run, _)| run.provenance.steps)
         .means("steps in all")
         .shown("steps")
-        .number("seconds", "s", |own| own.run.provenance.seconds)
+        .number("seconds", "s", |(run, _)| run.provenance.seconds)
         .means("wall time")
         .shown_as("wall time", |seconds| format!("{seconds:.2}"))
-        .rows(runs)
+        .rows(rows)
 }
 
 /// The code, the stack and the arms.
-fn subject<'a>() -> SimulationColumns<'a> {
+fn subject<'a>() -> Columns<'a, Row<'a>> {
     let table = "A row is one compression run and what was read off it. The case file beside it (case.json) holds \
                  what is left out here.";
-    SimulationColumns::new("simulation", table, "`tristack simulate` (summary.json)")
-        .text("code", |own| own.run.provenance.identity.code.clone())
+    Columns::<Row>::new("simulation", table, "`tristack simulate` (summary.json)")
+        .text("code", |(run, _)| run.provenance.identity.code.clone())
         .means("the code that ran")
         .shown("code")
-        .version(|own| &own.run.provenance.identity.version)
+        .version(|(run, _)| &run.provenance.identity.version)
         .shown("version")
-        .stack(|own| own.run.case.stack)
-        .arms(|own| own.run.case.convention.arms)
+        .stack(|(run, _)| run.case.stack)
+        .arms(|(run, _)| run.case.convention.arms)
 }
 
 /// The contact convention beyond the arms.
-fn convention(columns: SimulationColumns) -> SimulationColumns {
-    let own = |row: &&Simulation| -> ContactConvention { row.run.case.convention };
+fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
+    let own = |(run, _): &Row| -> ContactConvention { run.case.convention };
     columns
         .number("restitution", "1", move |row| own(row).restitution)
         .means("restitution coefficient")
@@ -76,10 +66,10 @@ fn convention(columns: SimulationColumns) -> SimulationColumns {
 }
 
 /// Preparation, compression and sampling.
-fn protocol(columns: SimulationColumns) -> SimulationColumns {
+fn protocol<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let time = "√(m/k_n)";
-    let own = |row: &&Simulation| -> Protocol { row.run.case.protocol };
-    let sampling = move |row: &&Simulation| own(row).sampling;
+    let own = |(run, _): &Row| -> Protocol { run.case.protocol };
+    let sampling = move |row: &Row| own(row).sampling;
     columns
         .text("preparation", move |row| own(row).preparation.as_str())
         .means("how the stack is brought to rest: `gravity-ramp` or `side-walls`")

@@ -19,15 +19,10 @@ pub(super) struct Panel {
     areas: Vec<(&'static str, Vec<Point>)>,
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
-    words: Vec<Words>,
+    /// With their places in parts of the panel, from its upper left corner.
+    words: Vec<(String, Point, Anchor)>,
     key: Vec<(Sample, String)>,
     key_place: Point,
-}
-
-struct Words {
-    text: String,
-    place: Point,
-    anchor: Anchor,
 }
 
 /// The sample beside the words of a key.
@@ -105,13 +100,8 @@ impl Panel {
 
     /// Words at `place`, in units of the axes.
     pub fn words(&mut self, text: impl Into<String>, place: Point, anchor: Anchor) {
-        let text = text.into();
         let place = (self.x.part(place.0), 1.0 - self.y.part(place.1));
-        self.words.push(Words {
-            text,
-            place,
-            anchor,
-        });
+        self.words.push((text.into(), place, anchor));
     }
 
     /// Sets the upper left corner of the key, in parts of the panel from the panel's upper left corner.
@@ -171,8 +161,8 @@ impl View<'_> {
         for &(mark, point) in &panel.marks {
             draw_mark(drawing, mark, self.place(point));
         }
-        for words in &panel.words {
-            drawing.text(&words.text, self.at(words.place), TEXT_SIZE, words.anchor);
+        for (words, place, anchor) in &panel.words {
+            drawing.text(words, self.at(*place), TEXT_SIZE, *anchor);
         }
         self.key(drawing);
     }

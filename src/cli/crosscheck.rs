@@ -116,6 +116,8 @@ fn summary(judgements: &[Judgement]) -> String {
         let alike = judgements.iter().filter(|row| row.verdict() == verdict);
         alike.count()
     };
+    let (agreeing, all) = (count(Verdict::Agrees), judgements.len());
+    let mut text = format!("{agreeing} of {all} rows agree");
     let others = [
         Verdict::Differs,
         Verdict::Inconclusive,
@@ -123,11 +125,6 @@ fn summary(judgements: &[Judgement]) -> String {
         Verdict::Failed,
         Verdict::Missing,
     ];
-    let mut text = format!(
-        "{} of {} rows agree",
-        count(Verdict::Agrees),
-        judgements.len()
-    );
     for verdict in others.into_iter().filter(|&verdict| count(verdict) > 0) {
         text += &format!(", {} {verdict}", count(verdict));
     }

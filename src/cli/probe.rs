@@ -55,10 +55,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name} is not installed: its recorded answers stand in for it");
         }
     }
-    let count = |verdict: Verdict| {
-        let alike = findings.iter().filter(|finding| finding.verdict == verdict);
-        alike.count()
-    };
+    let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(
         "{agreeing} of {} properties are as declared, {differing} differ, {} are inconclusive",

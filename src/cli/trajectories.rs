@@ -99,28 +99,19 @@ fn conclude(
         let mut own = judgements.iter().filter(|one| one.code == code);
         own.any(|one| one.is_recorded())
     });
-    let verdicts: Vec<Verdict> = judgements
-        .iter()
-        .flat_map(TrajectoryJudgement::verdicts)
-        .collect();
-    let agreeing = verdicts
-        .iter()
-        .filter(|&&verdict| verdict == Verdict::Agrees);
-    tell!(
-        "{} of {} comparisons agree",
-        agreeing.count(),
-        verdicts.len()
-    );
+    let verdicts = judgements.iter().flat_map(TrajectoryJudgement::verdicts);
+    let verdicts: Vec<Verdict> = verdicts.collect();
+    let agreeing = verdicts.iter().filter(|&&own| own == Verdict::Agrees);
+    let (agreeing, all) = (agreeing.count(), verdicts.len());
+    tell!("{agreeing} of {all} comparisons agree");
     if INTERRUPT.requested() {
         return interrupted_after(judgements.len(), planned, "codes");
     }
     let contradicted = judgements.iter().any(|own| own.grounds.is_contradicted());
     let contradicted = contradicted.then_some(ExitStatus::Disagreement);
-    let worst = verdicts.into_iter().map(ExitStatus::of_verdict);
-    worst
-        .chain(contradicted)
-        .max()
-        .unwrap_or(ExitStatus::Success)
+    let statuses = verdicts.into_iter().map(ExitStatus::of_verdict);
+    let worst = statuses.chain(contradicted).max();
+    worst.unwrap_or(ExitStatus::Success)
 }
 
 /// Prints the notes on a code and on its comparisons.

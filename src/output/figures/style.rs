@@ -4,7 +4,7 @@ use super::drawing::Stroke;
 pub(super) use crate::code::Shape;
 use crate::code::{Code, Colour};
 
-/// Fonts of an SVG, in order of preference. A PDF embeds DejaVu Sans.
+/// Fonts of an SVG, in order of preference. A PDF draws DejaVu Sans.
 pub(super) const FONT_FAMILY: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Size of letters in a panel, at ticks and in captions, in pixels.
 pub(super) const TEXT_SIZE: f64 = 11.0;

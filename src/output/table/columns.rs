@@ -251,6 +251,11 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The table with these `rows`.
     pub(crate) fn rows(self, rows: impl IntoIterator<Item = R>) -> DataTable<'a> {
+        let explained = |column: &Column<R>| column.name.is_empty() || !column.meaning.is_empty();
+        debug_assert!(
+            self.list.iter().all(explained),
+            "every column has a meaning"
+        );
         let rows: Rc<[R]> = rows.into_iter().collect();
         let columns = self.list.into_iter();
         DataTable {

@@ -111,8 +111,8 @@ pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     };
     Columns::<f64>::new(
         "theories",
-        "A row is the largest errors of the paper's theories at one stiffness, relative to F + \
-         3, over the frictions of Fig. 2(a).",
+        "A row is the largest errors of the paper's theories at one stiffness, relative to \
+         F + 3, over the frictions of Fig. 2(a).",
         "`tristack report` (tables/theories.csv)",
     )
     .number("stiffness", "m g/r", |stiffness| *stiffness)

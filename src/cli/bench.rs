@@ -108,12 +108,9 @@ fn time_scaling(
         [
             ("bench.csv", rows.csv()),
             ("bench.json", json(&[rows], command)),
-            ("bench.md", bench_markdown(costs, &measured).into_bytes()),
+            ("bench.md", bench_markdown(costs, &measured)),
             ("scaling.csv", scaling(all).csv()),
-            (
-                "performance.svg",
-                performance_svg(costs, &measured).into_bytes(),
-            ),
+            ("performance.svg", performance_svg(costs, &measured)),
         ]
     })?;
     let (cases, cores) = (scaling(&measured.cases), scaling(&measured.cores));

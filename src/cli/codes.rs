@@ -3,7 +3,7 @@
 use super::options::Format;
 use super::{CliError, ExitStatus};
 use crate::code::Code;
-use crate::output::{Inventory, inventory};
+use crate::output::inventory;
 use clap::Args;
 
 /// List the codes: installed or not, version, contact convention
@@ -17,8 +17,7 @@ pub(super) struct Arguments {
 
 /// Prints every known code.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let found: Vec<Inventory> = Code::all().into_iter().map(Inventory::take).collect();
-    let tables = [inventory(&found)];
+    let tables = [inventory(&Code::all())];
     let people = || tables[0].shown().terminal();
     arguments.format.print(&tables, command, people)
 }

@@ -2,8 +2,10 @@
 
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
-use super::progress::with_progress;
+use super::options::{
+    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
@@ -51,24 +53,19 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     if let Some(row) = &arguments.explain {
         return explain(row, &arguments.run);
     }
-    let codes = arguments.codes.selected()?;
+    let codes = selected_codes(&arguments.codes.named)?;
     writable(arguments.out.as_deref())?;
     let measurements = measurements(arguments, &codes);
     let settings = arguments.run.settings()?;
     let planned = measurements.len();
-    let judgements = with_progress(|progress| {
-        Campaign::new(&codes, &settings, progress).carry_out(measurements)
-    });
+    let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let tables = [crosscheck(&judgements)];
     write_all(arguments.out.as_deref(), || {
         [
             ("crosscheck.csv", tables[0].csv()),
             ("budget.csv", budget(&judgements).csv()),
             ("crosscheck.json", json(&tables, command)),
-            (
-                "crosscheck.md",
-                crosscheck_markdown(&judgements, command).into_bytes(),
-            ),
+            ("crosscheck.md", crosscheck_markdown(&judgements, command)),
         ]
     })?;
     let people = || crosscheck_text(&judgements);
@@ -119,6 +116,8 @@ fn summary(judgements: &[Judgement]) -> String {
         let alike = judgements.iter().filter(|row| row.verdict() == verdict);
         alike.count()
     };
+    let (agreeing, all) = (count(Verdict::Agrees), judgements.len());
+    let mut text = format!("{agreeing} of {all} rows agree");
     let others = [
         Verdict::Differs,
         Verdict::Inconclusive,
@@ -126,11 +125,6 @@ fn summary(judgements: &[Judgement]) -> String {
         Verdict::Failed,
         Verdict::Missing,
     ];
-    let mut text = format!(
-        "{} of {} rows agree",
-        count(Verdict::Agrees),
-        judgements.len()
-    );
     for verdict in others.into_iter().filter(|&verdict| count(verdict) > 0) {
         text += &format!(", {} {verdict}", count(verdict));
     }

@@ -1,7 +1,7 @@
 //! `tristack crosscheck --explain ROW`.
 
 use super::options::{RunOptions, as_flag, friction};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
 use crate::model::Stack;
@@ -41,17 +41,15 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
 /// Measures one row and prints every step from its runs to its verdict.
 pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
     let codes = [SelectedCode::find(row.code)];
-    let measurement = plan(row.code, &row.stack, row.code.convention());
+    let measurements = vec![plan(row.code, &row.stack, row.code.convention())];
     let settings = options.settings()?;
-    let judgements = with_progress(|progress| {
-        Campaign::new(&codes, &settings, progress).carry_out(vec![measurement])
-    });
+    let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let Some(judgement) = judgements.first() else {
         return Ok(ExitStatus::Interrupted);
     };
-    let twin = with_progress(|progress| measure_with_twin(&judgement.study, &settings, progress))
-        .map(|result| result.map_err(|error| error.to_string()));
-    print(explanation(judgement, twin.as_ref()).as_bytes())?;
+    let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
+    let twin = twin.map(|result| result.map_err(|error| error.to_string()));
+    print(&explanation(judgement, twin.as_ref()))?;
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

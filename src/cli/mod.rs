@@ -84,7 +84,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return options::report_usage(&error),
+        Err(error) => {
+            let helped = error.print().is_ok() && !error.use_stderr();
+            return Ok(match helped {
+                true => ExitStatus::Success,
+                false => ExitStatus::WrongInput,
+            });
+        }
     };
     if !matches!(cli.command, Command::Guard(_)) {
         interrupt::listen();

@@ -44,10 +44,10 @@ impl Format {
         people: impl FnOnce() -> String,
     ) -> Result<ExitStatus, CliError> {
         print(&match self {
-            Self::Table if tables.iter().all(DataTable::is_empty) => Vec::new(),
-            Self::Table => people().into_bytes(),
+            Self::Table if tables.iter().all(DataTable::is_empty) => String::new(),
+            Self::Table => people(),
             Self::Json => json(tables, command),
-            Self::Csv => tables.first().map_or_else(Vec::new, DataTable::csv),
+            Self::Csv => tables.first().map_or_else(String::new, DataTable::csv),
         })
     }
 }
@@ -58,13 +58,6 @@ pub(super) struct CodeOptions {
     /// Codes to run, separated by commas; each must be installed [default: all, recorded if necessary]
     #[arg(id = "codes", long = "codes", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     pub named: Vec<Code>,
-}
-
-impl CodeOptions {
-    /// The codes named, each of which must be installed; all codes if none is named.
-    pub fn selected(&self) -> Result<Vec<SelectedCode>, CliError> {
-        selected_codes(&self.named)
-    }
 }
 
 /// The parameters of a stack other than floor friction and stiffness.
@@ -191,14 +184,12 @@ pub(super) struct RunOptions {
 impl RunOptions {
     /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
+        let jobs = self.jobs.or(std::thread::available_parallelism().ok());
         Ok(Settings {
             store: Store::open(&self.store_directory()?)?,
             recorded: recorded(),
             fresh: self.fresh,
-            threads: self
-                .jobs
-                .or(std::thread::available_parallelism().ok())
-                .map_or(1, usize::from),
+            threads: jobs.map_or(1, usize::from),
             time_limit: time_limit(self.time_limit)?,
             interrupt: &INTERRUPT,
         })
@@ -207,12 +198,8 @@ impl RunOptions {
     fn store_directory(&self) -> Result<PathBuf, InvalidValue> {
         let from_environment = || directory_from("TRISTACK_STORE");
         let from_cache = || dirs::cache_dir().map(|cache| cache.join("tristack"));
-        let chosen = self
-            .store
-            .clone()
-            .or_else(from_environment)
-            .or_else(from_cache);
-        chosen.ok_or_else(|| InvalidValue {
+        let chosen = self.store.clone().or_else(from_environment);
+        chosen.or_else(from_cache).ok_or_else(|| InvalidValue {
             key: "--store".to_owned(),
             value: "absent".to_owned(),
             accepted: "a directory: there is no cache directory here".to_owned(),
@@ -222,15 +209,13 @@ impl RunOptions {
 
 /// The checked value of `--time-limit`.
 pub(super) fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue> {
-    let Some(seconds) = seconds else {
-        return Ok(None);
-    };
-    let limit = Duration::try_from_secs_f64(seconds)
-        .ok()
-        .filter(|limit| !limit.is_zero());
-    limit
-        .map(Some)
-        .ok_or_else(|| InvalidValue::new("--time-limit", seconds, "a number of seconds above 0"))
+    let checked = seconds.map(|seconds| {
+        let limit = Duration::try_from_secs_f64(seconds).ok();
+        let limit = limit.filter(|limit| !limit.is_zero());
+        let accepted = "a number of seconds above 0";
+        limit.ok_or_else(|| InvalidValue::new("--time-limit", seconds, accepted))
+    });
+    checked.transpose()
 }
 
 /// The recorded runs in the directory that `TRISTACK_REFERENCE` names, or else those inside the program.
@@ -351,14 +336,14 @@ pub(super) fn writable(directory: Option<&Path>) -> Result<(), FileError> {
 /// when rows are missing.
 pub(super) fn write_all<'a, const N: usize>(
     directory: Option<&Path>,
-    files: impl FnOnce() -> [(&'a str, Vec<u8>); N],
+    files: impl FnOnce() -> [(&'a str, String); N],
 ) -> Result<(), FileError> {
     let Some(directory) = directory.filter(|_| !INTERRUPT.requested()) else {
         return Ok(());
     };
     files()
         .iter()
-        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content))
+        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content.as_bytes()))
 }
 
 /// Reads `--mu`: a number, or the word `critical`.
@@ -369,15 +354,6 @@ pub(super) fn friction(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| {
         "accepted are a number above 0 and the word `critical` (2 - sqrt 3)".to_owned()
     })
-}
-
-/// Prints help or a usage error.
-pub(super) fn report_usage(error: &clap::Error) -> Result<ExitStatus, CliError> {
-    let printed = error.print();
-    if printed.is_ok() && !error.use_stderr() {
-        return Ok(ExitStatus::Success);
-    }
-    Ok(ExitStatus::WrongInput)
 }
 
 /// `error` with the flag in place of the key of a case file.

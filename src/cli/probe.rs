@@ -1,7 +1,7 @@
 //! `tristack probe`.
 
-use super::options::{CodeOptions, Format, RunOptions};
-use super::progress::with_progress;
+use super::options::{CodeOptions, Format, RunOptions, selected_codes};
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::output::{probe, probe_by_code};
 use crate::runs::SelectedCode;
@@ -29,9 +29,9 @@ pub(super) struct Arguments {
 
 /// Probes the codes and prints the findings.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = arguments.codes.selected()?;
+    let codes = selected_codes(&arguments.codes.named)?;
     let settings = arguments.run.settings()?;
-    let probed = with_progress(|progress| probe_all(&codes, &settings, progress));
+    let probed = probe_all(&codes, &settings, &Reporter::new());
     let findings: Vec<Finding> = probed
         .iter()
         .flatten()
@@ -55,10 +55,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name} is not installed: its recorded answers stand in for it");
         }
     }
-    let count = |verdict: Verdict| {
-        let alike = findings.iter().filter(|finding| finding.verdict == verdict);
-        alike.count()
-    };
+    let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(
         "{agreeing} of {} properties are as declared, {differing} differ, {} are inconclusive",

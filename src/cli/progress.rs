@@ -3,25 +3,18 @@
 use super::tell;
 use crate::code::{Code, Failure};
 use crate::runs::Progress;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::fmt::Display;
-use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two lines of progress, where there is no bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
-/// Runs `work` with a progress report on standard error, and removes the bar when it is done.
-pub(super) fn with_progress<T>(work: impl FnOnce(&Reporter) -> T) -> T {
-    work(&Reporter::new())
-}
-
-/// Reports progress to the user.
+/// Reports progress on standard error, and removes the bar in the end.
 pub(super) struct Reporter {
     /// In nanoseconds of expected work; hidden where there is no terminal.
     bar: ProgressBar,
-    drawn: bool,
     counts: Mutex<Counts>,
 }
 
@@ -32,16 +25,9 @@ struct Counts {
 }
 
 impl Reporter {
-    fn new() -> Self {
-        let drawn = std::io::stderr().is_terminal();
-        let target = if drawn {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
+    pub fn new() -> Self {
         Self {
-            bar: ProgressBar::with_draw_target(Some(0), target).with_style(style()),
-            drawn,
+            bar: ProgressBar::new(0).with_style(style()),
             counts: Mutex::new(Counts {
                 finished: 0,
                 open: 0,
@@ -51,10 +37,9 @@ impl Reporter {
     }
 
     fn say(&self, line: &str) {
-        if self.drawn {
-            self.bar.println(line);
-        } else {
-            tell!("{line}");
+        match self.bar.is_hidden() {
+            true => tell!("{line}"),
+            false => self.bar.println(line),
         }
     }
 
@@ -81,7 +66,7 @@ impl Progress for Reporter {
     fn advanced(&self, seconds: f64) {
         self.bar.inc((1e9 * seconds) as u64);
         let mut counts = self.counts();
-        if !self.drawn && counts.last_line.elapsed() > BETWEEN_LINES {
+        if self.bar.is_hidden() && counts.last_line.elapsed() > BETWEEN_LINES {
             counts.last_line = Instant::now();
             let done = self.bar.position() as f64 / self.bar.length().unwrap_or(0).max(1) as f64;
             let left = HumanDuration(self.bar.eta());
@@ -98,7 +83,7 @@ impl Progress for Reporter {
         let subject = format!("[{finished}/{open}] {code}: {task}");
         match result {
             Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
-            Ok(seconds) if !self.drawn => {
+            Ok(seconds) if self.bar.is_hidden() => {
                 let seconds = seconds.map(|seconds| format!(": {seconds:.2} s"));
                 tell!("{subject}{}", seconds.unwrap_or_default());
             }

@@ -1,7 +1,7 @@
 //! `tristack record`.
 
 use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Run};
@@ -51,13 +51,11 @@ pub(super) struct Arguments {
 
 /// Records code by code; a code with a failed run keeps its old recordings.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let external: Vec<Code> = match arguments.codes.as_slice() {
-        [] => Code::all()
-            .into_iter()
-            .filter(|name| !name.accepts_any_convention())
-            .collect(),
-        named => named.to_vec(),
-    };
+    let mut external = arguments.codes.clone();
+    if external.is_empty() {
+        external = Code::all();
+        external.retain(|code| !code.accepts_any_convention());
+    }
     let codes = selected_codes(&external)?;
     let directory = recording_directory()?;
     let settings = arguments.run.settings()?;
@@ -83,7 +81,7 @@ fn record(
         Some(_) => Recorded::new(directory).recording(name)?,
         None => Recording::default(),
     };
-    let made = with_progress(|progress| make(&mut recording, selected, only, settings, progress));
+    let made = make(&mut recording, selected, only, settings, &Reporter::new());
     if let Err(error) = made {
         tell!("{name} is not recorded: {error}");
         return Ok(ExitStatus::CodeFailed);
@@ -110,15 +108,15 @@ fn make(
         let records = probe_records(codes, settings, progress).into_iter();
         recording.probe = records.last().transpose()?;
     }
+    let mut summaries = Vec::new();
     if wanted(Set::Crosscheck) {
-        for summary in quick_profile(selected, settings, progress)? {
-            recording.put(RecordedRun::without_series(summary));
-        }
+        summaries = quick_profile(selected, settings, progress)?;
     }
     if wanted(Set::Report) {
-        for summary in summaries_to_record(selected, settings, progress)? {
-            recording.put(RecordedRun::without_series(summary));
-        }
+        summaries.extend(summaries_to_record(selected, settings, progress)?);
+    }
+    for summary in summaries {
+        recording.put(RecordedRun::without_series(summary));
     }
     if wanted(Set::Trajectories) {
         for run in trajectory_runs(selected, settings, progress)? {

@@ -1,7 +1,7 @@
 //! `tristack regimes`.
 
 use super::options::{Format, RunOptions, as_flag, writable, write_all};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
@@ -53,8 +53,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let settings = arguments.run.settings()?;
     let plan = SurveyPlan::new(&points, &examined_stacks());
     let native = [SelectedCode::find(Code::NATIVE)];
-    let survey =
-        with_progress(|progress| survey(&plan, &Campaign::new(&native, &settings, progress)));
+    let survey = survey(&plan, &Campaign::new(&native, &settings, &Reporter::new()));
     let Some(survey) = survey else {
         tell!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);
@@ -68,11 +67,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             ("regimes.csv", regimes(&maps, GRID.0, GRID.1).csv()),
             ("boundaries.csv", tables[0].csv()),
             ("largest_forces.csv", tables[1].csv()),
-            (
-                "regimes.md",
-                regimes_markdown(&survey, command).into_bytes(),
-            ),
-            ("regimes.svg", regimes_svg(&maps, &survey).into_bytes()),
+            ("regimes.md", regimes_markdown(&survey, command)),
+            ("regimes.svg", regimes_svg(&maps, &survey)),
         ]
     })?;
     let people = || survey_text(&survey);

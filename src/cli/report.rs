@@ -1,7 +1,7 @@
 //! `tristack report`.
 
 use super::options::{CodeParser, RunOptions, selected_codes, writable};
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::write_atomically;
@@ -9,12 +9,8 @@ use crate::model::shown;
 use crate::output::{Origin, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
-use crate::runs::SelectedCode;
 use clap::Args;
 use std::path::{Path, PathBuf};
-
-/// The default of `--out`.
-const DEFAULT_DIRECTORY: &str = "report";
 
 /// Write the reproducibility report for the paper
 ///
@@ -32,7 +28,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     literal: bool,
     /// Directory of the report
-    #[arg(long, value_name = "DIR", default_value = DEFAULT_DIRECTORY)]
+    #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     #[command(flatten)]
     run: RunOptions,
@@ -53,35 +49,28 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         settings: &settings,
         literal: arguments.literal,
     };
-    let reproduced = match with_progress(|progress| reproduce(&scope, progress)) {
+    let outcome = reproduce(&scope, &Reporter::new());
+    let reproduced = match outcome {
         Ok(Some(reproduced)) => reproduced,
-        _ if INTERRUPT.requested() => return Ok(interrupted()),
-        Ok(None) => return Ok(interrupted()),
-        Err(error) => return Err(error.into()),
+        Err(error) if !INTERRUPT.requested() => return Err(error.into()),
+        _ => {
+            tell!(
+                "interrupted: no report is written; every finished run is kept, and the same command goes on from here"
+            );
+            return Ok(ExitStatus::Interrupted);
+        }
     };
     let claims = judge(&register, &PaperTheory::printed(), &reproduced);
-    let origin = origin(arguments, command, &codes);
+    let absent = codes.iter().filter(|selected| selected.code.is_none());
+    let origin = Origin {
+        command: command.to_owned(),
+        recorded: absent.map(|selected| selected.name).collect(),
+        literal: arguments.literal,
+    };
     for file in report_files(&reproduced, &claims, &origin) {
         write_atomically(&arguments.out.join(&file.name), &file.content)?;
     }
     Ok(conclude(&arguments.out, &reproduced, &claims))
-}
-
-fn interrupted() -> ExitStatus {
-    tell!(
-        "interrupted: no report is written; every finished run is kept, and the same command goes on from here"
-    );
-    ExitStatus::Interrupted
-}
-
-/// The origin of the report.
-fn origin(arguments: &Arguments, command: &str, codes: &[SelectedCode]) -> Origin {
-    let absent = codes.iter().filter(|selected| selected.code.is_none());
-    Origin {
-        command: command.to_owned(),
-        recorded: absent.map(|selected| selected.name).collect(),
-        literal: arguments.literal,
-    }
 }
 
 /// Summarizes the claims on standard error, and returns the exit status of the runs alone: a claim that does not
@@ -91,12 +80,7 @@ fn conclude(
     reproduction: &Reproduction,
     claims: &[ClaimJudgement],
 ) -> ExitStatus {
-    let count = |verdict| {
-        claims
-            .iter()
-            .filter(|claim| claim.verdict == verdict)
-            .count()
-    };
+    let count = |verdict| claims.iter().filter(|own| own.verdict == verdict).count();
     tell!(
         "{} claims: {} hold, {} hold approximately, {} do not hold as stated, {} cannot be tested",
         claims.len(),

@@ -8,7 +8,7 @@ use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, ke
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
 use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
-use crate::output::{Simulation, is_vtk_row, json, run_svg, simulations, vtk_series};
+use crate::output::{is_vtk_row, json, run_svg, simulations, vtk_series};
 use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
@@ -95,8 +95,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
     writable(arguments.vtk.as_deref())?;
-    let name = arguments.code;
-    let code = name.find().ok_or(CliError::MissingCode(name))?;
+    let code = arguments.code.find();
+    let code = code.ok_or(CliError::MissingCode(arguments.code))?;
     let run = match &arguments.out {
         Some(directory) => {
             writable(Some(directory))?;
@@ -105,11 +105,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         }
         None => execute_in_scratch(code.as_ref(), &case, limit)?,
     };
-    let simulated = [Simulation::new(&run)];
-    let tables = [simulations(&simulated)];
+    let tables = [simulations(std::slice::from_ref(&run))];
     if let Some(directory) = &arguments.out {
         write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
-        write_atomically(&directory.join(SUMMARY), &json(&tables, command))?;
+        write_atomically(&directory.join(SUMMARY), json(&tables, command).as_bytes())?;
     }
     draw(arguments, &run)?;
     let people = || tables[0].transposed(&["value"]).terminal();
@@ -191,17 +190,11 @@ fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
     let (_, frames) = repeated.map_err(|error| {
-        Box::new(Failure {
-            code,
-            subject: run.case.to_string(),
-            kind: if INTERRUPT.requested() {
-                FailureKind::Interrupted
-            } else {
-                error.into()
-            },
-            run_directory: None,
-            last_lines: Vec::new(),
-        })
+        let kind = match INTERRUPT.requested() {
+            true => FailureKind::Interrupted,
+            false => error.into(),
+        };
+        Box::new(Failure::new(code, &run.case, kind))
     })?;
     Ok(frames)
 }
@@ -209,18 +202,15 @@ fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
         let case = Case::read(path)?;
-        arguments.code.check_convention(&case.convention)?;
-        let preparation = &case.protocol.preparation;
-        arguments.code.check_preparation(preparation)?;
-        let shortcuts = case.protocol.shortcuts.is_some();
-        arguments.code.check_shortcuts(shortcuts)?;
+        let (code, protocol) = (arguments.code, &case.protocol);
+        code.check_convention(&case.convention)?;
+        code.check_preparation(&protocol.preparation)?;
+        code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
-    let (mu, stiffness) = (
-        arguments.mu.unwrap_or(f64::NAN),
-        arguments.stiffness.unwrap_or(f64::NAN),
-    );
-    let stack: Stack = arguments.stack.stack(mu, stiffness)?;
+    let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
+    let stack = arguments.stack.stack(mu, stiffness)?;
     let convention = arguments.arms.convention(arguments.code)?;
     let limit = quasistatic_limit(&stack, &convention.arms);
     let protocol = match arguments.speed {

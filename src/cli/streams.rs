@@ -16,9 +16,11 @@ macro_rules! tell {
 pub(crate) use tell;
 
 /// Writes results to standard output; a closed pipe is no error.
-pub(crate) fn print(bytes: &[u8]) -> Result<ExitStatus, CliError> {
+pub(crate) fn print(text: &str) -> Result<ExitStatus, CliError> {
     let mut output = std::io::stdout().lock();
-    let written = output.write_all(bytes).and_then(|()| output.flush());
+    let written = output
+        .write_all(text.as_bytes())
+        .and_then(|()| output.flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(FileError::writing(Path::new("standard output"))(error).into())

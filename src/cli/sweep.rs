@@ -5,7 +5,7 @@ use super::options::{
     ArmOptions, CodeParser, Format, RunOptions, StackListOptions, as_flag, friction,
     selected_codes, writable, write_all,
 };
-use super::progress::with_progress;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::model::Stack;
@@ -108,15 +108,15 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             false => measurement,
         }
     };
-    let judgements: Vec<Judgement> = with_progress(|progress| {
-        let campaign = Campaign::new(&codes, &settings, progress);
-        let parts = stacks.chunks(STACKS_AT_ONCE);
-        parts
-            .take_while(|_| !INTERRUPT.requested())
-            .flat_map(|stacks| campaign.carry_out(stacks.iter().map(planned).collect()))
-            .map(without_runs)
-            .collect()
-    });
+    let progress = Reporter::new();
+    let campaign = Campaign::new(&codes, &settings, &progress);
+    let parts = stacks.chunks(STACKS_AT_ONCE);
+    let judgements: Vec<Judgement> = parts
+        .take_while(|_| !INTERRUPT.requested())
+        .flat_map(|stacks| campaign.carry_out(stacks.iter().map(planned).collect()))
+        .map(without_runs)
+        .collect();
+    drop(progress);
     let tables = [crosscheck(&judgements)];
     write_all(arguments.out.as_deref(), || {
         [

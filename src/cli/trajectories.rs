@@ -1,8 +1,10 @@
 //! `tristack trajectories`.
 
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, tell_stand_ins, writable, write_all};
-use super::progress::with_progress;
+use super::options::{
+    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
+};
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::model::InvalidValue;
@@ -39,15 +41,14 @@ pub(super) struct Arguments {
 /// Runs and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes.named)?;
-    let mut codes = arguments.codes.selected()?;
+    let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
     writable(arguments.out.as_deref())?;
     let plans = plans(codes.iter().map(|selected| selected.name));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();
-    let judgements =
-        with_progress(|progress| Campaign::new(&codes, &settings, progress).carry_out(plans));
+    let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
     let tables = [trajectories(&judgements)];
     write_all(arguments.out.as_deref(), || {
         [
@@ -55,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             ("trajectories.json", json(&tables, command)),
             (
                 "trajectories.md",
-                trajectories_markdown(&judgements, command).into_bytes(),
+                trajectories_markdown(&judgements, command),
             ),
         ]
     })?;
@@ -98,28 +99,19 @@ fn conclude(
         let mut own = judgements.iter().filter(|one| one.code == code);
         own.any(|one| one.is_recorded())
     });
-    let verdicts: Vec<Verdict> = judgements
-        .iter()
-        .flat_map(TrajectoryJudgement::verdicts)
-        .collect();
-    let agreeing = verdicts
-        .iter()
-        .filter(|&&verdict| verdict == Verdict::Agrees);
-    tell!(
-        "{} of {} comparisons agree",
-        agreeing.count(),
-        verdicts.len()
-    );
+    let verdicts = judgements.iter().flat_map(TrajectoryJudgement::verdicts);
+    let verdicts: Vec<Verdict> = verdicts.collect();
+    let agreeing = verdicts.iter().filter(|&&own| own == Verdict::Agrees);
+    let (agreeing, all) = (agreeing.count(), verdicts.len());
+    tell!("{agreeing} of {all} comparisons agree");
     if INTERRUPT.requested() {
         return interrupted_after(judgements.len(), planned, "codes");
     }
     let contradicted = judgements.iter().any(|own| own.grounds.is_contradicted());
     let contradicted = contradicted.then_some(ExitStatus::Disagreement);
-    let worst = verdicts.into_iter().map(ExitStatus::of_verdict);
-    worst
-        .chain(contradicted)
-        .max()
-        .unwrap_or(ExitStatus::Success)
+    let statuses = verdicts.into_iter().map(ExitStatus::of_verdict);
+    let worst = statuses.chain(contradicted).max();
+    worst.unwrap_or(ExitStatus::Success)
 }
 
 /// Prints the notes on a code and on its comparisons.

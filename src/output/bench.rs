@@ -32,76 +32,42 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
         "A row is the cost of a step and of a yield force by one code on one core.",
         "`tristack bench` (bench.csv, bench.json)",
     )
-    .text(
-        "code",
-        "`native-scalar`, `native-lanes`, or the name of a code",
-        |(cost, _)| cost.target.as_str(),
-    )
+    .text("code", |(cost, _)| cost.target.as_str())
+    .means("`native-scalar`, `native-lanes`, or the name of a code")
     .shown("code")
     .version(|(cost, _)| &cost.version)
     .shown("version")
-    .number(
-        "ratio",
-        "1",
-        "`ns_per_step` over that of native lanes",
-        times_lanes,
-    )
+    .number("ratio", "1", times_lanes)
+    .means("`ns_per_step` over that of native lanes")
     .shown_as("times native-lanes", plain)
-    .number(
-        "ns_per_step",
-        "ns",
-        "wall time per step and case, the median of the runs",
-        |(cost, _)| cost.median(),
-    )
+    .number("ns_per_step", "ns", |(cost, _)| cost.median())
+    .means("wall time per step and case, the median of the runs")
     .shown_as("ns per step and case", plain)
-    .number(
-        "steps",
-        "1",
-        "steps timed in each run, of all its cases together",
-        |(cost, _)| cost.steps,
-    )
-    .number("runs", "1", "how often it was measured", |(cost, _)| {
-        cost.nanoseconds.len()
-    })
-    .number(
-        "start_up_seconds",
-        "s",
-        "start and end, the median of the runs",
-        |(cost, _)| cost.start_up(),
-    )
+    .number("steps", "1", |(cost, _)| cost.steps)
+    .means("steps timed in each run, of all its cases together")
+    .number("runs", "1", |(cost, _)| cost.nanoseconds.len())
+    .means("how often it was measured")
+    .number("start_up_seconds", "s", |(cost, _)| cost.start_up())
+    .means("start and end, the median of the runs")
     .shown_as("start s", plain)
-    .number(
-        "yield_forces_per_second",
-        "1/s",
-        "yield forces per second and core, start included",
-        |(cost, _)| cost.yield_forces_per_second(),
-    )
+    .number("yield_forces_per_second", "1/s", |(cost, _)| {
+        cost.yield_forces_per_second()
+    })
+    .means("yield forces per second and core, start included")
     .shown_as("yield forces per s", plain)
-    .number(
-        "yield_force_ratio",
-        "1",
-        "how many times as many native lanes make",
-        |(cost, lanes)| {
-            lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
-        },
-    )
+    .number("yield_force_ratio", "1", |(cost, lanes)| {
+        lanes.map(|lanes| lanes.yield_forces_per_second() / cost.yield_forces_per_second())
+    })
+    .means("how many times as many native lanes make")
     .shown_as("times fewer", plain)
-    .number(
-        "largest_error",
-        "1",
-        "largest distance of these yield forces from the exact limit, relative to F + 3",
-        |(cost, _)| cost.largest_error,
-    )
+    .number("largest_error", "1", |(cost, _)| cost.largest_error)
+    .means("largest distance of these yield forces from the exact limit, relative to F + 3")
     .shown_as("largest error", one_digit)
-    .number(
-        "peak_megabytes",
-        "MB",
-        "largest resident memory; that of native is all of this process",
-        |(cost, _)| {
-            cost.peak_bytes
-                .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
-        },
-    )
+    .number("peak_megabytes", "MB", |(cost, _)| {
+        cost.peak_bytes
+            .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
+    })
+    .means("largest resident memory; that of native is all of this process")
     .shown_as("MB", |megabytes| format!("{megabytes:.0}"))
     .rows(beside_lanes(costs))
 }
@@ -119,23 +85,17 @@ pub(crate) fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> Dat
         "A row is the cost of a step in native lanes with some number of cases and cores.",
         "`tristack bench` (scaling.csv)",
     )
-    .number("cases", "1", "number of cases", |row| row.cases)
+    .number("cases", "1", |row| row.cases)
+    .means("number of cases")
     .shown("cases")
-    .number("cores", "1", "number of cores", |row| row.cores)
+    .number("cores", "1", |row| row.cores)
+    .means("number of cores")
     .shown("cores")
-    .number(
-        "ns_per_step",
-        "ns",
-        "wall time per step and case, the median of the repeats",
-        |row| row.ns_per_step,
-    )
+    .number("ns_per_step", "ns", |row| row.ns_per_step)
+    .means("wall time per step and case, the median of the repeats")
     .shown_as("ns per step and case", plain)
-    .number(
-        "speedup",
-        "1",
-        "how many times as fast as the first row",
-        |row| row.speedup,
-    )
+    .number("speedup", "1", |row| row.speedup)
+    .means("how many times as fast as the first row")
     .shown_as("times as fast", plain)
     .rows(rows)
 }
@@ -165,39 +125,26 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
         "A row is the cost of a step of a pyramid of cylinders by one code on one core.",
         "`tristack bench --pyramids`",
     )
-    .number("cylinders", "1", "number of cylinders", |(cost, _)| {
-        cost.cylinders
-    })
+    .number("cylinders", "1", |(cost, _)| cost.cylinders)
+    .means("number of cylinders")
     .shown("cylinders")
     .code(|(cost, _)| cost.code)
     .version(|(cost, _)| &cost.version)
-    .number(
-        "ratio",
-        "1",
-        "how many times the cost of native this is, run by run",
-        |(cost, native)| native.map(|native| cost.ratio_to(native)),
-    )
+    .number("ratio", "1", |(cost, native)| {
+        native.map(|native| cost.ratio_to(native))
+    })
+    .means("how many times the cost of native this is, run by run")
     .shown_as("times native", plain)
-    .number(
-        "ns_per_step",
-        "ns",
-        "wall time per step and cylinder, the median of the runs",
-        |(cost, _)| cost.median(),
-    )
+    .number("ns_per_step", "ns", |(cost, _)| cost.median())
+    .means("wall time per step and cylinder, the median of the runs")
     .shown_as("ns per step and cylinder", plain)
-    .number(
-        "fastest_ns_per_step",
-        "ns",
-        "the same of the fastest run",
-        |(cost, _)| cost.fastest(),
-    )
+    .number("fastest_ns_per_step", "ns", |(cost, _)| cost.fastest())
+    .means("the same of the fastest run")
     .shown_as("fastest", plain)
-    .number("steps", "1", "steps timed in each run", |(cost, _)| {
-        cost.timed_steps
-    })
-    .number("runs", "1", "how often it was measured", |(cost, _)| {
-        cost.nanoseconds.len()
-    })
+    .number("steps", "1", |(cost, _)| cost.timed_steps)
+    .means("steps timed in each run")
+    .number("runs", "1", |(cost, _)| cost.nanoseconds.len())
+    .means("how often it was measured")
     .rows(rows)
 }
 

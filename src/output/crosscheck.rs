@@ -5,15 +5,18 @@ use super::table::{Columns, DataTable};
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the paper's, relative to F + 3";
+const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the \
+                          paper's, relative to F + 3";
 
 /// The rows.
 pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     Columns::<&Judgement>::new(
         "crosscheck",
-        "A row is the yield force of one stack by one code at vanishing wall speed, and the verdict on it.",
-        "`tristack crosscheck` (crosscheck.csv, crosscheck.json), `tristack sweep` (sweep.csv, sweep.json), \
-         `tristack report` (tables/yield_curves.csv, tables/scaling.csv, tables/literal.csv)",
+        "A row is the yield force of one stack by one code at vanishing wall speed, and the \
+         verdict on it.",
+        "`tristack crosscheck` (crosscheck.csv, crosscheck.json), `tristack sweep` (sweep.csv, \
+         sweep.json), `tristack report` (tables/yield_curves.csv, tables/scaling.csv, \
+         tables/literal.csv)",
     )
     .stack(|row| row.study.stack)
     .code(|row| row.code)
@@ -21,18 +24,25 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .source(|row| row.source)
     .shown("source")
     .arms(|row| row.study.convention.arms)
-    .number("yield_force", "m g", "yield force F at vanishing wall speed", |row| row.yield_force())
+    .number("yield_force", "m g", |row| row.yield_force())
+    .means("yield force F at vanishing wall speed")
     .shown_as("yield force", digits::<9>)
-    .number("uncertainty", "m g", "its numerical uncertainty (see `budget`)", |row| row.uncertainty())
+    .number("uncertainty", "m g", |row| row.uncertainty())
+    .means("its numerical uncertainty (see `budget`)")
     .shown_as("±", one_digit)
-    .text("reference", "the theory that it is compared with", |_| "quasistatic")
-    .number("reference_force", "m g", "F by that theory, with the arms of the code", |row| row.reference_force())
+    .text("reference", |_| "quasistatic")
+    .means("the theory that it is compared with")
+    .number("reference_force", "m g", |row| row.reference_force())
+    .means("F by that theory, with the arms of the code")
     .shown_as("exact limit", digits::<9>)
-    .number("error", "1", "(yield_force − reference_force)/(reference_force + 3)", |row| row.error())
+    .number("error", "1", |row| row.error())
+    .means("(yield_force − reference_force)/(reference_force + 3)")
     .shown_as("error", relative)
-    .number("tolerance", "1", "largest error that agrees", |row| row.tolerance())
+    .number("tolerance", "1", |row| row.tolerance())
+    .means("largest error that agrees")
     .shown_as("tolerance", small)
-    .number("model_form", "1", MODEL_FORM, |row| row.model_form())
+    .number("model_form", "1", |row| row.model_form())
+    .means(MODEL_FORM)
     .shown_as("model form", relative)
     .verdict(|row| row.verdict())
     .rows(judgements)
@@ -42,35 +52,31 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
 pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
     let mut columns = Columns::<(&Judgement, &Extrapolation)>::new(
         "budget",
-        "A row is what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` consists of, and how \
-         its runs converge.",
+        "A row is what the numerical uncertainty (ASME V&V 20) of one row of `crosscheck` \
+         consists of, and how its runs converge.",
         "`tristack crosscheck` (budget.csv)",
     )
     .stack(|(row, _)| row.study.stack)
     .code(|(row, _)| row.code)
-    .number("model_form", "1", MODEL_FORM, |(row, _)| row.model_form());
+    .number("model_form", "1", |(row, _)| row.model_form())
+    .means(MODEL_FORM);
     for part in Budget::PARTS {
         columns = columns
-            .number(part.name, "m g", part.how, move |(_, slip)| {
+            .number(part.name, "m g", move |(_, slip)| {
                 (part.value)(&slip.budget)
             })
+            .means(part.how)
             .shown_as(part.heading, one_digit);
     }
     columns
-        .number("uncertainty", "m g", "sum of the parts", |(_, slip)| {
-            slip.budget.total()
-        })
+        .number("uncertainty", "m g", |(_, slip)| slip.budget.total())
+        .means("sum of the parts")
         .shown_as("total", one_digit)
-        .number(
-            "observed_order",
-            "1",
-            "order of convergence in the wall speed, if above the noise",
-            |(_, slip)| slip.order.observed,
-        )
+        .number("observed_order", "1", |(_, slip)| slip.order.observed)
+        .means("order of convergence in the wall speed, if above the noise")
         .shown_as("observed order", |order| format!("{order:.3}"))
-        .number("expected_order", "1", "what it must be", |_| {
-            ConvergenceOrder::EXPECTED
-        })
+        .number("expected_order", "1", |_| ConvergenceOrder::EXPECTED)
+        .means("what it must be")
         .shown("expected")
         .rows(judgements.iter().filter_map(|row| Some((row, row.slip()?))))
 }

@@ -1,7 +1,7 @@
 //! The forecast for an experiment, in SI units.
 
 use super::number::{digits, friction, rounded, significant};
-use super::table::{Columns, DataTable, Value};
+use super::table::{Columns, DataTable};
 use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
 
 type Row<'a> = (&'a Forecast, &'a Forecasted);
@@ -16,58 +16,73 @@ pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     let weights = |force: Option<Force>| force.map(|force| force.weights);
     experiment(Columns::<Row>::new(
         "forecast",
-        "A row is one estimate of the contact of real cylinders and what follows from it; `range_lowest` and \
-         `range_highest` are over all rows.",
+        "A row is one estimate of the contact of real cylinders and what follows from it; \
+         `range_lowest` and `range_highest` are over all rows.",
         "`tristack predict`",
     ))
-    .text("contact", "the estimate of the contact", |(_, own)| own.contact.as_str())
-    .text("chosen", "whether it is the chosen estimate", |(all, own)| {
-        all.contact == own.contact
-    })
-    .number("normal_stiffness", "N/m", "k_n", |(_, own)| own.normal_stiffness)
+    .text("contact", |(_, own)| own.contact.as_str())
+    .means("the estimate of the contact")
+    .text("chosen", |(all, own)| all.contact == own.contact)
+    .means("whether it is the chosen estimate")
+    .number("normal_stiffness", "N/m", |(_, own)| own.normal_stiffness)
+    .means("k_n")
     .shown_as("k_n", digits::<4>)
-    .number("epsilon", "1", "ε = m g/(k_n r)", |(_, own)| own.epsilon)
+    .number("epsilon", "1", |(_, own)| own.epsilon)
+    .means("ε = m g/(k_n r)")
     .shown_as("epsilon = m g/(k_n r)", digits::<4>)
-    .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |(_, own)| own.stiffness)
+    .number("stiffness", "m g/r", |(_, own)| own.stiffness)
+    .means("normal stiffness k_n, 1/ε")
     .shown_as("stiffness 1/epsilon", digits::<4>)
-    .text("event", "what comes first on the path of equilibria", |(_, own)| own.event.to_string())
+    .text("event", |(_, own)| own.event.to_string())
+    .means("what comes first on the path of equilibria")
     .shown("first event")
-    .text("reason", "what that means, where it is no yield", |(_, own)| own.reason.clone())
-    .number("overlap", "r", "overlap of the contacts between the cylinders then", |(_, own)| own.overlap)
+    .text("reason", |(_, own)| own.reason.clone())
+    .means("what that means, where it is no yield")
+    .number("overlap", "r", |(_, own)| own.overlap)
+    .means("overlap of the contacts between the cylinders then")
     .shown_as("overlap then", digits::<3>)
-    .number("yield_force", "m g", "exact quasi-static yield force", move |(_, own)| {
+    .number("yield_force", "m g", move |(_, own)| {
         weights(own.yield_force)
     })
+    .means("exact quasi-static yield force")
     .shown_as("yield force, exact limit", digits::<6>)
-    .number("yield_force_newton", "N", "the same", move |(_, own)| newton(own.yield_force))
+    .number("yield_force_newton", "N", move |(_, own)| {
+        newton(own.yield_force)
+    })
+    .means("the same")
     .shown_as("yield force, exact limit", digits::<4>)
-    .number("perturbation", "m g", "the paper's perturbation result", move |(_, own)| {
+    .number("perturbation", "m g", move |(_, own)| {
         weights(own.perturbation)
     })
-    .number("perturbation_newton", "N", "the same", move |(_, own)| newton(own.perturbation))
+    .means("the paper's perturbation result")
+    .number("perturbation_newton", "N", move |(_, own)| {
+        newton(own.perturbation)
+    })
+    .means("the same")
     .shown_as("paper's perturbation", digits::<4>)
-    .number("paper_formula", "m g", "the paper's f = m g/ε, meant for μ > μ_c", |(_, own)| {
-        own.paper_formula.weights
+    .number("paper_formula", "m g", |(_, own)| own.paper_formula.weights)
+    .means("the paper's f = m g/ε, meant for μ > μ_c")
+    .number("paper_formula_newton", "N", |(_, own)| {
+        own.paper_formula.newton
     })
-    .number("paper_formula_newton", "N", "the same", |(_, own)| own.paper_formula.newton)
+    .means("the same")
     .shown_as("paper's f = m g/epsilon, mu > mu_c", digits::<4>)
-    .number(
-        "largest_force",
-        "m g",
-        "largest force that the stack carries, whatever ends it; absent where it grows without a peak",
-        move |(_, own)| weights(own.largest_force),
-    )
-    .number("largest_force_newton", "N", "the same", move |(_, own)| newton(own.largest_force))
-    .shown_as("largest force", digits::<4>)
-    .number(
-        "range_lowest",
-        "N",
-        "lowest of the largest forces over all estimates and all μ within its uncertainty",
-        |(all, _)| all.range.lowest,
-    )
-    .number("range_highest", "N", "the highest; absent if one of them has no peak", |(all, _)| {
-        all.range.highest
+    .number("largest_force", "m g", move |(_, own)| {
+        weights(own.largest_force)
     })
+    .means(
+        "largest force that the stack carries, whatever ends it; absent where it grows \
+             without a peak",
+    )
+    .number("largest_force_newton", "N", move |(_, own)| {
+        newton(own.largest_force)
+    })
+    .means("the same")
+    .shown_as("largest force", digits::<4>)
+    .number("range_lowest", "N", |(all, _)| all.range.lowest)
+    .means("lowest of the largest forces over all estimates and all μ within its uncertainty")
+    .number("range_highest", "N", |(all, _)| all.range.highest)
+    .means("the highest; absent if one of them has no peak")
     .rows(rows)
 }
 
@@ -75,44 +90,34 @@ pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
 fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let own = |(forecast, _): &Row| -> Experiment { forecast.experiment };
     columns
-        .number("mu", "1", "floor friction μ", move |row| own(row).mu)
-        .number(
-            "mu_uncertainty",
-            "1",
-            "what μ is known to, as ±",
-            move |row| own(row).mu_uncertainty,
-        )
-        .number(
-            "mu_d",
-            "1",
-            "friction μ_d between the cylinders",
-            move |row| own(row).mu_d,
-        )
-        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| {
-            own(row).kappa
-        })
-        .text(
-            "regime",
-            "on which side of μ_c the floor is",
-            |(forecast, _)| Value::word(forecast.regime),
-        )
-        .number("youngs_modulus", "Pa", "Young's modulus E", move |row| {
+        .number("mu", "1", move |row| own(row).mu)
+        .means("floor friction μ")
+        .number("mu_uncertainty", "1", move |row| own(row).mu_uncertainty)
+        .means("what μ is known to, as ±")
+        .number("mu_d", "1", move |row| own(row).mu_d)
+        .means("friction μ_d between the cylinders")
+        .number("kappa", "1", move |row| own(row).kappa)
+        .means("stiffness ratio κ = k_n/k_t")
+        .word("regime", |(forecast, _)| forecast.regime)
+        .means("on which side of μ_c the floor is")
+        .number("youngs_modulus", "Pa", move |row| {
             own(row).cylinder.youngs_modulus
         })
-        .number("poisson_ratio", "1", "Poisson's ratio ν", move |row| {
+        .means("Young's modulus E")
+        .number("poisson_ratio", "1", move |row| {
             own(row).cylinder.poisson_ratio
         })
-        .number("density", "kg/m³", "density ρ", move |row| {
-            own(row).cylinder.density
-        })
-        .number("radius", "m", "radius r", move |row| {
-            own(row).cylinder.radius
-        })
-        .number("length", "m", "length l along the axis", move |row| {
-            own(row).cylinder.length
-        })
-        .number("mass", "kg", "mass m", |(forecast, _)| forecast.mass)
-        .number("weight", "N", "weight m g", |(forecast, _)| forecast.weight)
+        .means("Poisson's ratio ν")
+        .number("density", "kg/m³", move |row| own(row).cylinder.density)
+        .means("density ρ")
+        .number("radius", "m", move |row| own(row).cylinder.radius)
+        .means("radius r")
+        .number("length", "m", move |row| own(row).cylinder.length)
+        .means("length l along the axis")
+        .number("mass", "kg", |(forecast, _)| forecast.mass)
+        .means("mass m")
+        .number("weight", "N", |(forecast, _)| forecast.weight)
+        .means("weight m g")
 }
 
 /// The estimates side by side, for people.

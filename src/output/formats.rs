@@ -87,7 +87,9 @@ fn file<R: 'static>(
 ) -> DataTable<'static> {
     let mut columns = Columns::<R>::new(name, row, written_by);
     for column in declared {
-        columns = columns.number(column.name, column.unit, column.meaning, column.value);
+        columns = columns
+            .number(column.name, column.unit, column.value)
+            .means(column.meaning);
     }
     columns.rows([])
 }

@@ -4,74 +4,55 @@ use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity, TaskKind};
 use crate::model::ContactArms;
 
-/// One code, and its program if it is installed.
-pub(crate) struct Inventory {
-    code: Code,
-    identity: Option<Identity>,
-}
-
-impl Inventory {
-    /// Looks for `code` on this machine.
-    pub fn take(code: Code) -> Self {
+/// Looks for `codes` on this machine: one row per code.
+pub(crate) fn inventory(codes: &[Code]) -> DataTable<'static> {
+    let rows = codes.iter().map(|&code| {
         let found = code.find();
-        Self {
-            code,
-            identity: found.map(|found| found.identity().clone()),
-        }
-    }
-
-    fn version(&self) -> Option<String> {
-        let identity = self.identity.as_ref();
-        identity.map(|identity| identity.version.clone())
-    }
-
-    fn package(&self) -> Option<String> {
-        let identity = self.identity.as_ref();
-        identity.and_then(|identity| identity.package.clone())
-    }
-
-    /// Arms for people, marked where they are only the default of a code that accepts any.
-    fn arms(&self, arms: ContactArms) -> String {
-        match self.code.accepts_any_convention() {
-            true => format!("{arms} (any)"),
-            false => arms.to_string(),
-        }
-    }
-}
-
-/// One row per code.
-pub(crate) fn inventory(codes: &[Inventory]) -> DataTable<'_> {
-    Columns::<&Inventory>::new(
+        (code, found.map(|found| found.identity().clone()))
+    });
+    Columns::<(Code, Option<Identity>)>::new(
         "codes",
         "A row is a code that tristack knows, as it is installed on this machine.",
         "`tristack codes`",
     )
-    .code(|own| own.code)
-    .text("installed", "whether it can run here", |own| {
-        own.identity.is_some()
+    .code(|(code, _)| *code)
+    .text("installed", |(_, identity)| identity.is_some())
+    .means("whether it can run here")
+    .text("version", |(_, identity)| {
+        Some(identity.as_ref()?.version.clone())
     })
-    .text("version", "its version", |own| own.version())
+    .means("its version")
     .shown("version")
-    .cell(|own| {
-        let absent = || format!("not installed ({})", own.code.installation_hint());
-        own.version().unwrap_or_else(absent)
+    .cell(|(code, identity)| {
+        let absent = || format!("not installed ({})", code.installation_hint());
+        let identity = identity.as_ref();
+        identity.map_or_else(absent, |identity| identity.version.clone())
     })
-    .text("package", "distribution package and its version", |own| {
-        own.package()
+    .text("package", |(_, identity)| {
+        identity.as_ref()?.package.clone()
     })
+    .means("distribution package and its version")
     .shown("package")
-    .arms(|own| own.code.convention().arms)
-    .right("pair arm", |own| own.arms(own.code.convention().arms.pair))
-    .right("floor arm", |own| {
-        own.arms(own.code.convention().arms.floor)
+    .arms(|(code, _)| code.convention().arms)
+    .right("pair arm", |(code, _)| {
+        arms(*code, code.convention().arms.pair)
     })
-    .text("deck_hash", "SHA-256 of the deck", |own| {
-        own.code.files_hash(TaskKind::Stack)
+    .right("floor arm", |(code, _)| {
+        arms(*code, code.convention().arms.floor)
     })
+    .text("deck_hash", |(code, _)| code.files_hash(TaskKind::Stack))
+    .means("SHA-256 of the deck")
     .shown("deck")
-    .cell(|own| own.code.files_hash(TaskKind::Stack)[..12].to_owned())
-    .text("install", "how to install it", |own| {
-        own.code.installation_hint()
-    })
-    .rows(codes)
+    .cell(|(code, _)| code.files_hash(TaskKind::Stack)[..12].to_owned())
+    .text("install", |(code, _)| code.installation_hint())
+    .means("how to install it")
+    .rows(rows)
+}
+
+/// Arms for people, marked where they are only the default of a code that accepts any.
+fn arms(code: Code, arms: ContactArms) -> String {
+    match code.accepts_any_convention() {
+        true => format!("{arms} (any)"),
+        false => arms.to_string(),
+    }
 }

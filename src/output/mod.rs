@@ -28,12 +28,12 @@ pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, performance_svg, regimes_svg};
 pub(crate) use forecast::{forecast_text, forecasts};
-pub(crate) use inventory::{Inventory, inventory};
+pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
 pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
-pub(crate) use simulation::{Simulation, simulations};
+pub(crate) use simulation::simulations;
 pub(crate) use table::json;
 pub(crate) use theory::{theories_by_stack, theory};
 pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};

@@ -10,18 +10,22 @@ use crate::study::convention::Finding;
 pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
     Columns::<&Finding>::new(
         "probe",
-        "A row is one property of the contacts of a code, as micro-tests measure it and as the code declares it.",
+        "A row is one property of the contacts of a code, as micro-tests measure it and as the \
+         code declares it.",
         "`tristack probe`, `tristack report` (tables/conventions.csv)",
     )
     .code(|own| own.code)
     .version(|own| &own.version)
-    .text("property", "name of the property", |own| own.property.clone())
-    .number("measured", "1", "what was measured; absent if it could not be", |own| own.measured)
-    .number("uncertainty", "1", "three standard errors; absent with the measured value", |own| {
-        own.uncertainty
-    })
-    .number("declared", "1", "what the code declares", |own| own.declared)
-    .verdict(|own| own.verdict).rows(findings)
+    .text("property", |own| own.property.clone())
+    .means("name of the property")
+    .number("measured", "1", |own| own.measured)
+    .means("what was measured; absent if it could not be")
+    .number("uncertainty", "1", |own| own.uncertainty)
+    .means("three standard errors; absent with the measured value")
+    .number("declared", "1", |own| own.declared)
+    .means("what the code declares")
+    .verdict(|own| own.verdict)
+    .rows(findings)
 }
 
 /// For people: one line per property, one column per code.

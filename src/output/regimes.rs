@@ -1,14 +1,13 @@
 //! The regime map, and its comparison with the DEM.
 
 use super::number::{digits, one_digit, optional, relative, significant};
-use super::table::{Columns, DataTable, Table, Value};
+use super::table::{Columns, DataTable, Table};
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
 use crate::theory::{
-    Across, Axis, EquilibriumPath, Event, FailureMode, LoadingOutcome, LoadingPhase, Regime,
-    RegimeMap,
+    Across, Axis, EquilibriumPath, FailureMode, LoadingOutcome, LoadingPhase, Regime, RegimeMap,
 };
 
 /// The maps as grids of `columns` values on the axis by `rows` floor frictions.
@@ -18,24 +17,27 @@ pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTa
         "A row is one stack of a regime map and what happens first on its way up in load.",
         "`tristack regimes` (regimes.csv)",
     )
-    .text("map", "what varies besides μ", |(axis, ..)| axis.as_str())
+    .text("map", |(axis, ..)| axis.as_str())
+    .means("what varies besides μ")
     .stack(|(_, stack, _)| *stack)
-    .text("event", "the first event", |(.., outcome)| Value::word(outcome.first.event))
-    .text("stage", "when it comes: `own-weight` or `wall`", |(.., outcome)| {
-        Value::word(outcome.first.stage)
-    })
-    .number("force", "m g", "wall force F then; 0 under own weight", |(.., outcome)| outcome.first.force)
-    .number("T", "1", "T = tan(ψ/2) then", |(.., outcome)| outcome.first.tangent)
-    .number("largest_force", "m g", "largest F that the stack carries", |(.., outcome)| {
+    .word("event", |(.., outcome)| outcome.first.event)
+    .means("the first event")
+    .word("stage", |(.., outcome)| outcome.first.stage)
+    .means("when it comes: `own-weight` or `wall`")
+    .number("force", "m g", |(.., outcome)| outcome.first.force)
+    .means("wall force F then; 0 under own weight")
+    .number("T", "1", |(.., outcome)| outcome.first.tangent)
+    .means("T = tan(ψ/2) then")
+    .number("largest_force", "m g", |(.., outcome)| {
         outcome.largest_force
     })
-    .text("failure_mode", "what the first event does", |(.., outcome)| {
-        Value::word(outcome.failure_mode)
-    })
-    .text(
-        "then",
-        "the first slip or wall contact; another event than the first where contact 2–3 closes before it",
-        |(.., outcome)| Value::word(outcome.last.event),
+    .means("largest F that the stack carries")
+    .word("failure_mode", |(.., outcome)| outcome.failure_mode)
+    .means("what the first event does")
+    .word("then", |(.., outcome)| outcome.last.event)
+    .means(
+        "the first slip or wall contact; another event than the first where contact 2–3 \
+             closes before it",
     )
     .rows(maps.iter().flat_map(|map| grid(map, columns, rows)))
 }
@@ -63,26 +65,32 @@ pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     };
     Columns::<&Confirmation>::new(
         "boundaries",
-        "A row is one point of a boundary of a regime map, and what the native DEM shows on both sides of it.",
+        "A row is one point of a boundary of a regime map, and what the native DEM shows on both \
+         sides of it.",
         "`tristack regimes` (boundaries.csv)",
     )
-    .text("map", "what varies besides μ", |own| own.point.map.as_str())
-    .text("across", "what changes across the boundary", |own| match own.point.across {
+    .text("map", |own| own.point.map.as_str())
+    .means("what varies besides μ")
+    .text("across", |own| match own.point.across {
         Across::Friction => "mu",
         Across::Axis(axis) => axis.as_str(),
     })
+    .means("what changes across the boundary")
     .stack(|own| own.point.stack)
-    .number("distance", "1", "relative distance of the neighbours below and above", |own| {
-        own.point.distance
-    })
-    .text("below", "regime of the neighbour below, by theory", move |own| claimed(own, 0))
-    .text("above", "the same of the one above", move |own| claimed(own, 1))
-    .text("below_observed", "what the DEM shows below; absent if nothing happened", move |own| {
-        observed(own, 0)
-    })
-    .text("above_observed", "the same above", move |own| observed(own, 1))
-    .text("below_verdict", "verdict on the neighbour below", |own| own.sides[0].verdict.as_str())
-    .text("above_verdict", "the same above", |own| own.sides[1].verdict.as_str())
+    .number("distance", "1", |own| own.point.distance)
+    .means("relative distance of the neighbours below and above")
+    .text("below", move |own| claimed(own, 0))
+    .means("regime of the neighbour below, by theory")
+    .text("above", move |own| claimed(own, 1))
+    .means("the same of the one above")
+    .text("below_observed", move |own| observed(own, 0))
+    .means("what the DEM shows below; absent if nothing happened")
+    .text("above_observed", move |own| observed(own, 1))
+    .means("the same above")
+    .text("below_verdict", |own| own.sides[0].verdict.as_str())
+    .means("verdict on the neighbour below")
+    .text("above_verdict", |own| own.sides[1].verdict.as_str())
+    .means("the same above")
     .verdict(|own| own.verdict())
     .rows(confirmations)
 }
@@ -109,40 +117,25 @@ pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     .shown("mu_d")
     .again("kappa")
     .shown("kappa")
-    .text("event", "the first event", |own| {
-        Value::word(own.claimed.first.event)
-    })
+    .word("event", |own| own.claimed.first.event)
+    .means("the first event")
     .shown("first event")
     .cell(|own| own.claimed.regime().to_string())
-    .text("failure_mode", "what it does", |own| {
-        Value::word(own.claimed.failure_mode)
-    })
-    .number(
-        "largest_force",
-        "m g",
-        "largest F by theory; absent if it falls, or grows without a peak",
-        |own| own.claimed.largest_force,
-    )
+    .word("failure_mode", |own| own.claimed.failure_mode)
+    .means("what it does")
+    .number("largest_force", "m g", |own| own.claimed.largest_force)
+    .means("largest F by theory; absent if it falls, or grows without a peak")
     .shown("theory")
     .cell(move |own| or_why(own, own.claimed.largest_force))
-    .number(
-        "observed_force",
-        "m g",
-        "peak of F in the DEM at vanishing wall speed",
-        move |own| observed(own),
-    )
+    .number("observed_force", "m g", move |own| observed(own))
+    .means("peak of F in the DEM at vanishing wall speed")
     .shown("DEM")
     .cell(move |own| or_why(own, observed(own)))
-    .number("uncertainty", "m g", "uncertainty of the peak", |own| {
-        own.uncertainty
-    })
+    .number("uncertainty", "m g", |own| own.uncertainty)
+    .means("uncertainty of the peak")
     .shown_as("±", one_digit)
-    .number(
-        "error",
-        "1",
-        "(observed_force − largest_force)/(largest_force + 3)",
-        |own| own.error,
-    )
+    .number("error", "1", |own| own.error)
+    .means("(observed_force − largest_force)/(largest_force + 3)")
     .shown_as("error", relative)
     .verdict(|own| own.verdict)
     .rows(examinations)
@@ -213,73 +206,54 @@ fn tables(survey: &Survey) -> [Table; 3] {
     ]
 }
 
-/// Runs of successive confirmations with the same key; those without a key are left out.
-fn groups<Key: PartialEq>(
-    survey: &Survey,
-    key: impl Fn(&Confirmation) -> Option<Key>,
-) -> Vec<(Key, Vec<&Confirmation>)> {
-    let mut groups: Vec<(Key, Vec<&Confirmation>)> = Vec::new();
-    for confirmation in &survey.confirmations {
-        let Some(key) = key(confirmation) else {
-            continue;
-        };
-        match groups.last_mut() {
-            Some((last, members)) if *last == key => members.push(confirmation),
-            _ => groups.push((key, vec![confirmation])),
-        }
-    }
-    groups
+/// Successive boundary points that share a line of a table.
+type Group<'a> = &'a [&'a Confirmation];
+
+/// The points whose boundary is crossed in this way.
+fn crossed(survey: &Survey, wanted: impl Fn(Across) -> bool) -> Vec<&Confirmation> {
+    let all = survey.confirmations.iter();
+    all.filter(|own| wanted(own.point.across)).collect()
+}
+
+/// Name and value of what varies besides the floor friction.
+fn place(own: &Confirmation) -> (&'static str, f64) {
+    let map = own.point.map;
+    (map.as_str(), map.get(&own.point.stack))
 }
 
 fn friction_table(survey: &Survey) -> Table {
-    type Group<'a> = ((Axis, f64), Vec<&'a Confirmation>);
-    let key = |confirmation: &Confirmation| {
-        let point = &confirmation.point;
-        (point.across == Across::Friction).then(|| (point.map, point.map.get(&point.stack)))
-    };
-    let friction = |members: &[&Confirmation], own_weight: bool| {
-        let mut points = members.iter().map(|member| &member.point);
+    let friction = |group: &Group, own_weight: bool| {
+        let mut points = group.iter().map(|member| &member.point);
         let point = points
             .find(|point| (point.sides[0].last.stage == LoadingPhase::OwnWeight) == own_weight);
         optional(point, |point| significant(point.stack.floor_friction, 6))
     };
-    let beyond = |members: &[&Confirmation]| {
-        let last = members.last();
-        last.map_or_else(String::new, |member| {
-            member.point.sides[1].last.event.to_string()
-        })
-    };
+    let points = crossed(survey, |across| across == Across::Friction);
     Columns::<Group>::for_people()
-        .left("map", |((axis, _), _)| format!("mu, {}", axis.as_str()))
-        .right("at", |((_, value), _)| significant(*value, 4))
-        .right("own weight up to mu", move |(_, members)| {
-            friction(members, true)
+        .left("map", |group| format!("mu, {}", place(group[0]).0))
+        .right("at", |group| significant(place(group[0]).1, 4))
+        .right("own weight up to mu", move |group| friction(group, true))
+        .right("floor slip up to mu", move |group| friction(group, false))
+        .left("beyond it", |group| {
+            let last = group[group.len() - 1];
+            last.point.sides[1].last.event.to_string()
         })
-        .right("floor slip up to mu", move |(_, members)| {
-            friction(members, false)
-        })
-        .left("beyond it", move |(_, members)| beyond(members))
-        .right("DEM", |(_, members)| tally(members))
-        .rows(groups(survey, key))
+        .right("DEM", tally)
+        .rows(points.chunk_by(|one, other| place(one) == place(other)))
         .shown()
 }
 
 fn line_table(survey: &Survey) -> Table {
-    type Group<'a> = (
-        (Axis, String, [(Event, LoadingPhase); 2]),
-        Vec<&'a Confirmation>,
-    );
-    let key = |confirmation: &Confirmation| {
-        let point = &confirmation.point;
-        let Across::Axis(axis) = point.across else {
-            return None;
-        };
-        let first = point.sides.map(|side| (side.first.event, side.first.stage));
-        let value = significant(axis.get(&point.stack), 6);
-        Some((axis, format!("{} = {value}", axis.as_str()), first))
+    let line = |own: &Confirmation| {
+        let (name, value) = place(own);
+        format!("{name} = {}", significant(value, 6))
     };
-    let first = |members: &[&Confirmation], side: usize| {
-        let side = members[0].point.sides[side];
+    let events = |own: &Confirmation| {
+        let firsts = own.point.sides.map(|side| side.first);
+        firsts.map(|first| (first.event, first.stage))
+    };
+    let first = |group: &Group, side: usize| {
+        let side = group[0].point.sides[side];
         let regime = Regime {
             last: side.first.event,
             last_stage: side.first.stage,
@@ -287,22 +261,24 @@ fn line_table(survey: &Survey) -> Table {
         };
         regime.to_string()
     };
+    let points = crossed(survey, |across| across != Across::Friction);
+    let key = |own: &Confirmation| (line(own), events(own));
     Columns::<Group>::for_people()
-        .left("map", |((axis, ..), _)| format!("mu, {}", axis.as_str()))
-        .left("boundary", |((_, line, _), _)| line.clone())
-        .left("below", move |(_, members)| first(members, 0))
-        .left("above", move |(_, members)| first(members, 1))
-        .right("from mu", |(_, members)| {
-            significant(members[0].point.stack.floor_friction, 3)
+        .left("map", |group| format!("mu, {}", place(group[0]).0))
+        .left("boundary", move |group| line(group[0]))
+        .left("below", move |group| first(group, 0))
+        .left("above", move |group| first(group, 1))
+        .right("from mu", |group| {
+            significant(group[0].point.stack.floor_friction, 3)
         })
-        .right("DEM", |(_, members)| tally(members))
-        .rows(groups(survey, key))
+        .right("DEM", tally)
+        .rows(points.chunk_by(|one, other| key(one) == key(other)))
         .shown()
 }
 
 /// The number of neighbours for which the DEM agrees with theory.
-fn tally(members: &[&Confirmation]) -> String {
-    let sides = members.iter().flat_map(|member| &member.sides);
+fn tally(group: &Group) -> String {
+    let sides = group.iter().flat_map(|member| &member.sides);
     let agree = sides.filter(|side| side.verdict == Verdict::Agrees).count();
-    format!("{agree} of {}", 2 * members.len())
+    format!("{agree} of {}", 2 * group.len())
 }

@@ -18,84 +18,53 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         stiffness: own.stiffness,
         stiffness_ratio: own.kappa,
     })
-    .number("epsilon", "1", "ε = m g/(k_n r)", |own| own.epsilon)
-    .number(
-        "rigid",
-        "m g",
-        "rigid cylinders; absent where infinite",
-        |own| own.rigid.yield_force,
-    )
-    .text(
-        "rigid_diverges",
-        "whether it is infinite, μ ≥ μ_c",
-        |own| own.rigid.diverges,
-    )
-    .number("naive", "m g", "naive expansion", |own| {
-        own.naive.yield_force
+    .number("epsilon", "1", |own| own.epsilon)
+    .means("ε = m g/(k_n r)")
+    .number("rigid", "m g", |own| own.rigid.yield_force)
+    .means("rigid cylinders; absent where infinite")
+    .text("rigid_diverges", |own| own.rigid.diverges)
+    .means("whether it is infinite, μ ≥ μ_c")
+    .number("naive", "m g", |own| own.naive.yield_force)
+    .means("naive expansion")
+    .text("naive_reason", |own| own.naive.reason)
+    .means("why it gives none")
+    .number("perturbation", "m g", |own| own.perturbation.yield_force)
+    .means("singular perturbation")
+    .text("perturbation_reason", |own| own.perturbation.reason)
+    .means("why it gives none")
+    .number("elastic", "m g", |own| own.elastic.yield_force)
+    .means("elastic equation")
+    .number("elastic_x", "r", |own| own.elastic.x)
+    .means("its x = δ₁₁ − δ₂₁")
+    .number("elastic_y", "r", |own| own.elastic.y)
+    .means("its y = δ₂₂")
+    .number("elastic_z", "r", |own| own.elastic.z)
+    .means("its z = δ₂₁")
+    .number("elastic_theta", "rad", |own| own.elastic.theta)
+    .means("its θ")
+    .text("elastic_reason", |own| own.elastic.reason)
+    .means("why it gives none")
+    .text("elastic_caution", |own| own.elastic.caution)
+    .means("an assumption that its root contradicts")
+    .number("quasistatic", "m g", |own| own.quasistatic.yield_force)
+    .means("exact quasi-static limit of a DEM with these arms")
+    .text("reason", |own| own.quasistatic.reason.clone())
+    .means("why there is no quasi-static limit")
+    .text("event", |own| own.quasistatic.event.to_string())
+    .means("what comes first on the path of equilibria")
+    .number("floor_slip_force", "m g", |own| {
+        own.quasistatic.floor_slip_force
     })
-    .text("naive_reason", "why it gives none", |own| own.naive.reason)
-    .number("perturbation", "m g", "singular perturbation", |own| {
-        own.perturbation.yield_force
-    })
-    .text("perturbation_reason", "why it gives none", |own| {
-        own.perturbation.reason
-    })
-    .number("elastic", "m g", "elastic equation", |own| {
-        own.elastic.yield_force
-    })
-    .number("elastic_x", "r", "its x = δ₁₁ − δ₂₁", |own| {
-        own.elastic.x
-    })
-    .number("elastic_y", "r", "its y = δ₂₂", |own| own.elastic.y)
-    .number("elastic_z", "r", "its z = δ₂₁", |own| own.elastic.z)
-    .number("elastic_theta", "rad", "its θ", |own| own.elastic.theta)
-    .text("elastic_reason", "why it gives none", |own| {
-        own.elastic.reason
-    })
-    .text(
-        "elastic_caution",
-        "an assumption that its root contradicts",
-        |own| own.elastic.caution,
-    )
-    .number(
-        "quasistatic",
-        "m g",
-        "exact quasi-static limit of a DEM with these arms",
-        |own| own.quasistatic.yield_force,
-    )
-    .text("reason", "why there is no quasi-static limit", |own| {
-        own.quasistatic.reason.clone()
-    })
-    .text(
-        "event",
-        "what comes first on the path of equilibria",
-        |own| own.quasistatic.event.to_string(),
-    )
-    .number(
-        "floor_slip_force",
-        "m g",
-        "F at which the floor slips if other events are ignored",
-        |own| own.quasistatic.floor_slip_force,
-    )
+    .means("F at which the floor slips if other events are ignored")
     .arms(|own| own.quasistatic.arms)
-    .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| {
-        own.quasistatic.tangent
-    })
-    .number("y", "r", "y = x₂ − r where the floor slips", |own| {
-        own.quasistatic.y
-    })
-    .number(
-        "z",
-        "r",
-        "overlap of cylinder 2 and the floor where the floor slips",
-        |own| own.quasistatic.z,
-    )
-    .number(
-        "wall_travel",
-        "r",
-        "how far the wall has moved when the floor slips",
-        |own| own.quasistatic.wall_travel,
-    )
+    .number("T", "1", |own| own.quasistatic.tangent)
+    .means("T = tan(ψ/2) where the floor slips")
+    .number("y", "r", |own| own.quasistatic.y)
+    .means("y = x₂ − r where the floor slips")
+    .number("z", "r", |own| own.quasistatic.z)
+    .means("overlap of cylinder 2 and the floor where the floor slips")
+    .number("wall_travel", "r", |own| own.quasistatic.wall_travel)
+    .means("how far the wall has moved when the floor slips")
     .rows(predictions)
 }
 

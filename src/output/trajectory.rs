@@ -8,87 +8,81 @@ use crate::study::trajectory::{
     WALL_SPEED, trajectory_stack,
 };
 
-/// One distance of one comparison. A code without comparisons has one row without a distance.
-#[derive(Clone, Copy)]
-struct Row<'a> {
-    judgement: &'a TrajectoryJudgement,
-    comparison: Option<&'a Comparison>,
-    own: Option<&'a Distance>,
-    /// The distance at the next larger time step.
-    coarser: Option<&'a Distance>,
-}
+/// One distance of one comparison, by its index. A code without comparisons has one row without a distance.
+type Row<'a> = (&'a TrajectoryJudgement, Option<(&'a Comparison, usize)>);
 
 fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
-    let blank = Row {
-        judgement,
-        comparison: None,
-        own: None,
-        coarser: None,
-    };
-    if judgement.comparisons().is_empty() {
-        return vec![blank];
+    let comparisons = judgement.comparisons().iter();
+    let rows = comparisons.flat_map(|own| (0..own.distances.len()).map(move |index| (own, index)));
+    let rows: Vec<Row> = rows.map(|row| (judgement, Some(row))).collect();
+    match judgement.comparisons().is_empty() {
+        true => vec![(judgement, None)],
+        false => rows,
     }
-    let rows = judgement.comparisons().iter().flat_map(|comparison| {
-        let distances = &comparison.distances;
-        let coarser = std::iter::once(None).chain(distances.iter().map(Some));
-        coarser.zip(distances).map(move |(coarser, own)| Row {
-            comparison: Some(comparison),
-            own: Some(own),
-            coarser,
-            ..blank
-        })
-    });
-    rows.collect()
 }
 
 /// One row per distance.
 pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
-    let first_above = |row: &Row, level: usize| row.own?.first_above[level];
+    fn compared<'a>((_, row): &Row<'a>) -> Option<&'a Comparison> {
+        row.map(|(comparison, _)| comparison)
+    }
+    fn own<'a>((_, row): &Row<'a>) -> Option<&'a Distance> {
+        row.map(|(comparison, index)| &comparison.distances[index])
+    }
     Columns::<Row>::new(
         "trajectories",
-        "A row is the distance between the series of a code and of its native twin, in one quantity on one \
-         branch at one time step; forces in units of their peak, lengths in r, angles in radians. A code \
-         without comparisons has one row without distances.",
+        "A row is the distance between the series of a code and of its native twin, in one \
+         quantity on one branch at one time step; forces in units of their peak, lengths in r, \
+         angles in radians. A code without comparisons has one row without distances.",
         "`tristack trajectories` (trajectories.csv, trajectories.json)",
     )
-    .code(|row| row.judgement.code)
-    .version(|row| &row.judgement.version)
-    .source(|row| row.judgement.source)
+    .code(|(judgement, _)| judgement.code)
+    .version(|(judgement, _)| &judgement.version)
+    .source(|(judgement, _)| judgement.source)
     .stack(|_| trajectory_stack())
-    .arms(|row| row.judgement.code.convention().arms)
-    .text("twin", "what the twin has of the convention of the code", |row| {
-        row.comparison.map(|own| own.twin.as_str())
+    .arms(|(judgement, _)| judgement.code.convention().arms)
+    .text("twin", |row| Some(compared(row)?.twin.as_str()))
+    .means("what the twin has of the convention of the code")
+    .text("quantity", |row| Some(compared(row)?.quantity.as_str()))
+    .means("what is compared")
+    .text("branch", |row| Some(compared(row)?.branch.as_str()))
+    .means("`compression`, `collapse` or `fall`")
+    .number("time_step", "√(m/k_n)", |row| Some(own(row)?.time_step))
+    .means("time step of both")
+    .number("largest", "1", |row| Some(own(row)?.largest))
+    .means("largest distance")
+    .number("rms", "1", |row| Some(own(row)?.rms))
+    .means("root mean square of the distance")
+    .number("first_above_1e-6", "√(m/k_n)", |row| {
+        own(row)?.first_above[0]
     })
-    .text("quantity", "what is compared", |row| row.comparison.map(|own| own.quantity.as_str()))
-    .text("branch", "`compression`, `collapse` or `fall`", |row| row.comparison.map(|own| own.branch.as_str()))
-    .number("time_step", "√(m/k_n)", "time step of both", |row| row.own.map(|own| own.time_step))
-    .number("largest", "1", "largest distance", |row| row.own.map(|own| own.largest))
-    .number("rms", "1", "root mean square of the distance", |row| row.own.map(|own| own.rms))
-    .number("first_above_1e-6", "√(m/k_n)", "first time at which it exceeds 1e-6, if it does", move |row| {
-        first_above(row, 0)
+    .means("first time at which it exceeds 1e-6, if it does")
+    .number("first_above_1e-4", "√(m/k_n)", |row| {
+        own(row)?.first_above[1]
     })
-    .number("first_above_1e-4", "√(m/k_n)", "the same for 1e-4", move |row| first_above(row, 1))
-    .number("first_above_1e-2", "√(m/k_n)", "the same for 1e-2", move |row| first_above(row, 2))
-    .number(
-        "order",
-        "1",
-        "log₂ of the largest distance at twice the time step over this one; absent where nothing but rounding \
-         is expected",
-        |row| row.comparison?.order(row.coarser?, row.own?),
+    .means("the same for 1e-4")
+    .number("first_above_1e-2", "√(m/k_n)", |row| {
+        own(row)?.first_above[2]
+    })
+    .means("the same for 1e-2")
+    .number("order", "1", |(_, row)| {
+        let (comparison, index) = (*row)?;
+        let distances = &comparison.distances;
+        comparison.order(&distances[index.checked_sub(1)?], &distances[index])
+    })
+    .means(
+        "log₂ of the largest distance at twice the time step over this one; absent where \
+         nothing but rounding is expected",
     )
-    .text("documented_order", "how the distance must fall with the time step", |row| {
-        row.comparison.map(|own| own.documented.order.as_str())
+    .text("documented_order", |row| {
+        Some(compared(row)?.documented.order.as_str())
     })
-    .number("round_off", "1", "what rounding may have done to the largest distance", |row| {
-        row.own.map(|own| own.round_off)
-    })
-    .number("step_error", "1", "largest change of the twin itself when its time step is halved", |row| {
-        row.comparison.map(|own| own.step_error)
-    })
-    .verdict(|row| {
-        let verdict = row.comparison.map(Comparison::verdict);
-        verdict.unwrap_or_else(|| row.judgement.verdict())
-    })
+    .means("how the distance must fall with the time step")
+    .number("round_off", "1", |row| Some(own(row)?.round_off))
+    .means("what rounding may have done to the largest distance")
+    .number("step_error", "1", |row| Some(compared(row)?.step_error))
+    .means("largest change of the twin itself when its time step is halved")
+    .verdict(|row| compared(row).map_or_else(|| row.0.verdict(), Comparison::verdict))
     .rows(judgements.iter().flat_map(rows_of))
 }
 

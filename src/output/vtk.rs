@@ -1,7 +1,6 @@
 //! The stack as a time series for ParaView, in the XML format of VTK.
 
 use crate::series::{ContactPoint, Frame, Frames, Partner};
-use std::fmt::Write;
 
 /// Most rows written, apart from the last one and the one of the largest force.
 const MOST_ROWS: usize = 500;
@@ -61,14 +60,11 @@ pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
 
 /// Whether a file of this name is a row of such a series.
 pub(crate) fn is_vtk_row(name: &str) -> bool {
-    [CYLINDERS, CONTACTS].iter().any(|kind| {
-        let number = name
-            .strip_prefix(kind)
-            .and_then(|rest| rest.strip_prefix('_'))
-            .and_then(|rest| rest.strip_suffix(".vtp"));
-        number.is_some_and(|digits| {
-            digits.len() >= 4 && digits.bytes().all(|digit| digit.is_ascii_digit())
-        })
+    let parts = name.strip_suffix(".vtp");
+    let parts = parts.and_then(|name| name.split_once('_'));
+    parts.is_some_and(|(kind, number)| {
+        let digits = number.bytes().all(|digit| digit.is_ascii_digit());
+        [CYLINDERS, CONTACTS].contains(&kind) && number.len() >= 4 && digits
     })
 }
 
@@ -84,122 +80,96 @@ fn kept_rows(frames: &Frames) -> Vec<usize> {
 
 fn cylinders(frame: &Frame, epsilon: f64) -> String {
     let bodies = &frame.cylinders;
-    let mut data = PointData::new(bodies.iter().map(|body| body.position));
-    data.integers("cylinder", (1..=bodies.len()).map(|number| number as i64));
-    data.numbers("radius", bodies.iter().map(|_| 1.0));
-    data.numbers("angle", bodies.iter().map(|body| body.angle));
+    let mut arrays = vec![
+        integers("cylinder", 1..=bodies.len() as i64),
+        numbers("radius", bodies.iter().map(|_| 1.0)),
+        numbers("angle", bodies.iter().map(|body| body.angle)),
+    ];
     let velocities: Option<Vec<[f64; 2]>> = bodies.iter().map(|body| body.velocity).collect();
-    if let Some(velocities) = velocities {
-        data.vectors("velocity", velocities.into_iter());
-    }
-    data.finish(&[
+    arrays.extend(velocities.map(|velocities| vectors("velocity", velocities)));
+    let of_the_frame = [
         ("TimeValue", frame.time),
         ("wall_height", frame.wall_height),
         ("wall_force", frame.wall_force / epsilon),
-    ])
+    ];
+    let positions = bodies.iter().map(|body| body.position);
+    document(&of_the_frame, positions.collect(), &arrays)
 }
 
 fn contacts(frame: &Frame, epsilon: f64) -> String {
-    let contacts = &frame.contacts;
-    let mut data = PointData::new(contacts.iter().map(|contact| contact.position));
-    let numbers = contacts.iter().map(|contact| contact.cylinder as i64 + 1);
-    data.integers("cylinder", numbers);
+    let all = || frame.contacts.iter();
     // Floor 0, top wall −1: cylinders count from 1.
-    let partners = contacts.iter().map(|contact| match contact.partner {
+    let partner = |contact: &ContactPoint| match contact.partner {
         Partner::Cylinder(index) => index as i64 + 1,
         Partner::Floor => 0,
         Partner::TopWall => -1,
-    });
-    data.integers("partner", partners);
-    let weights = |force: fn(&ContactPoint) -> f64| {
-        let forces = contacts.iter().map(force);
-        forces.map(|force| force / epsilon)
     };
-    let vectors = contacts.iter().map(ContactPoint::force);
-    data.vectors(
-        "force",
-        vectors.map(|force| force.map(|part| part / epsilon)),
-    );
-    data.numbers("normal_force", weights(|contact| contact.normal_force));
-    data.numbers(
-        "tangential_force",
-        weights(|contact| contact.tangential_force),
-    );
-    data.finish(&[("TimeValue", frame.time)])
+    let force = |contact: &ContactPoint| contact.force().map(|part| part / epsilon);
+    let arrays = [
+        integers("cylinder", all().map(|own| own.cylinder as i64 + 1)),
+        integers("partner", all().map(partner)),
+        vectors("force", all().map(force)),
+        numbers("normal_force", all().map(|own| own.normal_force / epsilon)),
+        numbers(
+            "tangential_force",
+            all().map(|own| own.tangential_force / epsilon),
+        ),
+    ];
+    let positions = all().map(|contact| contact.position);
+    document(&[("TimeValue", frame.time)], positions.collect(), &arrays)
 }
 
-/// Points, each a vertex, and their data.
-struct PointData {
-    count: usize,
-    points: String,
-    arrays: String,
+fn numbers(name: &str, values: impl IntoIterator<Item = f64>) -> String {
+    array("Float64", name, 1, &joined(values))
 }
 
-impl PointData {
-    fn new(points: impl ExactSizeIterator<Item = [f64; 2]>) -> Self {
-        Self {
-            count: points.len(),
-            points: components(points),
-            arrays: String::new(),
-        }
-    }
-
-    fn numbers(&mut self, name: &str, values: impl Iterator<Item = f64>) {
-        self.array("Float64", name, 1, &joined(values));
-    }
-
-    fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) {
-        self.array("Int64", name, 1, &joined(values));
-    }
-
-    fn vectors(&mut self, name: &str, values: impl Iterator<Item = [f64; 2]>) {
-        self.array("Float64", name, 3, &components(values));
-    }
-
-    fn array(&mut self, kind: &str, name: &str, components: usize, values: &str) {
-        writeln!(
-            self.arrays,
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">{values}</DataArray>"
-        )
-        .expect("text is written to memory");
-    }
-
-    /// The document, with numbers for the whole frame.
-    fn finish(self, of_the_frame: &[(&str, f64)]) -> String {
-        let count = self.count;
-        let fields: String = of_the_frame
-            .iter()
-            .map(|(name, value)| {
-                format!(
-                    "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfTuples=\"1\" format=\"ascii\">{value}</DataArray>\n"
-                )
-            })
-            .collect();
-        format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
-             <FieldData>\n{fields}</FieldData>\n\
-             <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
-             <PointData>\n{arrays}</PointData>\n\
-             <Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">{points}</DataArray>\n</Points>\n\
-             <Verts>\n\
-             <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">{connectivity}</DataArray>\n\
-             <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">{offsets}</DataArray>\n\
-             </Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-            arrays = self.arrays,
-            points = self.points,
-            connectivity = joined(0..count),
-            offsets = joined(1..=count),
-        )
-    }
+fn integers(name: &str, values: impl IntoIterator<Item = i64>) -> String {
+    array("Int64", name, 1, &joined(values))
 }
 
 /// Vectors of the plane in three dimensions.
-fn components(vectors: impl Iterator<Item = [f64; 2]>) -> String {
-    joined(vectors.map(|[x, y]| format!("{x} {y} 0")))
+fn vectors(name: &str, values: impl IntoIterator<Item = [f64; 2]>) -> String {
+    let components = values.into_iter().map(|[x, y]| format!("{x} {y} 0"));
+    array("Float64", name, 3, &joined(components))
 }
 
-fn joined(values: impl Iterator<Item = impl ToString>) -> String {
-    let values: Vec<String> = values.map(|value| value.to_string()).collect();
-    values.join(" ")
+fn array(kind: &str, name: &str, components: usize, values: &str) -> String {
+    format!(
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+         format=\"ascii\">{values}</DataArray>\n"
+    )
+}
+
+/// Points, each a vertex, with their data and numbers for the whole frame.
+fn document(of_the_frame: &[(&str, f64)], points: Vec<[f64; 2]>, arrays: &[String]) -> String {
+    let count = points.len();
+    let fields = of_the_frame.iter().map(|(name, value)| {
+        format!(
+            "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfTuples=\"1\" format=\"ascii\">\
+             {value}</DataArray>\n"
+        )
+    });
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
+         <FieldData>\n{fields}</FieldData>\n\
+         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" \
+         NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
+         <PointData>\n{arrays}</PointData>\n\
+         <Points>\n{points}</Points>\n\
+         <Verts>\n\
+         <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">{connectivity}</DataArray>\n\
+         <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">{offsets}</DataArray>\n\
+         </Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+        fields = fields.collect::<String>(),
+        arrays = arrays.concat(),
+        points = vectors("Points", points),
+        connectivity = joined(0..count),
+        offsets = joined(1..=count),
+    )
+}
+
+fn joined(values: impl IntoIterator<Item = impl ToString>) -> String {
+    let values = values.into_iter().map(|value| value.to_string());
+    values.collect::<Vec<_>>().join(" ")
 }

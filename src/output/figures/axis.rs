@@ -23,13 +23,17 @@ pub(super) enum Scale {
 }
 
 impl Axis {
-    /// An axis with a tick at every multiple of `step`, with `decimals` digits after the point.
-    pub fn linear(label: &str, range: (f64, f64), step: f64, decimals: usize) -> Self {
+    fn new(label: &str, range: (f64, f64), scale: Scale) -> Self {
         Self {
             label: label.to_owned(),
             range,
-            scale: Scale::Linear(step, decimals),
+            scale,
         }
+    }
+
+    /// An axis with a tick at every multiple of `step`, with `decimals` digits after the point.
+    pub fn linear(label: &str, range: (f64, f64), step: f64, decimals: usize) -> Self {
+        Self::new(label, range, Scale::Linear(step, decimals))
     }
 
     /// An axis over `range` with about five ticks.
@@ -46,20 +50,12 @@ impl Axis {
 
     /// A logarithmic axis.
     pub fn log(label: &str, range: (f64, f64)) -> Self {
-        Self {
-            label: label.to_owned(),
-            range,
-            scale: Scale::Log,
-        }
+        Self::new(label, range, Scale::Log)
     }
 
     /// An axis without ticks, for things named elsewhere, one at each whole number from 1 on.
     pub fn bare(range: (f64, f64)) -> Self {
-        Self {
-            label: String::new(),
-            range,
-            scale: Scale::Bare,
-        }
+        Self::new("", range, Scale::Bare)
     }
 
     /// The floor friction, over the range of Fig. 2(a).

@@ -107,6 +107,6 @@ fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
 
 /// A setting of the paper, as a vertical line.
 fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
-    panel.line(GUIDE, [(value, Some(low)), (value, Some(high))]);
+    panel.line(GUIDE, [(value, low), (value, high)]);
     panel.words("paper", (1.15 * value, 2.0 * low), Anchor::Start);
 }

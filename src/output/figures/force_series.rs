@@ -37,7 +37,7 @@ fn whole(series: &ForceSeries) -> Panel {
         panel.words("exact limit", (0.02 * end, 1.02 * limit), Anchor::Start);
     }
     let rows = series.rows.iter();
-    panel.line(EXACT, rows.map(|&(time, force)| (time / LONG, Some(force))));
+    panel.line(EXACT, rows.map(|&(time, force)| (time / LONG, force)));
     panel
 }
 
@@ -55,10 +55,7 @@ fn around_the_peak(series: &ForceSeries) -> Panel {
     );
     panel.level(GUIDE, limit);
     let rows = series.rows.iter();
-    panel.line(
-        EXACT,
-        rows.map(|&(time, force)| (time - peak.0, Some(force))),
-    );
+    panel.line(EXACT, rows.map(|&(time, force)| (time - peak.0, force)));
     let slip = series.slip_force;
     let slip = slip.and_then(|force| first_reaching(&series.rows, force));
     panel.marks(ONSET, slip.map(|slip| (slip.0 - peak.0, slip.1)));

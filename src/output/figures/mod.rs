@@ -74,7 +74,7 @@ impl Figure {
         self.drawing.svg()
     }
 
-    /// The figure as a page of its own size, with its font embedded: the same bytes on every machine.
+    /// The figure as a page of its own size, with its letters as outlines: the same bytes on every machine.
     pub fn pdf(&self) -> Vec<u8> {
         self.drawing.pdf()
     }

@@ -86,7 +86,7 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
     panel.key(Sample::Heading, "kₙ r/(m g)");
     for (stiffness, stroke) in PAPER_STIFFNESSES.into_iter().zip(STIFFNESS_STROKES) {
         let points = drawn.clone().filter(|point| point.stiffness == stiffness);
-        let points = points.map(|point| (point.mu, Some(100.0 * point.difference)));
+        let points = points.map(|point| (point.mu, 100.0 * point.difference));
         panel.line(stroke, points);
         panel.key(Sample::Line(stroke), &power_of_ten(stiffness));
     }

@@ -1,7 +1,7 @@
 //! A panel: axes and everything drawn between them.
 
 use super::axis::{Axis, Scale};
-use super::drawing::{Drawing, Paint, Place};
+use super::drawing::{Drawing, Paint, Place, Setting};
 use super::style::{
     FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark, PADDING,
     SPACING, Shape, TEXT_SIZE, TICK,
@@ -19,15 +19,10 @@ pub(super) struct Panel {
     areas: Vec<(&'static str, Vec<Point>)>,
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
-    words: Vec<Words>,
+    /// With their places in parts of the panel, from its upper left corner.
+    words: Vec<(String, Point, Anchor)>,
     key: Vec<(Sample, String)>,
     key_place: Point,
-}
-
-struct Words {
-    text: String,
-    place: Point,
-    anchor: Anchor,
 }
 
 /// The sample beside the words of a key.
@@ -54,10 +49,14 @@ impl Panel {
     }
 
     /// A line through `points`, interrupted at missing values.
-    pub fn line(&mut self, stroke: Stroke, points: impl IntoIterator<Item = (f64, Option<f64>)>) {
+    pub fn line<Y: Into<Option<f64>>>(
+        &mut self,
+        stroke: Stroke,
+        points: impl IntoIterator<Item = (f64, Y)>,
+    ) {
         let mut part = Vec::new();
         for (x, y) in points {
-            match y.filter(|&y| self.y.scale != Scale::Log || y > 0.0) {
+            match y.into().filter(|&y| self.y.scale != Scale::Log || y > 0.0) {
                 Some(y) => part.push((x, y)),
                 None => self.lines.push((stroke, std::mem::take(&mut part))),
             }
@@ -82,13 +81,13 @@ impl Panel {
     /// A horizontal line across the panel.
     pub fn level(&mut self, stroke: Stroke, y: f64) {
         let (from, to) = self.x.range;
-        self.line(stroke, [(from, Some(y)), (to, Some(y))]);
+        self.line(stroke, [(from, y), (to, y)]);
     }
 
     /// A vertical line across the panel.
     pub fn upright(&mut self, stroke: Stroke, x: f64) {
         let (from, to) = self.y.range;
-        self.line(stroke, [(x, Some(from)), (x, Some(to))]);
+        self.line(stroke, [(x, from), (x, to)]);
     }
 
     /// A mark at each of `points`; those above or below the axis are drawn at its end.
@@ -101,13 +100,8 @@ impl Panel {
 
     /// Words at `place`, in units of the axes.
     pub fn words(&mut self, text: impl Into<String>, place: Point, anchor: Anchor) {
-        let text = text.into();
         let place = (self.x.part(place.0), 1.0 - self.y.part(place.1));
-        self.words.push(Words {
-            text,
-            place,
-            anchor,
-        });
+        self.words.push((text.into(), place, anchor));
     }
 
     /// Sets the upper left corner of the key, in parts of the panel from the panel's upper left corner.
@@ -167,8 +161,8 @@ impl View<'_> {
         for &(mark, point) in &panel.marks {
             draw_mark(drawing, mark, self.place(point));
         }
-        for words in &panel.words {
-            drawing.text(&words.text, self.at(words.place), TEXT_SIZE, words.anchor);
+        for (words, place, anchor) in &panel.words {
+            drawing.text(words, self.at(*place), TEXT_SIZE, *anchor);
         }
         self.key(drawing);
     }
@@ -193,9 +187,10 @@ impl View<'_> {
         let below = [0.5 * (left + right), bottom + MARGINS.3 - 6.5];
         drawing.text(&self.panel.x.label, below, LABEL_SIZE, Anchor::Middle);
         let beside = [left - MARGINS.0 + 15.8, 0.5 * (top + bottom)];
-        drawing.upward_text(&self.panel.y.label, beside, LABEL_SIZE);
+        let label = &self.panel.y.label;
+        drawing.set(label, beside, LABEL_SIZE, Anchor::Middle, Setting::Upwards);
         let corner = [left - MARGINS.0 + 8.0, top - 7.0];
-        drawing.bold_text(letter, corner, LETTER_SIZE);
+        drawing.set(letter, corner, LETTER_SIZE, Anchor::Start, Setting::Bold);
     }
 
     fn key(&self, drawing: &mut Drawing) {

@@ -22,7 +22,7 @@ fn bars(costs: &[StackCost]) -> Panel {
     let mut panel = Panel::new(time, Axis::bare((0.4, costs.len() as f64 + 0.8)));
     for (place, row) in beside_lanes(costs).iter().rev().enumerate() {
         let (y, ns_per_step) = (place as f64 + 1.0, row.0.median());
-        panel.line(BAR, [(1.0, Some(y)), (ns_per_step, Some(y))]);
+        panel.line(BAR, [(1.0, y), (ns_per_step, y)]);
         let ratio = times_lanes(row).map_or_else(String::new, |ratio| {
             format!(", {} times native-lanes", plain(ratio))
         });
@@ -45,10 +45,7 @@ fn speedups(rows: &[ScalingRow]) -> Panel {
     );
     let points = || rows.iter().map(|row| (row.cases as f64, row.speedup));
     panel.level(GUIDE, 1.0);
-    panel.line(
-        EXACT,
-        points().map(|(cases, speedup)| (cases, Some(speedup))),
-    );
+    panel.line(EXACT, points());
     panel.marks(POINT, points());
     panel
 }

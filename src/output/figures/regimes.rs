@@ -4,12 +4,11 @@ use super::axis::Axis as Ruler;
 use super::drawing::Drawing;
 use super::panel::{Anchor, Panel, Point, Stroke, draw};
 use super::style::{
-    BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NO_PEAK_TOUCHING, NOT_CONFIRMED,
-    SATURATES, SATURATES_TOUCHING, YIELDS, YIELDS_TOUCHING,
+    BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NOT_CONFIRMED, SATURATES, YIELDS,
 };
 use crate::model::Stack;
 use crate::study::Verdict;
-use crate::study::regimes::{Confirmation, Survey};
+use crate::study::regimes::Survey;
 use crate::theory::{
     Axis, Boundary, EquilibriumPath, Event, FailureMode, LoadingOutcome, RegimeMap,
     released_frictions,
@@ -64,17 +63,14 @@ fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
         for band in &strip.bands {
             panel.area(look(band.region).0, band.outline(strip));
         }
-        for curve in &strip.curves {
-            let frictions = curve.frictions.iter().map(|&friction| Some(friction));
-            panel.line(curve.stroke(), strip.values.iter().copied().zip(frictions));
+        for (stroke, frictions) in &strip.curves {
+            let points = strip.values.iter().zip(frictions);
+            panel.line(*stroke, points.map(|(&value, &friction)| (value, friction)));
         }
     }
     for line in map.lines() {
         let ends = [map.lowest_friction_of(line), map.frictions.1];
-        panel.line(
-            BOUNDARY,
-            ends.map(|friction| (line.value(), Some(friction))),
-        );
+        panel.line(BOUNDARY, ends.map(|friction| (line.value(), friction)));
     }
     mark(&mut panel, map, survey);
     label(&mut panel, map, &strips);
@@ -93,7 +89,8 @@ fn ruler(map: &RegimeMap) -> Ruler {
 struct Strip {
     values: Vec<f64>,
     bands: Vec<Band>,
-    curves: Vec<Curve>,
+    /// The boundaries between the bands.
+    curves: Vec<(Stroke, Vec<f64>)>,
 }
 
 /// A region on a strip.
@@ -101,12 +98,6 @@ struct Band {
     region: Region,
     lower: Vec<f64>,
     upper: Vec<f64>,
-}
-
-/// A boundary on a strip: of events, or of endings alone.
-struct Curve {
-    frictions: Vec<f64>,
-    of_events: bool,
 }
 
 impl Strip {
@@ -141,15 +132,6 @@ impl Band {
     }
 }
 
-impl Curve {
-    fn stroke(&self) -> Stroke {
-        match self.of_events {
-            true => BOUNDARY,
-            false => BOUNDARY_OF_ENDINGS,
-        }
-    }
-}
-
 fn strips(map: &RegimeMap) -> Vec<Strip> {
     let mut cuts: Vec<f64> = map.lines().iter().map(|line| line.value()).collect();
     cuts.extend(map.reopenings());
@@ -167,13 +149,13 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
         ..*map
     };
     let values = part.axis_values(SAMPLES);
-    let levels: Vec<Vec<(f64, bool)>> = values.iter().map(|&value| levels(map, value)).collect();
+    let levels: Vec<Vec<(f64, Stroke)>> = values.iter().map(|&value| levels(map, value)).collect();
     let count = levels.iter().map(Vec::len).min().unwrap_or(0);
-    let (lowest, highest) = (0.0, map.frictions.1);
+    let highest = map.frictions.1;
     let edge = |level: usize, index: usize| match level {
-        0 => lowest,
+        0 => 0.0,
         level if level > count => highest,
-        level => levels[index][level - 1].0.clamp(lowest, highest),
+        level => levels[index][level - 1].0.clamp(0.0, highest),
     };
     let curve = |level: usize| (0..SAMPLES).map(|index| edge(level, index)).collect();
     let middle = SAMPLES / 2;
@@ -185,31 +167,28 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
             upper: curve(level + 1),
         })
     });
-    let bands: Vec<Band> = bands.collect();
-    let curves = (1..=count).map(|level| Curve {
-        frictions: curve(level),
-        of_events: levels[middle][level - 1].1,
-    });
+    let bands = bands.collect();
+    let curves = (1..=count).map(|level| (levels[middle][level - 1].1, curve(level)));
+    let curves = curves.collect();
     Strip {
-        curves: curves.collect(),
-        bands,
         values,
+        bands,
+        curves,
     }
 }
 
-/// The floor frictions of the boundaries at a value on the axis, lowest first, and whether another event comes first
-/// beyond them.
-fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, bool)> {
+/// The floor frictions of the boundaries at a value on the axis, lowest first, with their strokes.
+fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, Stroke)> {
     let stack = map.axis.set(&map.base, value);
     let path = EquilibriumPath::new(&stack);
     let events = Boundary::in_friction(&path, &stack).into_iter();
-    let mut levels: Vec<(f64, bool)> = events
-        .map(|boundary| (boundary.floor_friction, true))
+    let mut levels: Vec<(f64, Stroke)> = events
+        .map(|boundary| (boundary.floor_friction, BOUNDARY))
         .collect();
     if let Some((low, high)) = released_frictions(&stack) {
         let closed_at_wall = path.wall_contact_outward().is_some_and(|y| y < 0.0);
-        levels.extend((path.settled_outward() < 0.0).then_some((low, false)));
-        levels.extend(closed_at_wall.then_some((high, false)));
+        levels.extend((path.settled_outward() < 0.0).then_some((low, BOUNDARY_OF_ENDINGS)));
+        levels.extend(closed_at_wall.then_some((high, BOUNDARY_OF_ENDINGS)));
     }
     levels.sort_by(|left, right| left.0.total_cmp(&right.0));
     levels
@@ -228,25 +207,16 @@ fn region(stack: &Stack) -> Option<Region> {
 }
 
 /// Colour and words of a region.
-fn look((ending, shares): Region) -> (&'static str, &'static [&'static str]) {
-    match (ending, shares) {
-        (Ending::Falls, _) => (FALLS, &["falls under own weight"]),
-        (Ending::Yields, false) => (YIELDS, &["floor slips:", "yield force"]),
-        (Ending::Yields, true) => (
-            YIELDS_TOUCHING,
-            &["2–3 touch,", "floor slips:", "yield force"],
-        ),
-        (Ending::Saturates, false) => (SATURATES, &["cylinders slip:", "saturated"]),
-        (Ending::Saturates, true) => (
-            SATURATES_TOUCHING,
-            &["2–3 touch,", "cylinders slip:", "saturated"],
-        ),
-        (Ending::NoPeak, false) => (NO_PEAK, &["wall contact:", "no peak"]),
-        (Ending::NoPeak, true) => (
-            NO_PEAK_TOUCHING,
-            &["2–3 touch,", "wall contact:", "no peak"],
-        ),
-    }
+fn look((ending, shares): Region) -> (&'static str, Vec<&'static str>) {
+    let (colours, words) = match ending {
+        Ending::Falls => (FALLS, vec!["falls under own weight"]),
+        Ending::Yields => (YIELDS, vec!["floor slips:", "yield force"]),
+        Ending::Saturates => (SATURATES, vec!["cylinders slip:", "saturated"]),
+        Ending::NoPeak => (NO_PEAK, vec!["wall contact:", "no peak"]),
+    };
+    let touch = (shares && ending != Ending::Falls).then_some("2–3 touch,");
+    let words = touch.into_iter().chain(words).collect();
+    (colours[usize::from(shares)], words)
 }
 
 /// Names each region once, in the middle of the widest part of the axis that it spans without a gap.
@@ -293,34 +263,31 @@ fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
 fn name(panel: &mut Panel, region: Region, (x, y): Point) {
     let (_, words) = look(region);
     let top = y + 0.5 * LINE_HEIGHT * (words.len() as f64 - 2.0);
-    for (index, &line) in words.iter().enumerate() {
+    for (index, line) in words.into_iter().enumerate() {
         let place = (x, top - LINE_HEIGHT * index as f64);
         panel.words(line, place, Anchor::Middle);
     }
 }
 
-/// Dots where native runs agree on both sides, crosses where they do not.
+/// A dot where native runs agree on both sides, a cross where they do not.
 fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
-    let place = |confirmation: &Confirmation| {
-        let stack = &confirmation.point.stack;
-        (map.axis.get(stack), stack.floor_friction)
-    };
-    let of_map = survey.confirmations.iter();
-    let of_map = of_map.filter(|confirmation| confirmation.point.map == map.axis);
-    let (agreeing, others): (Vec<&Confirmation>, Vec<&Confirmation>) =
-        of_map.partition(|confirmation| confirmation.verdict() == Verdict::Agrees);
-    let (released, contradicted) = released_places(map, survey);
-    panel.marks(CONFIRMED, agreeing.into_iter().map(place).chain(released));
-    panel.marks(
-        NOT_CONFIRMED,
-        others.into_iter().map(place).chain(contradicted),
-    );
+    let confirmations = survey.confirmations.iter();
+    let of_map = confirmations.filter(|own| own.point.map == map.axis);
+    let of_map = of_map.map(|own| {
+        let stack = &own.point.stack;
+        let place = (map.axis.get(stack), stack.floor_friction);
+        (place, own.verdict() == Verdict::Agrees)
+    });
+    let all = of_map.chain(released_places(map, survey));
+    let (agreeing, others): (Vec<_>, Vec<_>) = all.partition(|(_, agrees)| *agrees);
+    for (mark, places) in [(CONFIRMED, agreeing), (NOT_CONFIRMED, others)] {
+        panel.marks(mark, places.into_iter().map(|(place, _)| place));
+    }
 }
 
-/// The examined points on the dashed lines: those where both neighbours agree with theory, and the others.
-fn released_places(map: &RegimeMap, survey: &Survey) -> (Vec<Point>, Vec<Point>) {
-    let (mut agreeing, mut others) = (Vec::new(), Vec::new());
-    for pair in survey.examinations.windows(2) {
+/// The examined points on the dashed lines, and whether both neighbours agree with theory.
+fn released_places(map: &RegimeMap, survey: &Survey) -> impl Iterator<Item = (Point, bool)> {
+    survey.examinations.windows(2).filter_map(|pair| {
         let [below, above] = [&pair[0], &pair[1]];
         let value = map.axis.get(&below.stack);
         let friction = 0.5 * (below.stack.floor_friction + above.stack.floor_friction);
@@ -330,12 +297,7 @@ fn released_places(map: &RegimeMap, survey: &Survey) -> (Vec<Point>, Vec<Point>)
         };
         let close = above.stack.floor_friction - below.stack.floor_friction < 0.01 * friction;
         let on_map = map.stack(value, below.stack.floor_friction) == below.stack;
-        if beside != below.stack || !close || !on_map {
-            continue;
-        }
         let agree = [below, above].map(|side| side.verdict) == [Verdict::Agrees; 2];
-        let points = if agree { &mut agreeing } else { &mut others };
-        points.push((value, friction));
-    }
-    (agreeing, others)
+        (beside == below.stack && close && on_map).then_some(((value, friction), agree))
+    })
 }

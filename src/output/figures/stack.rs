@@ -42,7 +42,7 @@ const LARGE: f64 = 14.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct StackPanel<'a> {
     /// The name of the moment, such as "at rest".
-    pub title: String,
+    pub title: &'static str,
     /// The stack.
     pub frame: &'a Frame,
     /// Whether the forces between the cylinders are among its contacts.
@@ -63,8 +63,8 @@ pub fn representative_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
     let half = bearing.min_by(|&i, &j| from_half(i).total_cmp(&from_half(j)));
     let fallen = |index: &usize| force(*index) < FALLEN * force(highest);
     let collapsing = half.filter(fallen).or((highest..=last).find(fallen));
-    let panel = |title: &str, index: usize| StackPanel {
-        title: title.to_owned(),
+    let panel = |title: &'static str, index: usize| StackPanel {
+        title,
         frame: &all[index],
         pair_forces_known: frames.pair_forces_known,
     };
@@ -116,29 +116,24 @@ pub(super) fn stack(snapshots: &Snapshots) -> Figure {
 /// The forces are those on each cylinder, from the contact inwards; where two cylinders touch, each has its
 /// own arrows.
 fn drawn(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> Drawing {
-    let frame_width = |panel: &StackPanel| reach(panel.frame) + 0.25;
-    let half_width = panels.iter().map(frame_width).fold(NARROWEST, f64::max);
-    let half_width = half_width.min(WIDEST);
-    let highest = panels
-        .iter()
-        .map(|panel| top(panel.frame))
-        .fold(2.0, f64::max)
-        .min(2.0 * WIDEST);
+    let widths = panels.iter().map(|panel| reach(panel.frame) + 0.25);
+    let half_width = widths.fold(NARROWEST, f64::max).min(WIDEST);
+    let heights = panels.iter().map(|panel| top(panel.frame));
+    let highest = heights.fold(2.0, f64::max).min(2.0 * WIDEST);
     let panel_width = 2.0 * half_width * SCALE;
     let floor = TITLE_HEIGHT + (highest + ABOVE_WALL) * SCALE;
     let below = floor + BELOW_FLOOR * SCALE;
     let height = below + FOOT_HEIGHT + CAPTION_LINE * (caption.len() as f64 + 1.0) + 8.0;
     let mut drawing = Drawing::new(panel_width * panels.len() as f64, height);
     for (index, panel) in panels.iter().enumerate() {
-        let middle = panel_width * (index as f64 + 0.5);
         let view = View {
-            middle,
+            middle: panel_width * (index as f64 + 0.5),
             floor,
             half_width,
             epsilon,
+            largest: largest_force(panel.frame),
         };
-        let letter = char::from(b'a' + (index % 26) as u8);
-        view.draw(&mut drawing, panel, letter);
+        view.draw(&mut drawing, panel, char::from(b'a' + (index % 26) as u8));
     }
     let mut line = below + FOOT_HEIGHT + 6.0;
     legend(&mut drawing, line);
@@ -151,28 +146,30 @@ fn drawn(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> Drawing {
 
 /// The largest horizontal distance of a cylinder's edge from the middle.
 fn reach(frame: &Frame) -> f64 {
-    let sides = frame.cylinders.iter();
-    sides
-        .map(|cylinder| cylinder.position[0].abs() + 1.0)
-        .fold(0.0, f64::max)
+    let cylinders = frame.cylinders.iter();
+    let sides = cylinders.map(|cylinder| cylinder.position[0].abs() + 1.0);
+    sides.fold(0.0, f64::max)
 }
 
 fn top(frame: &Frame) -> f64 {
-    let tops = frame.cylinders.iter();
-    tops.map(|cylinder| cylinder.position[1] + 1.0)
-        .fold(frame.wall_height, f64::max)
+    let cylinders = frame.cylinders.iter();
+    let tops = cylinders.map(|cylinder| cylinder.position[1] + 1.0);
+    tops.fold(frame.wall_height, f64::max)
+}
+
+fn largest_force(frame: &Frame) -> f64 {
+    let contacts = frame.contacts.iter();
+    let forces = contacts.flat_map(|own| [own.normal_force.abs(), own.tangential_force.abs()]);
+    forces.fold(0.0, f64::max)
 }
 
 /// Samples of both kinds of arrows.
 fn legend(drawing: &mut Drawing, y: f64) {
     let middle = y - 3.5;
-    arrow(drawing, [[12.0, middle], [40.0, middle]], Kind::Normal);
+    arrow(drawing, [[12.0, middle], [40.0, middle]], NORMAL_FORCE);
     drawing.text("normal force", [46.0, y], SMALL, Anchor::Start);
-    arrow(
-        drawing,
-        [[130.0, middle], [158.0, middle]],
-        Kind::Tangential,
-    );
+    let tangential = [[130.0, middle], [158.0, middle]];
+    arrow(drawing, tangential, TANGENTIAL_FORCE);
     let words = "tangential force on each cylinder, from the contact inwards; numbers in _m_ _g_";
     drawing.text(words, [164.0, y], SMALL, Anchor::Start);
 }
@@ -183,6 +180,8 @@ struct View {
     floor: f64,
     half_width: f64,
     epsilon: f64,
+    /// The largest force, in k_n r.
+    largest: f64,
 }
 
 impl View {
@@ -201,17 +200,11 @@ impl View {
         for (index, cylinder) in frame.cylinders.iter().enumerate() {
             self.cylinder(drawing, index, cylinder);
         }
-        let largest = largest_force(frame);
-        if largest > 0.0 {
-            let arrow = Arrows {
-                view: self,
-                per_force: LONGEST_ARROW / largest,
-                least: SMALLEST_SHARE * largest,
-            };
+        if self.largest > 0.0 {
             for contact in &frame.contacts {
-                arrow.contact(drawing, contact);
+                self.contact(drawing, contact);
             }
-            arrow.scale_bar(drawing, largest / self.epsilon);
+            self.scale_bar(drawing);
         }
         self.values(drawing, panel);
     }
@@ -259,104 +252,77 @@ impl View {
 
     /// The values of the forces, with the letters of the paper's figure.
     fn values(&self, drawing: &mut Drawing, panel: &StackPanel) {
-        let frame = panel.frame;
-        let find = |cylinder: usize, partner: Partner| {
-            let mut contacts = frame.contacts.iter();
-            contacts.find(|contact| contact.cylinder == cylinder && contact.partner == partner)
-        };
-        let value = |letter: &str, force: Option<f64>| {
-            let force = force.map_or_else(|| "0".to_owned(), |force| number(force / self.epsilon));
-            format!("_{letter}_ = {force}")
-        };
-        let normal = |contact: Option<&ContactPoint>| contact.map(|one| one.normal_force);
-        let shear = |contact: Option<&ContactPoint>| contact.map(|one| one.tangential_force.abs());
-        let pair = find(1, Partner::Cylinder(0));
-        let bottom = find(2, Partner::Cylinder(1));
-        let floor = find(1, Partner::Floor);
-        let mut parts = Vec::new();
-        if panel.pair_forces_known {
-            parts.push(value("a", normal(pair)));
-            parts.push(value("b", shear(pair)));
-            parts.push(value("c", normal(bottom)));
-        }
-        parts.push(value("d", normal(floor)));
-        parts.push(value("e", shear(floor)));
+        let pairs = [(1, Partner::Cylinder(0)), (2, Partner::Cylinder(1))];
+        let known = pairs.into_iter().filter(|_| panel.pair_forces_known);
+        let parts = known.chain([(1, Partner::Floor)]).flat_map(|contact| {
+            let mut all = panel.frame.contacts.iter();
+            let found = all.find(|one| (one.cylinder, one.partner) == contact);
+            let (normal, tangential) = letters(contact.1);
+            [
+                (normal, found.map_or(0.0, |one| one.normal_force)),
+                (
+                    tangential,
+                    found.map_or(0.0, |one| one.tangential_force.abs()),
+                ),
+            ]
+        });
+        let parts = parts.filter(|(letter, _)| !letter.is_empty());
+        let parts = parts.map(|(letter, force)| (letter, number(force / self.epsilon)));
+        let parts = parts.map(|(letter, force)| format!("_{letter}_ = {force}"));
+        let words = parts.collect::<Vec<_>>().join(",  ");
         let below = self.floor + BELOW_FLOOR * SCALE;
-        self.centred(drawing, parts.join(",  "), below + 10.0, SMALL);
+        self.centred(drawing, words, below + 10.0, SMALL);
     }
-}
 
-fn largest_force(frame: &Frame) -> f64 {
-    let contacts = frame.contacts.iter();
-    contacts
-        .flat_map(|contact| [contact.normal_force.abs(), contact.tangential_force.abs()])
-        .fold(0.0, f64::max)
-}
-
-/// The arrows of one panel, lengths in r.
-struct Arrows<'a> {
-    view: &'a View,
-    per_force: f64,
-    least: f64,
-}
-
-impl Arrows<'_> {
     /// The force on the cylinder, and the opposite one on its partner if that is a cylinder too.
     fn contact(&self, drawing: &mut Drawing, contact: &ContactPoint) {
         let partners = matches!(contact.partner, Partner::Cylinder(_));
         let sides: &[f64] = if partners { &[1.0, -1.0] } else { &[1.0] };
         for &side in sides {
-            let inwards = contact.normal.map(|component| side * component);
-            let along = contact.normal_vector().map(|component| side * component);
-            let across = contact
-                .tangential_vector()
-                .map(|component| side * component);
-            let start = shifted(
-                contact.position,
-                inwards,
-                SIDESTEP * f64::from(u8::from(partners)),
-            );
-            let named = if is_named(contact, side) {
-                letters(contact.partner)
-            } else {
-                ("", "")
+            let towards = |vector: [f64; 2]| vector.map(|component| side * component);
+            let inwards = towards(contact.normal);
+            let (along, across) = (contact.normal_vector(), contact.tangential_vector());
+            let named = match is_named(contact, side) {
+                true => letters(contact.partner),
+                false => ("", ""),
             };
-            self.arrow(drawing, start, along, Kind::Normal, named.0);
+            let start = if partners { SIDESTEP } else { 0.0 };
+            let start = shifted(contact.position, inwards, start);
+            self.arrow(drawing, start, towards(along), NORMAL_FORCE, named.0);
             let start = shifted(contact.position, inwards, 1.6 * SIDESTEP);
-            self.arrow(drawing, start, across, Kind::Tangential, named.1);
+            self.arrow(drawing, start, towards(across), TANGENTIAL_FORCE, named.1);
         }
     }
 
     fn arrow(
         &self,
         drawing: &mut Drawing,
-        start: [f64; 2],
-        force: [f64; 2],
-        kind: Kind,
+        start: Place,
+        force: Place,
+        stroke: Stroke,
         letter: &str,
     ) {
         let size = (force[0] * force[0] + force[1] * force[1]).sqrt();
-        if size < self.least {
+        if size < SMALLEST_SHARE * self.largest {
             return;
         }
-        let end = shifted(start, force, self.per_force);
-        arrow(drawing, [self.view.at(start), self.view.at(end)], kind);
+        let end = shifted(start, force, LONGEST_ARROW / self.largest);
+        arrow(drawing, [self.at(start), self.at(end)], stroke);
         if !letter.is_empty() {
-            let beyond = shifted(end, force, LETTER_DISTANCE / size);
-            let [x, y] = self.view.at(beyond);
+            let [x, y] = self.at(shifted(end, force, LETTER_DISTANCE / size));
             let letter = format!("_{letter}_");
             drawing.text(letter, [x, y + 4.0], MEDIUM, Anchor::Middle);
         }
     }
 
     /// A round force and its length.
-    fn scale_bar(&self, drawing: &mut Drawing, largest: f64) {
-        let round = round_below(largest);
-        let length = round * self.view.epsilon * self.per_force * SCALE;
-        let y = self.view.floor + BELOW_FLOOR * SCALE + 32.0;
+    fn scale_bar(&self, drawing: &mut Drawing) {
+        let round = round_below(self.largest / self.epsilon);
+        let length = round * self.epsilon * (LONGEST_ARROW / self.largest) * SCALE;
+        let y = self.floor + BELOW_FLOOR * SCALE + 32.0;
         let (from, to) = (
-            self.view.middle - 0.5 * length - 18.0,
-            self.view.middle + 0.5 * length - 18.0,
+            self.middle - 0.5 * length - 18.0,
+            self.middle + 0.5 * length - 18.0,
         );
         drawing.line([[from, y], [to, y]], PLANE);
         for end in [from, to] {
@@ -367,17 +333,9 @@ impl Arrows<'_> {
     }
 }
 
-/// The two kinds of force, told apart by colour and by the head of the arrow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    /// With a filled head.
-    Normal,
-    /// With an open head.
-    Tangential,
-}
-
-/// An arrow; the head of a short one shrinks with it.
-fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], kind: Kind) {
+/// An arrow with a filled head for a normal force, an open one for a tangential force. That of a short arrow shrinks
+/// with it.
+fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], stroke: Stroke) {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = (dx * dx + dy * dy).sqrt();
     if length == 0.0 {
@@ -388,19 +346,16 @@ fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], kind: Kind) {
     let across = [-along[1], along[0]];
     let foot = shifted(to, along, -head);
     let [left, right] = [0.42, -0.42].map(|share| shifted(foot, across, share * head));
-    match kind {
-        Kind::Normal => {
-            drawing.line([from, foot], NORMAL_FORCE);
-            drawing.polygon([left, to, right], Paint::Filled(NORMAL_FORCE.colour));
-        }
-        Kind::Tangential => {
-            let thinner = Stroke {
-                width: 1.6,
-                ..TANGENTIAL_FORCE
-            };
-            drawing.line([from, to], TANGENTIAL_FORCE);
-            drawing.line([left, to, right], thinner);
-        }
+    if stroke == NORMAL_FORCE {
+        drawing.line([from, foot], stroke);
+        drawing.polygon([left, to, right], Paint::Filled(stroke.colour));
+    } else {
+        drawing.line([from, to], stroke);
+        let thinner = Stroke {
+            width: 1.6,
+            ..stroke
+        };
+        drawing.line([left, to, right], thinner);
     }
 }
 
@@ -423,7 +378,7 @@ fn is_named(contact: &ContactPoint, side: f64) -> bool {
     on == 1 || contact.partner == Partner::TopWall
 }
 
-fn shifted(from: [f64; 2], direction: [f64; 2], by: f64) -> [f64; 2] {
+fn shifted(from: Place, direction: Place, by: f64) -> Place {
     [from[0] + by * direction[0], from[1] + by * direction[1]]
 }
 

@@ -4,7 +4,7 @@ use super::drawing::Stroke;
 pub(super) use crate::code::Shape;
 use crate::code::{Code, Colour};
 
-/// Fonts of an SVG, in order of preference. A PDF embeds DejaVu Sans.
+/// Fonts of an SVG, in order of preference. A PDF draws DejaVu Sans.
 pub(super) const FONT_FAMILY: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Size of letters in a panel, at ticks and in captions, in pixels.
 pub(super) const TEXT_SIZE: f64 = 11.0;
@@ -67,14 +67,12 @@ pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
 /// The boundaries in a regime map: another event comes first beyond it, or the same one ends otherwise.
 pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
 pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
-/// Colours of regions in a regime map: light enough for black text, of different lightness.
-pub(super) const FALLS: &str = "#bdbdbd";
-pub(super) const YIELDS: &str = "#fdf6dc";
-pub(super) const YIELDS_TOUCHING: &str = "#e3f1dc";
-pub(super) const SATURATES: &str = "#d3e3f3";
-pub(super) const SATURATES_TOUCHING: &str = "#c3d9df";
-pub(super) const NO_PEAK: &str = "#f0cdb4";
-pub(super) const NO_PEAK_TOUCHING: &str = "#bfd9b4";
+/// Colours of regions in a regime map, before and after contact 2–3 has closed: light enough for black text, of
+/// different lightness.
+pub(super) const FALLS: [&str; 2] = ["#bdbdbd"; 2];
+pub(super) const YIELDS: [&str; 2] = ["#fdf6dc", "#e3f1dc"];
+pub(super) const SATURATES: [&str; 2] = ["#d3e3f3", "#c3d9df"];
+pub(super) const NO_PEAK: [&str; 2] = ["#f0cdb4", "#bfd9b4"];
 
 /// The stack drawn to scale: cylinders, walls, orientations at the start and now.
 pub(super) const BODY: &str = "#5b7fa6";

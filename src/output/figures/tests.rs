@@ -189,30 +189,19 @@ fn every_point_is_marked() {
 
 #[test]
 fn the_axes_carry_symbols_and_units() {
-    for (name, labels) in [
-        (
-            "yield-curves",
-            ["floor friction μ", "F + 3 = (f + 3 m g)/(m g)"],
-        ),
-        (
-            "scaling",
-            ["stiffness kₙ r/(m g)", "F + 3 = (f + 3 m g)/(m g)"],
-        ),
-        (
-            "force-series",
-            ["time t/(10⁴ √(m/kₙ))", "wall force F = f/(m g)"],
-        ),
-        (
-            "convergence",
-            ["wall speed v/(r √(kₙ/m))", "time step Δt/√(m/kₙ)"],
-        ),
-        ("theory-error", ["floor friction μ", "stiffness kₙ r/(m g)"]),
-        ("model-form", ["floor friction μ", " in %"]),
-        ("regimes", ["floor friction μ", "stiffness ratio κ = kₙ/kₜ"]),
-        ("preparation", ["push A/(ε r)", "yield force F = f/(m g)"]),
-    ] {
+    const LABELS: &str = "
+        yield-curves: floor friction μ; F + 3 = (f + 3 m g)/(m g)
+        scaling: stiffness kₙ r/(m g); F + 3 = (f + 3 m g)/(m g)
+        force-series: time t/(10⁴ √(m/kₙ)); wall force F = f/(m g)
+        convergence: wall speed v/(r √(kₙ/m)); time step Δt/√(m/kₙ)
+        theory-error: floor friction μ; stiffness kₙ r/(m g)
+        model-form: floor friction μ;  in %
+        regimes: floor friction μ; stiffness ratio κ = kₙ/kₜ
+        preparation: push A/(ε r); yield force F = f/(m g)";
+    for line in LABELS.trim().lines() {
+        let (name, labels) = line.trim().split_once(": ").unwrap();
         let svg = figure(name).svg();
-        for label in labels {
+        for label in labels.split("; ") {
             assert!(svg.contains(label), "{name}: {label}");
         }
     }

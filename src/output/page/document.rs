@@ -70,7 +70,7 @@ pub(super) struct PageTable {
     pub table: Table,
     /// The same rows with every digit.
     #[serde(skip)]
-    pub csv: Vec<u8>,
+    pub csv: String,
     /// Whether it is folded on the page until it is opened or printed.
     pub long: bool,
     /// Number of rows shown.

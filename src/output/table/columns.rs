@@ -5,6 +5,8 @@ use crate::code::Code;
 use crate::model::{Arms, Stack};
 use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
+use serde::Serialize;
+use std::rc::Rc;
 
 /// Name, version and origin of a machine-readable table.
 #[derive(Debug, Clone, Copy)]
@@ -18,43 +20,68 @@ pub(crate) struct Schema {
     pub(crate) found_in: &'static str,
 }
 
-type ValueOf<'a, R> = Box<dyn Fn(&R) -> Value + 'a>;
-type CellOf<'a, R> = Box<dyn Fn(&R) -> String + 'a>;
-
-/// One column.
-pub(crate) struct Column<'a, R> {
+/// A column of a table with rows of type `R`.
+pub(super) struct Column<'a, R> {
     /// Name in CSV and JSON; empty for a column that is for people only.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Unit of a number, `1` for a pure one; empty for a text.
-    pub(crate) unit: &'static str,
-    pub(crate) meaning: &'static str,
-    pub(crate) value: ValueOf<'a, R>,
+    pub unit: &'static str,
+    pub meaning: &'static str,
     /// Name in tables for people; `None` for a column that they leave out.
-    pub(crate) heading: Option<&'static str>,
-    /// Format of its numbers in these tables.
-    pub(crate) digits: fn(f64) -> String,
+    pub heading: Option<&'static str>,
+    value: Box<dyn Fn(&R) -> Value + 'a>,
+    /// Format of its numbers in tables for people.
+    digits: fn(f64) -> String,
     /// Text for people in place of the value.
-    pub(crate) cell: Option<CellOf<'a, R>>,
+    cell: Option<Box<dyn Fn(&R) -> String + 'a>>,
+}
+
+impl<'a, R: 'a> Column<'a, R> {
+    pub fn value(&self, row: &R) -> Value {
+        (self.value)(row)
+    }
+
+    /// The value for people.
+    pub fn cell(&self, row: &R) -> String {
+        match &self.cell {
+            Some(cell) => cell(row),
+            None => self.value(row).shown(self.digits),
+        }
+    }
+
+    /// The column by the index of a row.
+    fn of(self, rows: Rc<[R]>) -> Column<'a, usize> {
+        let Self { value, cell, .. } = self;
+        let of_value = rows.clone();
+        Column {
+            value: Box::new(move |&row| value(&of_value[row])),
+            cell: cell.map(|cell| Box::new(move |&row: &usize| cell(&rows[row])) as Box<_>),
+            name: self.name,
+            unit: self.unit,
+            meaning: self.meaning,
+            heading: self.heading,
+            digits: self.digits,
+        }
+    }
 }
 
 /// The columns of a table with rows of type `R`, in order.
 ///
-/// [`Columns::shown`], [`Columns::digits`] and [`Columns::cell`] concern the column declared last, or the one named
-/// by [`Columns::again`].
+/// What follows a column (`means`, `shown`, `digits`, `cell`) concerns the one declared last, or the one named by
+/// [`Columns::again`].
 pub(crate) struct Columns<'a, R> {
-    pub(crate) schema: Schema,
-    pub(crate) list: Vec<Column<'a, R>>,
+    schema: Schema,
+    list: Vec<Column<'a, R>>,
     current: usize,
 }
 
 impl<'a, R: 'a> Columns<'a, R> {
     /// No columns yet, for version 1 of a table.
     pub(crate) fn new(name: &'static str, what: &'static str, found_in: &'static str) -> Self {
-        let version = 1;
         Self {
             schema: Schema {
                 name,
-                version,
+                version: 1,
                 what,
                 found_in,
             },
@@ -73,16 +100,15 @@ impl<'a, R: 'a> Columns<'a, R> {
         mut self,
         name: &'static str,
         unit: &'static str,
-        meaning: &'static str,
         value: impl Fn(&R) -> V + 'a,
     ) -> Self {
         self.current = self.list.len();
         self.list.push(Column {
             name,
             unit,
-            meaning,
-            value: Box::new(move |row| value(row).into()),
+            meaning: "",
             heading: None,
+            value: Box::new(move |row| value(row).into()),
             digits: |number| number.to_string(),
             cell: None,
         });
@@ -93,20 +119,34 @@ impl<'a, R: 'a> Columns<'a, R> {
     pub(crate) fn text<V: Into<Value>>(
         self,
         name: &'static str,
-        meaning: &'static str,
         value: impl Fn(&R) -> V + 'a,
     ) -> Self {
-        self.number(name, "", meaning, value)
+        self.number(name, "", value)
+    }
+
+    /// A column of the words of an enum in files, such as `floor-slip`.
+    pub(crate) fn word<V: Serialize>(
+        self,
+        name: &'static str,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        self.text(name, move |row| Value::word(value(row)))
+    }
+
+    /// Says in docs/formats.md what the column means.
+    pub(crate) fn means(mut self, meaning: &'static str) -> Self {
+        self.current().meaning = meaning;
+        self
     }
 
     /// A column that is for people only, aligned to the left.
     pub(crate) fn left(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
-        self.text("", "", cell).shown(heading)
+        self.text("", cell).means("").shown(heading)
     }
 
     /// A column that is for people only, aligned to the right.
     pub(crate) fn right(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
-        self.number("", "1", "", cell).shown(heading)
+        self.number("", "1", cell).means("").shown(heading)
     }
 
     /// Shows the column to people as `heading`, its numbers formatted by `digits`.
@@ -145,27 +185,17 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The parameters of a stack; people see stiffness and floor friction.
     pub(crate) fn stack(self, stack: impl Fn(&R) -> Stack + Copy + 'a) -> Self {
-        self.number(
-            "stiffness",
-            "m g/r",
-            "normal stiffness k_n, 1/ε",
-            move |row| stack(row).stiffness,
-        )
-        .shown("stiffness")
-        .number("mu", "1", "floor friction μ", move |row| {
-            stack(row).floor_friction
-        })
-        .shown("mu")
-        .digits(friction)
-        .number(
-            "mu_d",
-            "1",
-            "friction μ_d between the cylinders",
-            move |row| stack(row).cylinder_friction,
-        )
-        .number("kappa", "1", "stiffness ratio κ = k_n/k_t", move |row| {
-            stack(row).stiffness_ratio
-        })
+        self.number("stiffness", "m g/r", move |row| stack(row).stiffness)
+            .means("normal stiffness k_n, 1/ε")
+            .shown("stiffness")
+            .number("mu", "1", move |row| stack(row).floor_friction)
+            .means("floor friction μ")
+            .shown("mu")
+            .digits(friction)
+            .number("mu_d", "1", move |row| stack(row).cylinder_friction)
+            .means("friction μ_d between the cylinders")
+            .number("kappa", "1", move |row| stack(row).stiffness_ratio)
+            .means("stiffness ratio κ = k_n/k_t")
     }
 
     /// The arms of a contact convention.
@@ -173,30 +203,33 @@ impl<'a, R: 'a> Columns<'a, R> {
         let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
         let floor = "the same of cylinder–wall contacts";
         let kinematic = "the same of the surface velocity";
-        self.number("pair_torque_arm", "1", pair, move |row| {
-            arms(row).pair.torque
-        })
-        .number("pair_kinematic_arm", "1", kinematic, move |row| {
-            arms(row).pair.kinematic
-        })
-        .number("floor_torque_arm", "1", floor, move |row| {
-            arms(row).floor.torque
-        })
-        .number("floor_kinematic_arm", "1", kinematic, move |row| {
-            arms(row).floor.kinematic
-        })
+        self.number("pair_torque_arm", "1", move |row| arms(row).pair.torque)
+            .means(pair)
+            .number("pair_kinematic_arm", "1", move |row| {
+                arms(row).pair.kinematic
+            })
+            .means(kinematic)
+            .number("floor_torque_arm", "1", move |row| arms(row).floor.torque)
+            .means(floor)
+            .number("floor_kinematic_arm", "1", move |row| {
+                arms(row).floor.kinematic
+            })
+            .means(kinematic)
     }
 
     /// The code of a row.
     pub(crate) fn code(self, code: impl Fn(&R) -> Code + 'a) -> Self {
         let name = move |row: &R| code(row).as_str();
-        self.text("code", "name of the code", name).shown("code")
+        self.text("code", name)
+            .means("name of the code")
+            .shown("code")
     }
 
     /// The version of the code, which is hidden from people until `shown` is called.
     pub(crate) fn version(self, version: impl Fn(&R) -> &str + Copy + 'a) -> Self {
         let text = move |row: &R| Value::from(version(row));
-        self.text("version", "version of the code", text)
+        self.text("version", text)
+            .means("version of the code")
             .cell(move |row| or_dash(version(row)))
     }
 
@@ -204,18 +237,31 @@ impl<'a, R: 'a> Columns<'a, R> {
     pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
         let meaning =
             "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";
-        self.text("source", meaning, move |row| source(row).as_str())
+        self.text("source", move |row| source(row).as_str())
+            .means(meaning)
     }
 
     /// The verdict on a row.
     pub(crate) fn verdict(self, verdict: impl Fn(&R) -> Verdict + 'a) -> Self {
         let meaning = "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`; `agrees` alone is a pass";
-        self.text("verdict", meaning, move |row| verdict(row).as_str())
+        self.text("verdict", move |row| verdict(row).as_str())
+            .means(meaning)
             .shown("verdict")
     }
 
     /// The table with these `rows`.
     pub(crate) fn rows(self, rows: impl IntoIterator<Item = R>) -> DataTable<'a> {
-        DataTable::new(self, rows.into_iter().collect())
+        let explained = |column: &Column<R>| column.name.is_empty() || !column.meaning.is_empty();
+        debug_assert!(
+            self.list.iter().all(explained),
+            "every column has a meaning"
+        );
+        let rows: Rc<[R]> = rows.into_iter().collect();
+        let columns = self.list.into_iter();
+        DataTable {
+            schema: self.schema,
+            rows: rows.len(),
+            columns: columns.map(|column| column.of(rows.clone())).collect(),
+        }
     }
 }

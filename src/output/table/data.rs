@@ -1,94 +1,67 @@
 //! Declared columns with rows, in every format.
 
-use super::columns::{Columns, Schema};
+use super::columns::{Column, Columns, Schema};
 use super::{Table, Value};
-use serde::ser::{Serialize, SerializeMap, Serializer};
-
-/// A column without its values.
-#[derive(Debug, Clone)]
-struct Heading {
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-    heading: Option<&'static str>,
-}
+use serde::{Serialize, Serializer};
 
 /// A table with its values, which are computed when they are written.
 pub struct DataTable<'a> {
-    schema: Schema,
-    columns: Vec<Heading>,
-    rows: usize,
-    value: Box<dyn Fn(usize, usize) -> Value + 'a>,
-    cell: Box<dyn Fn(usize, usize) -> String + 'a>,
+    pub(super) schema: Schema,
+    /// By the index of a row.
+    pub(super) columns: Vec<Column<'a, usize>>,
+    /// Number of rows.
+    pub(super) rows: usize,
 }
 
-impl<'a> DataTable<'a> {
-    pub(super) fn new<R: 'a>(declared: Columns<'a, R>, rows: Vec<R>) -> Self {
-        let columns = declared.list.iter().map(|column| Heading {
-            name: column.name,
-            unit: column.unit,
-            meaning: column.meaning,
-            heading: column.heading,
-        });
-        let (columns, count) = (columns.collect(), rows.len());
-        let shared = std::rc::Rc::new((declared.list, rows));
-        let values = shared.clone();
-        Self {
-            schema: declared.schema,
-            columns,
-            rows: count,
-            value: Box::new(move |row, column| (values.0[column].value)(&values.1[row])),
-            cell: Box::new(move |row, column| {
-                let (column, row) = (&shared.0[column], &shared.1[row]);
-                match &column.cell {
-                    Some(cell) => cell(row),
-                    None => (column.value)(row).shown(column.digits),
-                }
-            }),
+impl DataTable<'_> {
+    /// The JSON object, with the `command` that made it unless that stands above it.
+    fn object<'b>(&'b self, command: Option<&'b str>) -> Object<'b> {
+        Object {
+            schema: format!("tristack/{}/{}", self.schema.name, self.schema.version),
+            command,
+            units: Units(self),
+            rows: Rows(self),
         }
-    }
-
-    /// Name and version, as in JSON.
-    pub(crate) fn schema(&self) -> String {
-        format!("tristack/{}/{}", self.schema.name, self.schema.version)
     }
 
     pub(crate) fn is_empty(&self) -> bool {
         self.rows == 0
     }
 
-    /// The machine-readable columns, with their index.
-    fn named(&self) -> impl Iterator<Item = (usize, &Heading)> {
-        let all = self.columns.iter().enumerate();
-        all.filter(|(_, column)| !column.name.is_empty())
+    /// The machine-readable columns.
+    fn named(&self) -> impl Iterator<Item = &Column<'_, usize>> {
+        let all = self.columns.iter();
+        all.filter(|column| !column.name.is_empty())
+    }
+
+    /// The columns for people with their headings.
+    fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> {
+        let all = self.columns.iter();
+        all.filter_map(|column| Some((column.heading?, column)))
     }
 
     /// The machine-readable columns as CSV, with every digit.
-    pub(crate) fn csv(&self) -> Vec<u8> {
+    pub(crate) fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let names: Vec<&str> = self.named().map(|(_, column)| column.name).collect();
-        let header = writer.write_record(names);
+        let header = writer.write_record(self.named().map(|column| column.name));
         header.expect("names are written to memory");
         for row in 0..self.rows {
-            let values: Vec<Value> = self.named().map(|(at, _)| (self.value)(row, at)).collect();
+            let values: Vec<Value> = self.named().map(|column| column.value(&row)).collect();
             let written = writer.serialize(values);
             written.expect("plain values are written to memory");
         }
-        writer.into_inner().expect("memory is flushed")
+        let bytes = writer.into_inner().expect("memory is flushed");
+        String::from_utf8(bytes).expect("values are text")
     }
 
     /// The columns for people.
     pub fn shown(&self) -> Table {
-        let all = self.columns.iter().enumerate();
-        let shown = all.filter_map(|(at, column)| Some((at, column.heading?, column.unit)));
-        let shown: Vec<(usize, &str, &str)> = shown.collect();
+        let headings = self.headed();
         let mut table = Table::new(
-            shown
-                .iter()
-                .map(|(_, name, unit)| (name.to_string(), !unit.is_empty())),
+            headings.map(|(heading, column)| (heading.to_owned(), !column.unit.is_empty())),
         );
         for row in 0..self.rows {
-            table.push(shown.iter().map(|(at, ..)| (self.cell)(row, *at)).collect());
+            table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
         }
         table
     }
@@ -98,14 +71,12 @@ impl<'a> DataTable<'a> {
         let numbers = names.iter().map(|name| (name.to_string(), true));
         let first = [("quantity".to_owned(), false)].into_iter();
         let mut table = Table::new(first.chain(numbers).chain([("unit".to_owned(), false)]));
-        for (at, column) in self.columns.iter().enumerate() {
-            if let Some(heading) = column.heading {
-                let unit = if column.unit == "1" { "" } else { column.unit };
-                let mut cells = vec![heading.to_owned()];
-                cells.extend((0..self.rows).map(|row| (self.cell)(row, at)));
-                cells.push(unit.to_owned());
-                table.push(cells);
-            }
+        for (heading, column) in self.headed() {
+            let unit = if column.unit == "1" { "" } else { column.unit };
+            let mut cells = vec![heading.to_owned()];
+            cells.extend((0..self.rows).map(|row| column.cell(&row)));
+            cells.push(unit.to_owned());
+            table.push(cells);
         }
         table
     }
@@ -118,11 +89,11 @@ impl<'a> DataTable<'a> {
             found_in,
             ..
         } = self.schema;
-        let columns = Columns::<&Heading>::for_people()
+        let columns = Columns::<&Column<usize>>::for_people()
             .left("column", |column| format!("`{}`", column.name))
             .left("unit", |column| column.unit.to_owned())
             .left("meaning", |column| column.meaning.to_owned())
-            .rows(self.named().map(|(_, column)| column))
+            .rows(self.named())
             .shown();
         format!(
             "## {name}\n\n{what} In {found_in}.\n\n{}",
@@ -133,53 +104,41 @@ impl<'a> DataTable<'a> {
 
 /// `tables` as a JSON object with the `command` that made them. A single table has its `units` and `rows` in this
 /// object, several are objects in a list `tables`.
-pub(crate) fn json(tables: &[DataTable], command: &str) -> Vec<u8> {
-    let object = Object { tables, command };
-    let mut json = serde_json::to_vec_pretty(&object).expect("plain values have a JSON form");
-    json.push(b'\n');
-    json
+pub(crate) fn json(tables: &[DataTable], command: &str) -> String {
+    let json = match tables {
+        [table] => serde_json::to_string_pretty(&table.object(Some(command))),
+        _ => serde_json::to_string_pretty(&Objects {
+            schema: "tristack/tables/1",
+            command,
+            tables: tables.iter().map(|table| table.object(None)).collect(),
+        }),
+    };
+    json.expect("plain values have a JSON form") + "\n"
 }
 
-struct Object<'a> {
-    tables: &'a [DataTable<'a>],
+#[derive(Serialize)]
+struct Objects<'a> {
+    schema: &'static str,
     command: &'a str,
+    tables: Vec<Object<'a>>,
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    schema: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    command: Option<&'a str>,
+    units: Units<'a>,
+    rows: Rows<'a>,
 }
 
 struct Units<'a>(&'a DataTable<'a>);
 struct Rows<'a>(&'a DataTable<'a>);
 struct Row<'a>(&'a DataTable<'a>, usize);
 
-impl Serialize for Object<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        if let [table] = self.tables {
-            map.serialize_entry("schema", &table.schema())?;
-            map.serialize_entry("command", self.command)?;
-            map.serialize_entry("units", &Units(table))?;
-            map.serialize_entry("rows", &Rows(table))?;
-        } else {
-            map.serialize_entry("schema", "tristack/tables/1")?;
-            map.serialize_entry("command", self.command)?;
-            map.serialize_entry("tables", self.tables)?;
-        }
-        map.end()
-    }
-}
-
-impl Serialize for DataTable<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(3))?;
-        map.serialize_entry("schema", &self.schema())?;
-        map.serialize_entry("units", &Units(self))?;
-        map.serialize_entry("rows", &Rows(self))?;
-        map.end()
-    }
-}
-
 impl Serialize for Units<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = self.0.named().map(|(_, column)| column);
-        let units = columns.filter(|column| !column.unit.is_empty());
+        let units = self.0.named().filter(|column| !column.unit.is_empty());
         serializer.collect_map(units.map(|column| (column.name, column.unit)))
     }
 }
@@ -193,7 +152,6 @@ impl Serialize for Rows<'_> {
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self(table, row) = self;
-        let columns = table.named();
-        serializer.collect_map(columns.map(|(at, column)| (column.name, (table.value)(*row, at))))
+        serializer.collect_map(table.named().map(|column| (column.name, column.value(row))))
     }
 }

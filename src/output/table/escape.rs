@@ -49,70 +49,30 @@ fn character(character: char) -> String {
         '<' => "$<$",
         '>' => "$>$",
         other => {
-            return symbol(other).map_or_else(|| other.to_string(), |name| format!("${name}$"));
+            let name = symbol(other).map(|name| format!("${name}$"));
+            return name.unwrap_or_else(|| other.to_string());
         }
     };
     command.to_owned()
 }
 
+/// Symbols, each with its TeX command.
+const SYMBOLS: &str = r"
+    α \alpha  β \beta  δ \delta  Δ \Delta  ε \epsilon  ϵ \epsilon  η \eta  θ \theta  Θ \Theta
+    κ \kappa  μ \mu  µ \mu  π \pi  ρ \rho  τ \tau  Φ \Phi  ψ \psi  ω \omega
+    ± \pm  × \times  · \cdot  ⋅ \cdot  − -  ∝ \propto  √ \surd  ∫ \int  ∂ \partial  ∞ \infty
+    ≤ \le  ≥ \ge  ≠ \ne  ≈ \approx  ≃ \simeq  ∼ \sim  ≡ \equiv  ≪ \ll  ≫ \gg  ≲ \lesssim  ≳ \gtrsim
+    → \to  ⋆ \star  ★ \star  ½ \tfrac12  ° ^\circ
+    ⁻ ^{-}  ⁰ ^0  ¹ ^1  ² ^2  ³ ^3  ⁴ ^4  ⁵ ^5  ⁶ ^6  ⁷ ^7  ⁸ ^8  ⁹ ^9
+    ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₙ _n  ₜ _t  ᵢ _i  ⱼ _j  ᵣ _r
+";
+
 /// The TeX command of a symbol.
-fn symbol(character: char) -> Option<String> {
-    for (digits, mark) in [("⁰¹²³⁴⁵⁶⁷⁸⁹", '^'), ("₀₁₂₃₄₅₆₇₈₉", '_')]
-    {
-        if let Some(value) = digits.chars().position(|digit| digit == character) {
-            return Some(format!("{mark}{value}"));
-        }
-    }
-    let name = match character {
-        'α' => "\\alpha",
-        'β' => "\\beta",
-        'δ' => "\\delta",
-        'Δ' => "\\Delta",
-        'ε' | 'ϵ' => "\\epsilon",
-        'η' => "\\eta",
-        'θ' => "\\theta",
-        'Θ' => "\\Theta",
-        'κ' => "\\kappa",
-        'μ' | 'µ' => "\\mu",
-        'π' => "\\pi",
-        'ρ' => "\\rho",
-        'τ' => "\\tau",
-        'Φ' => "\\Phi",
-        'ψ' => "\\psi",
-        'ω' => "\\omega",
-        '±' => "\\pm",
-        '×' => "\\times",
-        '·' | '⋅' => "\\cdot",
-        '−' => "-",
-        '⁻' => "^{-}",
-        '≤' => "\\le",
-        '≥' => "\\ge",
-        '≠' => "\\ne",
-        '≈' => "\\approx",
-        '≃' => "\\simeq",
-        '∼' => "\\sim",
-        '≡' => "\\equiv",
-        '≪' => "\\ll",
-        '≫' => "\\gg",
-        '≲' => "\\lesssim",
-        '≳' => "\\gtrsim",
-        '→' => "\\to",
-        '∞' => "\\infty",
-        '∝' => "\\propto",
-        '√' => "\\surd",
-        '∫' => "\\int",
-        '∂' => "\\partial",
-        '⋆' | '★' => "\\star",
-        'ₙ' => "_n",
-        'ₜ' => "_t",
-        'ᵢ' => "_i",
-        'ⱼ' => "_j",
-        'ᵣ' => "_r",
-        '½' => "\\tfrac12",
-        '°' => "^\\circ",
-        _ => return None,
-    };
-    Some(name.to_owned())
+fn symbol(character: char) -> Option<&'static str> {
+    let mut words = SYMBOLS.split_whitespace();
+    let mut pairs = std::iter::from_fn(|| words.next().zip(words.next()));
+    let found = pairs.find(|(symbol, _)| symbol.chars().eq([character]));
+    found.map(|(_, command)| command)
 }
 
 #[cfg(test)]

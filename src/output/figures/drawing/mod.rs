@@ -71,7 +71,7 @@ pub(super) enum Anchor {
 
 /// Weight and direction of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Setting {
+pub(super) enum Setting {
     Normal,
     Bold,
     /// Upwards.
@@ -121,8 +121,8 @@ impl Drawing {
 
     /// A polygon with its corners at `points`.
     pub fn polygon(&mut self, points: impl Into<Vec<Place>>, paint: Paint) {
-        self.elements
-            .push(Element::Path(points.into(), true, paint));
+        let path = Element::Path(points.into(), true, paint);
+        self.elements.push(path);
     }
 
     pub fn circle(&mut self, centre: Place, radius: f64, paint: Paint) {
@@ -131,23 +131,20 @@ impl Drawing {
 
     /// A line of text.
     pub fn text(&mut self, words: impl ToString, place: Place, size: f64, anchor: Anchor) {
-        self.set(words.to_string(), place, size, anchor, Setting::Normal);
+        self.set(words, place, size, anchor, Setting::Normal);
     }
 
-    /// A text in bold print.
-    pub fn bold_text(&mut self, words: impl ToString, place: Place, size: f64) {
-        self.set(words.to_string(), place, size, Anchor::Start, Setting::Bold);
-    }
-
-    /// A text that runs upwards, centred at `place`.
-    pub fn upward_text(&mut self, words: impl ToString, place: Place, size: f64) {
-        let words = words.to_string();
-        self.set(words, place, size, Anchor::Middle, Setting::Upwards);
-    }
-
-    fn set(&mut self, words: String, place: Place, size: f64, anchor: Anchor, setting: Setting) {
+    /// A line of text, set in bold print or upwards.
+    pub fn set(
+        &mut self,
+        words: impl ToString,
+        place: Place,
+        size: f64,
+        anchor: Anchor,
+        setting: Setting,
+    ) {
         self.elements.push(Element::Text(Text {
-            words,
+            words: words.to_string(),
             place,
             size,
             anchor,

@@ -1,11 +1,11 @@
-//! A drawing as a PDF page of its size, with an embedded font, so that every machine writes the same bytes.
+//! A drawing as a PDF page of its size, with letters as outlines, so that every machine writes the same bytes.
 
-use super::font::{Fonts, OBJECTS, compressed};
+use super::font::Font;
 use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
 use super::{Anchor, Drawing, Element, Paint, Place, Setting, Stroke, TINT, Text};
 use crate::output::figures::style::INK;
 use pdf_writer::writers::ExtGraphicsState;
-use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
 /// Points in a pixel: an SVG has 96 pixels to the inch, a PDF 72 points.
 const POINTS: f32 = 0.75;
@@ -15,7 +15,6 @@ const CATALOGUE: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
-const FIRST_FONT: i32 = 5;
 /// The graphics state for tints.
 const TINTED: Name = Name(b"Tinted");
 
@@ -23,117 +22,99 @@ impl Drawing {
     /// The drawing as a PDF: the same bytes for the same drawing on every machine.
     pub fn pdf(&self) -> Vec<u8> {
         let (width, height) = (self.width as f32 * POINTS, self.height as f32 * POINTS);
-        let mut page = Page {
-            content: Content::new(),
-            fonts: Fonts::new(),
-        };
-        page.content
-            .transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
+        let mut content = Content::new();
+        content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
         for element in &self.elements {
-            page.element(element);
+            draw(&mut content, element);
         }
-        page.finish(Rect::new(0.0, 0.0, width, height))
+        document(content, Rect::new(0.0, 0.0, width, height))
     }
 }
 
-struct Page {
-    content: Content,
-    fonts: Fonts,
+/// A PDF of one page.
+fn document(content: Content, size: Rect) -> Vec<u8> {
+    let mut pdf = Pdf::new();
+    pdf.catalog(CATALOGUE).pages(PAGES);
+    pdf.pages(PAGES).kids([PAGE]).count(1);
+    let mut page = pdf.page(PAGE);
+    page.media_box(size).parent(PAGES).contents(CONTENT);
+    let mut resources = page.resources();
+    let mut states = resources.ext_g_states();
+    let mut tinted = states.insert(TINTED).start::<ExtGraphicsState>();
+    tinted.non_stroking_alpha(TINT as f32);
+    tinted.finish();
+    states.finish();
+    resources.finish();
+    page.finish();
+    let content = miniz_oxide::deflate::compress_to_vec_zlib(&content.finish(), 6);
+    pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
+    pdf.finish()
 }
 
-impl Page {
-    fn element(&mut self, element: &Element) {
-        match element {
-            Element::Path(points, closed, paint) => {
-                self.paint(*paint, |content| trace(content, points, *closed));
-            }
-            Element::Circle(centre, radius, paint) => {
-                self.paint(*paint, |content| trace_circle(content, *centre, *radius));
-            }
-            Element::Text(text) => self.text(text),
+fn draw(content: &mut Content, element: &Element) {
+    match element {
+        Element::Path(points, closed, paint) => {
+            draw_shape(content, *paint, |content| trace(content, points, *closed));
         }
-    }
-
-    fn paint(&mut self, paint: Paint, trace: impl Fn(&mut Content)) {
-        let content = &mut self.content;
-        content.save_state();
-        if let Some((colour, opacity)) = paint.fill() {
-            if opacity < 1.0 {
-                content.set_parameters(TINTED);
-            }
-            let [red, green, blue] = parts(colour);
-            content.set_fill_rgb(red, green, blue);
-            trace(content);
-            content.fill_nonzero();
+        Element::Circle(centre, radius, paint) => {
+            draw_shape(content, *paint, |content| {
+                trace_circle(content, *centre, *radius);
+            });
         }
-        if let Some(stroke) = paint.stroke() {
-            set_stroke(content, stroke);
-            trace(content);
-            content.stroke();
-        }
-        content.restore_state();
-    }
-
-    fn text(&mut self, text: &Text) {
-        let mut width = 0.0;
-        let mut words = Vec::new();
-        for (style, part) in spans(&text.words) {
-            let (scale, drop) = match style {
-                Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
-                Style::Plain | Style::Italic => (1.0, 0.0),
-            };
-            let font = Fonts::index(style, text.setting == Setting::Bold);
-            let (glyphs, part_width) = self.fonts.get(font).encode(part);
-            width += scale * text.size * part_width;
-            words.push((font, scale * text.size, drop, glyphs));
-        }
-        let content = &mut self.content;
-        let [red, green, blue] = parts(INK);
-        content.begin_text().set_fill_rgb(red, green, blue);
-        content.set_text_matrix(matrix(text, width));
-        for (font, size, drop, glyphs) in words {
-            content
-                .set_font(Name(font_name(font).as_bytes()), size as f32)
-                .set_rise(-drop as f32)
-                .show(Str(&glyphs));
-        }
-        content.end_text();
-    }
-
-    fn finish(self, size: Rect) -> Vec<u8> {
-        let fonts: Vec<_> = self
-            .fonts
-            .used()
-            .zip((FIRST_FONT..).step_by(OBJECTS))
-            .collect();
-        let mut pdf = Pdf::new();
-        pdf.catalog(CATALOGUE).pages(PAGES);
-        pdf.pages(PAGES).kids([PAGE]).count(1);
-        let mut page = pdf.page(PAGE);
-        page.media_box(size).parent(PAGES).contents(CONTENT);
-        let mut resources = page.resources();
-        let mut names = resources.fonts();
-        for ((index, _), place) in &fonts {
-            names.pair(Name(font_name(*index).as_bytes()), Ref::new(*place));
-        }
-        names.finish();
-        let mut states = resources.ext_g_states();
-        let mut tinted = states.insert(TINTED).start::<ExtGraphicsState>();
-        tinted.non_stroking_alpha(TINT as f32);
-        tinted.finish();
-        states.finish();
-        resources.finish();
-        page.finish();
-        let content = compressed(&self.content.finish());
-        pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
-        for ((_, font), place) in fonts {
-            font.write(&mut pdf, place);
-        }
-        pdf.finish()
+        Element::Text(text) => draw_text(content, text),
     }
 }
 
-/// The text matrix of a text of some width: its directions along and up and its start, in pixels to the right and
+fn draw_shape(content: &mut Content, paint: Paint, trace: impl Fn(&mut Content)) {
+    content.save_state();
+    if let Some((colour, opacity)) = paint.fill() {
+        if opacity < 1.0 {
+            content.set_parameters(TINTED);
+        }
+        let [red, green, blue] = parts(colour);
+        content.set_fill_rgb(red, green, blue);
+        trace(content);
+        content.fill_nonzero();
+    }
+    if let Some(stroke) = paint.stroke() {
+        set_stroke(content, stroke);
+        trace(content);
+        content.stroke();
+    }
+    content.restore_state();
+}
+
+fn draw_text(content: &mut Content, text: &Text) {
+    let bold = text.setting == Setting::Bold;
+    let words = spans(&text.words).into_iter().map(|(style, words)| {
+        let (scale, drop) = match style {
+            Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
+            Style::Plain | Style::Italic => (1.0, 0.0),
+        };
+        (
+            Font::new(style, bold),
+            scale * text.size,
+            drop as f32,
+            words,
+        )
+    });
+    let words: Vec<_> = words.collect();
+    let widths = words
+        .iter()
+        .map(|(font, size, _, words)| size * font.width(words));
+    let [red, green, blue] = parts(INK);
+    content.save_state();
+    content.set_fill_rgb(red, green, blue);
+    content.transform(matrix(text, widths.sum()));
+    for (font, size, drop, words) in words {
+        content.transform([1.0, 0.0, 0.0, 1.0, 0.0, -drop]);
+        font.draw(content, words, size);
+        content.transform([1.0, 0.0, 0.0, 1.0, 0.0, drop]);
+    }
+    content.restore_state();
+}
+
+/// The coordinates of a text of some width: its directions along and up and its start, in pixels to the right and
 /// down.
 fn matrix(text: &Text, width: f64) -> [f32; 6] {
     let before = match text.anchor {
@@ -189,8 +170,4 @@ fn set_stroke(content: &mut Content, stroke: Stroke) {
 fn parts(colour: &str) -> [f32; 3] {
     let part = |at: usize| u8::from_str_radix(colour.get(at..at + 2).unwrap_or("00"), 16);
     [1, 3, 5].map(|at| f32::from(part(at).unwrap_or(0)) / 255.0)
-}
-
-fn font_name(index: usize) -> String {
-    format!("F{index}")
 }

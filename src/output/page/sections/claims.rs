@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, Section};
 use crate::output::DataTable;
-use crate::output::table::{Columns, Value};
+use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 
 pub(super) fn errata(claims: &[ClaimJudgement]) -> Section {
@@ -23,20 +23,19 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         "A row is a displayed equation or number of the paper that does not hold as printed.",
         "`tristack report` (tables/errata.csv)",
     )
-    .text("claim", "name of the claim", |own| own.id.clone())
-    .text("place", "where it stands in the paper", |own| {
-        own.place.clone()
-    })
+    .text("claim", |own| own.id.clone())
+    .means("name of the claim")
+    .text("place", |own| own.place.clone())
+    .means("where it stands in the paper")
     .shown("place")
-    .text("statement", "what is printed", |own| own.statement.clone())
+    .text("statement", |own| own.statement.clone())
+    .means("what is printed")
     .shown("as printed")
-    .text("erratum", "what should stand there", |own| {
-        own.erratum.clone()
-    })
+    .text("erratum", |own| own.erratum.clone())
+    .means("what should stand there")
     .shown("should be")
-    .text("evidence", "what was compared, and the numbers", |own| {
-        own.evidence.clone()
-    })
+    .text("evidence", |own| own.evidence.clone())
+    .means("what was compared, and the numbers")
     .shown("evidence")
     .rows(wrong)
 }
@@ -59,33 +58,26 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         "A row is a checkable statement of the paper and the verdict on it.",
         "`tristack report` (tables/claims.csv, claims.json)",
     )
-    .text("id", "name of the claim", |own| own.id.clone())
+    .text("id", |own| own.id.clone())
+    .means("name of the claim")
     .shown("claim")
-    .text("place", "where it stands in the paper", |own| {
-        own.place.clone()
-    })
+    .text("place", |own| own.place.clone())
+    .means("where it stands in the paper")
     .shown("place")
-    .text("statement", "its text", |own| own.statement.clone())
+    .text("statement", |own| own.statement.clone())
+    .means("its text")
     .shown("statement")
-    .text("kind", "what kind of statement it is", |own| {
-        Value::word(own.kind)
-    })
-    .text(
-        "verdict",
-        "`holds`, `approximately`, `fails` or `untestable`",
-        |own| own.verdict.as_str(),
-    )
+    .word("kind", |own| own.kind)
+    .means("what kind of statement it is")
+    .text("verdict", |own| own.verdict.as_str())
+    .means("`holds`, `approximately`, `fails` or `untestable`")
     .shown("verdict")
     .cell(|own| in_words(own.verdict).to_owned())
-    .text("evidence", "what was compared, and the numbers", |own| {
-        own.evidence.clone()
-    })
+    .text("evidence", |own| own.evidence.clone())
+    .means("what was compared, and the numbers")
     .shown("evidence")
-    .text(
-        "erratum",
-        "what should stand there; only where that has been checked to hold",
-        |own| own.erratum.clone(),
-    )
+    .text("erratum", |own| own.erratum.clone())
+    .means("what should stand there; only where that has been checked to hold")
     .rows(claims)
 }
 

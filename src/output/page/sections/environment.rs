@@ -39,88 +39,78 @@ pub(super) fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
 }
 
 /// The runs of one program on one machine.
-struct Program<'a> {
-    identity: &'a Identity,
-    machine: &'a str,
-    runs: usize,
-    first: &'a str,
-    last: &'a str,
-    steps: u64,
-    seconds: f64,
-}
+type Program<'a> = Vec<&'a Provenance>;
 
 fn programs_of(provenances: &[Provenance]) -> Vec<Program<'_>> {
     let mut programs: Vec<Program> = Vec::new();
     for run in provenances {
-        let known = programs
-            .iter_mut()
-            .find(|program| *program.identity == run.identity && program.machine == run.machine);
-        match known {
-            Some(program) => {
-                program.runs += 1;
-                program.first = program.first.min(&run.date);
-                program.last = program.last.max(&run.date);
-                program.steps += run.steps;
-                program.seconds += run.seconds;
-            }
-            None => programs.push(Program {
-                identity: &run.identity,
-                machine: &run.machine,
-                runs: 1,
-                first: &run.date,
-                last: &run.date,
-                steps: run.steps,
-                seconds: run.seconds,
-            }),
+        let mut known = programs.iter_mut().map(|own| (own[0], own));
+        let same = |one: &Provenance| one.identity == run.identity && one.machine == run.machine;
+        match known.find(|(first, _)| same(first)) {
+            Some((_, program)) => program.push(run),
+            None => programs.push(vec![run]),
         }
     }
     programs
 }
 
 pub(crate) fn programs<'a>(provenances: &'a [Provenance], recorded: &'a [Code]) -> DataTable<'a> {
+    let identity = |own: &Program<'a>| -> &'a Identity { &own[0].identity };
+    let first = |own: &Program<'a>| own.iter().map(|run| &*run.date).min();
+    let last = |own: &Program<'a>| own.iter().map(|run| &*run.date).max();
+    let source = move |own: &Program| {
+        let mut recorded = recorded.iter();
+        match recorded.any(|code| code.as_str() == own[0].identity.code) {
+            true => Source::Recorded,
+            false => Source::Live,
+        }
+    };
     Columns::<Program>::new(
         "environment",
         "A row is a program on one machine and its runs.",
         "`tristack report` (tables/environment.csv)",
     )
-    .text("code", "name of the code", |own| own.identity.code.clone())
+    .text("code", move |own| identity(own).code.clone())
+    .means("name of the code")
     .shown("code")
-    .text("version", "its version", |own| own.identity.version.clone())
+    .text("version", move |own| identity(own).version.clone())
+    .means("its version")
     .shown("version")
-    .text("package", "distribution package and its version", |own| {
-        own.identity.package.clone()
-    })
+    .text("package", move |own| identity(own).package.clone())
+    .means("distribution package and its version")
     .shown("package")
-    .text("program_hash", "SHA-256 of the program", |own| {
-        own.identity.program_hash.clone()
+    .text("program_hash", move |own| {
+        identity(own).program_hash.clone()
     })
+    .means("SHA-256 of the program")
     .shown("program")
-    .cell(|own| short(own.identity.program_hash.as_deref().unwrap_or("-")))
-    .text(
-        "source",
-        "`live` if it ran on this machine, `recorded` otherwise",
-        move |own| match recorded
-            .iter()
-            .any(|code| code.as_str() == own.identity.code)
-        {
-            true => Source::Recorded.as_str(),
-            false => Source::Live.as_str(),
-        },
-    )
+    .cell(move |own| short(identity(own).program_hash.as_deref().unwrap_or("-")))
+    .text("source", move |own| source(own).as_str())
+    .means("`live` if it ran on this machine, `recorded` otherwise")
     .shown("source")
-    .number("runs", "1", "number of runs", |own| own.runs)
+    .number("runs", "1", |own| own.len())
+    .means("number of runs")
     .shown("runs")
-    .number("steps", "1", "their steps", |own| own.steps)
+    .number("steps", "1", |own| {
+        own.iter().map(|run| run.steps).sum::<u64>()
+    })
+    .means("their steps")
     .shown_as("steps", |steps| format!("{steps:.1e}"))
-    .number("seconds", "s", "their wall time", |own| own.seconds)
+    .number("seconds", "s", |own| {
+        own.iter().map(|run| run.seconds).sum::<f64>()
+    })
+    .means("their wall time")
     .shown_as("seconds", |seconds| format!("{seconds:.1}"))
-    .text("first_run", "date of the first, UTC", |own| own.first)
+    .text("first_run", first)
+    .means("date of the first, UTC")
     .shown("first run, UTC")
-    .cell(|own| minute(own.first))
-    .text("last_run", "date of the last, UTC", |own| own.last)
+    .cell(move |own| first(own).map_or_else(String::new, minute))
+    .text("last_run", last)
+    .means("date of the last, UTC")
     .shown("last run, UTC")
-    .cell(|own| minute(own.last))
-    .text("machine", "processor and system", |own| own.machine)
+    .cell(move |own| last(own).map_or_else(String::new, minute))
+    .text("machine", |own| own[0].machine.clone())
+    .means("processor and system")
     .shown("machine")
     .rows(programs_of(provenances))
 }
@@ -141,16 +131,12 @@ pub(crate) fn decks() -> DataTable<'static> {
         "`tristack report` (tables/decks.csv)",
     )
     .code(|code| *code)
-    .text("deck_hash", "SHA-256 of the deck of a stack", |code| {
-        code.files_hash(TaskKind::Stack)
-    })
+    .text("deck_hash", |code| code.files_hash(TaskKind::Stack))
+    .means("SHA-256 of the deck of a stack")
     .shown("SHA-256 of the deck of a stack")
     .cell(|code| short(&code.files_hash(TaskKind::Stack)))
-    .text(
-        "probe_hash",
-        "SHA-256 of the deck of the micro-tests",
-        |code| code.files_hash(TaskKind::Motion),
-    )
+    .text("probe_hash", |code| code.files_hash(TaskKind::Motion))
+    .means("SHA-256 of the deck of the micro-tests")
     .shown("of the micro-tests")
     .cell(|code| short(&code.files_hash(TaskKind::Motion)))
     .rows(Code::all())

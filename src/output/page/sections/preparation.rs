@@ -4,7 +4,7 @@ use super::super::document::{Block, Section};
 use crate::model::Stack;
 use crate::output::DataTable;
 use crate::output::number::{digits, one_digit, optional, percent};
-use crate::output::table::{Columns, Value};
+use crate::output::table::Columns;
 use crate::paper::reproduction::Reproduction;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
@@ -38,26 +38,34 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
 pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     Columns::<&PreparationStudy>::new(
         "critical_push",
-        "A row is A*, the largest push of the side walls that ends with c = 0, of one stack, and what it moves.",
+        "A row is A*, the largest push of the side walls that ends with c = 0, of one stack, and \
+         what it moves.",
         "`tristack report` (tables/critical_push.csv)",
     )
     .stack(|study| study.stack)
-    .number("critical_push", "r", "A*, by bisection with the native DEM", |study| {
+    .number("critical_push", "r", |study| {
         study.critical_push.map(|found| found.push)
     })
+    .means("A*, by bisection with the native DEM")
     .shown_as("A*", digits::<5>)
-    .number("width", "r", "width of the interval above A* in which c appears", |study| {
+    .number("width", "r", |study| {
         study.critical_push.map(|found| found.width)
     })
-    .number("predicted_critical_push", "r", "A* to leading order in ε", |study| {
+    .means("width of the interval above A* in which c appears")
+    .number("predicted_critical_push", "r", |study| {
         study.predicted_critical_push
     })
+    .means("A* to leading order in ε")
     .shown_as("to leading order", digits::<5>)
-    .number("exact_force", "m g", "exact limit F after a gravity ramp", |study| study.exact_force)
+    .number("exact_force", "m g", |study| study.exact_force)
+    .means("exact limit F after a gravity ramp")
     .shown_as("F after gravity ramp, exact", digits::<7>)
-    .number("shift", "1", "F(A*) − F(0), relative to F + 3", |study| {
-        study.critical_push.and_then(|found| study.shift(found.push))
+    .number("shift", "1", |study| {
+        study
+            .critical_push
+            .and_then(|found| study.shift(found.push))
     })
+    .means("F(A*) − F(0), relative to F + 3")
     .shown_as("F(A*) − F(0), of F + 3", percent)
     .rows(studies)
 }
@@ -75,32 +83,34 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     )
     .stack(|(stack, _)| *stack)
     .code(|(_, row)| row.code)
-    .text("convention_of", "the code whose contact convention it ran with", |(_, row)| {
-        row.convention_of.as_str()
-    })
+    .text("convention_of", |(_, row)| row.convention_of.as_str())
+    .means("the code whose contact convention it ran with")
     .shown("convention of")
-    .number("push", "r", "A; absent for the gravity ramp", |(_, row)| row.push)
+    .number("push", "r", |(_, row)| row.push)
+    .means("A; absent for the gravity ramp")
     .shown_as("A", digits::<5>)
-    .number(
-        "limit_force",
-        "m g",
-        "exact limit after a gravity ramp under this convention; with a push, what becomes of it to leading \
-         order in ε",
-        |(_, row)| row.limit_force,
+    .number("limit_force", "m g", |(_, row)| row.limit_force)
+    .means(
+        "exact limit after a gravity ramp under this convention; with a push, what becomes \
+             of it to leading order in ε",
     )
-    .number("contact_force", "m g", "c between the bottom cylinders when the compression begins", |(_, row)| {
-        row.contact_force
-    })
+    .number("contact_force", "m g", |(_, row)| row.contact_force)
+    .means("c between the bottom cylinders when the compression begins")
     .shown_as("c", |force| format!("{force:.5}"))
-    .number("contact_uncertainty", "m g", "its uncertainty", |(_, row)| row.contact_uncertainty)
-    .number("yield_force", "m g", "F at vanishing wall speed", |(_, row)| row.yield_force)
-    .shown_as("F", digits::<7>)
-    .number("uncertainty", "m g", "its uncertainty", |(_, row)| row.uncertainty)
-    .shown_as("±", one_digit)
-    .text("estimator", "what it was read off: `slip-onset` or `peak`", |(_, row)| {
-        row.estimator.map(Value::word)
+    .number("contact_uncertainty", "m g", |(_, row)| {
+        row.contact_uncertainty
     })
-    .text("note", "why something is missing", |(_, row)| row.note.clone())
+    .means("its uncertainty")
+    .number("yield_force", "m g", |(_, row)| row.yield_force)
+    .means("F at vanishing wall speed")
+    .shown_as("F", digits::<7>)
+    .number("uncertainty", "m g", |(_, row)| row.uncertainty)
+    .means("its uncertainty")
+    .shown_as("±", one_digit)
+    .word("estimator", |(_, row)| row.estimator)
+    .means("what it was read off: `slip-onset` or `peak`")
+    .text("note", |(_, row)| row.note.clone())
+    .means("why something is missing")
     .right("theory", |(_, row)| optional(row.limit_force, digits::<7>))
     .rows(rows)
 }

@@ -111,27 +111,32 @@ pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     };
     Columns::<f64>::new(
         "theories",
-        "A row is the largest errors of the paper's theories at one stiffness, relative to F + 3, over the \
-         frictions of Fig. 2(a).",
+        "A row is the largest errors of the paper's theories at one stiffness, relative to \
+         F + 3, over the frictions of Fig. 2(a).",
         "`tristack report` (tables/theories.csv)",
     )
-    .number("stiffness", "m g/r", "normal stiffness k_n, 1/ε", |stiffness| *stiffness)
+    .number("stiffness", "m g/r", |stiffness| *stiffness)
+    .means("normal stiffness k_n, 1/ε")
     .shown("stiffness")
-    .number("perturbation_below", "1", "singular perturbation, μ < μ_c", move |&stiffness| {
+    .number("perturbation_below", "1", move |&stiffness| {
         largest(stiffness, false, |point| point.perturbation)
     })
+    .means("singular perturbation, μ < μ_c")
     .shown_as("perturbation, μ < μ_c", percent)
-    .number("perturbation_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
+    .number("perturbation_above", "1", move |&stiffness| {
         largest(stiffness, true, |point| point.perturbation)
     })
+    .means("the same, μ ≥ μ_c")
     .shown_as("perturbation, μ ≥ μ_c", percent)
-    .number("elastic_below", "1", "elastic equation, μ < μ_c", move |&stiffness| {
+    .number("elastic_below", "1", move |&stiffness| {
         largest(stiffness, false, |point| point.elastic)
     })
+    .means("elastic equation, μ < μ_c")
     .shown_as("elastic equation, μ < μ_c", percent)
-    .number("elastic_above", "1", "the same, μ ≥ μ_c", move |&stiffness| {
+    .number("elastic_above", "1", move |&stiffness| {
         largest(stiffness, true, |point| point.elastic)
     })
+    .means("the same, μ ≥ μ_c")
     .shown_as("elastic equation, μ ≥ μ_c", percent)
     .rows(PAPER_STIFFNESSES)
 }
@@ -149,23 +154,19 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         "`tristack report` (tables/points.csv)",
     )
     .stack(|(stack, _)| *stack)
-    .number(
-        "perturbation",
-        "m g",
-        "singular perturbation",
-        |(_, theory)| theory.perturbation.yield_force,
-    )
+    .number("perturbation", "m g", |(_, theory)| {
+        theory.perturbation.yield_force
+    })
+    .means("singular perturbation")
     .shown_as("perturbation", digits::<7>)
-    .number(
-        "quasistatic",
-        "m g",
-        "exact quasi-static limit under the paper's convention",
-        |(_, theory)| theory.quasistatic.yield_force,
-    )
+    .number("quasistatic", "m g", |(_, theory)| {
+        theory.quasistatic.yield_force
+    })
+    .means("exact quasi-static limit under the paper's convention")
     .shown_as("exact limit", digits::<7>);
     for code in Code::all() {
         columns = columns
-            .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
+            .number(code.as_str(), "m g", move |(stack, _)| {
                 let mut rows = judgements.iter();
                 let own = rows.find(|row| {
                     let place = (row.mu(), row.stiffness());
@@ -173,6 +174,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
                 });
                 own.and_then(|row| row.yield_force())
             })
+            .means("F by this code")
             .shown_as(code.as_str(), digits::<7>);
     }
     columns.rows(rows)

@@ -110,27 +110,20 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
         "`tristack report` (tables/agreement.csv)",
     )
     .code(|(own, _)| own.code)
-    .text("figure", "name of the figure", |(_, figure)| *figure)
+    .text("figure", |(_, figure)| *figure)
+    .means("name of the figure")
     .shown("figure")
-    .number("rows", "1", "number of rows", |(own, _)| own.rows)
+    .number("rows", "1", |(own, _)| own.rows)
+    .means("number of rows")
     .shown("rows")
-    .number("agreeing", "1", "how many of them agree", |(own, _)| {
-        own.agreeing
-    })
+    .number("agreeing", "1", |(own, _)| own.agreeing)
+    .means("how many of them agree")
     .shown("agree")
-    .number(
-        "largest_error",
-        "1",
-        "largest error, relative to F + 3",
-        |(own, _)| own.largest_error,
-    )
+    .number("largest_error", "1", |(own, _)| own.largest_error)
+    .means("largest error, relative to F + 3")
     .shown_as("largest error/(F + 3)", |error| format!("{error:.1e}"))
-    .number(
-        "largest_share",
-        "1",
-        "largest error in units of the tolerance of its row",
-        |(own, _)| own.largest_share,
-    )
+    .number("largest_share", "1", |(own, _)| own.largest_share)
+    .means("largest error in units of the tolerance of its row")
     .shown_as("largest error/tolerance", |share| format!("{share:.2}"))
     .rows(rows)
 }
@@ -138,23 +131,28 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
 pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
     Columns::<&Exponent>::new(
         "exponents",
-        "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at one friction.",
+        "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at \
+         one friction.",
         "`tristack report` (tables/exponents.csv)",
     )
     .code(|own| own.code)
-    .number("mu", "1", "floor friction μ", |own| own.mu)
+    .number("mu", "1", |own| own.mu)
+    .means("floor friction μ")
     .shown_as("μ", friction)
-    .number("exponent", "1", "least-squares slope of ln(F + 3) over ln(1/ε)", |own| own.exponent)
+    .number("exponent", "1", |own| own.exponent)
+    .means("least-squares slope of ln(F + 3) over ln(1/ε)")
     .shown_as("fitted exponent", |exponent| format!("{exponent:.7}"))
-    .number("uncertainty", "1", "what the uncertainties of the forces can do to it", |own| {
-        own.uncertainty
-    })
+    .number("uncertainty", "1", |own| own.uncertainty)
+    .means("what the uncertainties of the forces can do to it")
     .shown_as("±", one_digit)
-    .number("exact", "1", "the same fit to the exact limits", |own| own.exact)
+    .number("exact", "1", |own| own.exact)
+    .means("the same fit to the exact limits")
     .shown_as("of the exact limit", |exponent| format!("{exponent:.7}"))
-    .number("asymptotic", "1", "the exponent for ε → 0", |own| own.asymptotic)
+    .number("asymptotic", "1", |own| own.asymptotic)
+    .means("the exponent for ε → 0")
     .shown("for ε → 0")
-    .number("points", "1", "how many stiffnesses were fitted", |own| own.points)
+    .number("points", "1", |own| own.points)
+    .means("how many stiffnesses were fitted")
     .verdict(|own| own.verdict)
     .rows(exponents)
 }

@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         Ok(None) => return Ok(interrupted()),
         Err(error) => return Err(error.into()),
     };
-    let claims = judge(&register, &PaperTheory::printed(), &reproduced);
+    let claims = judge(&register, &PaperTheory::printed(), Some(&reproduced));
     let origin = origin(arguments, command, &codes);
     for file in report_files(&reproduced, &claims, &origin) {
         write_atomically(&arguments.out.join(&file.name), &file.content)?;

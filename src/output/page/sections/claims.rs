@@ -23,12 +23,14 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         "A row is a displayed equation or number of the paper that does not hold as printed.",
         "`tristack report` (tables/errata.csv)",
     )
-    .text("claim", "name of the claim", |own| own.id.clone())
+    .text("claim", "name of the claim", |own| own.claim.id.clone())
     .text("place", "where it stands in the paper", |own| {
-        own.place.clone()
+        own.claim.place.clone()
     })
     .shown("place")
-    .text("statement", "what is printed", |own| own.statement.clone())
+    .text("statement", "what is printed", |own| {
+        own.claim.statement.clone()
+    })
     .shown("as printed")
     .text("erratum", "what should stand there", |own| {
         own.erratum.clone()
@@ -59,21 +61,21 @@ pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
         "A row is a checkable statement of the paper and the verdict on it.",
         "`tristack report` (tables/claims.csv, claims.json)",
     )
-    .text("id", "name of the claim", |own| own.id.clone())
+    .text("id", "name of the claim", |own| own.claim.id.clone())
     .shown("claim")
     .text("place", "where it stands in the paper", |own| {
-        own.place.clone()
+        own.claim.place.clone()
     })
     .shown("place")
-    .text("statement", "its text", |own| own.statement.clone())
+    .text("statement", "its text", |own| own.claim.statement.clone())
     .shown("statement")
     .text("kind", "what kind of statement it is", |own| {
-        Value::word(own.kind)
+        Value::word(own.claim.kind)
     })
     .text(
         "verdict",
         "`holds`, `approximately`, `fails` or `untestable`",
-        |own| own.verdict.as_str(),
+        |own| own.verdict.to_string(),
     )
     .shown("verdict")
     .cell(|own| in_words(own.verdict).to_owned())

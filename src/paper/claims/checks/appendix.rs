@@ -50,7 +50,7 @@ fn auxiliary_functions(paper: &PaperTheory) -> Finding {
         let [a, b, c] = paper.auxiliary(state);
         let forces = state.forces();
         let moved = &state.displacements;
-        let distance = (moved.upper(RADIUS) - moved.lower(RADIUS)).norm();
+        let distance = (moved.upper() - moved.lower()).norm();
         // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
         let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
         let square = (twice - state.y()).powi(2);
@@ -97,7 +97,7 @@ fn non_negative_variables(paper: &PaperTheory) -> Finding {
         delta_22: 0.02,
         theta: 0.0,
     };
-    let pulling = paper.forces(&moved, RADIUS, 1.0, paper.stiffness_ratio).a;
+    let pulling = paper.forces(&moved, paper.stiffness_ratio).a / NORMAL_STIFFNESS;
     let evidence = format!(
         "not necessary: of {inward} solutions with y < 0 (mu = 0.1 to 0.7, kappa = 1, 2.5, 10), {needless} have a, b, d, e > 0; \
          not sufficient: x = 0, y = z = 0.01 r or so makes a = {pulling:.4} k_n r < 0. What y >= 0 does is keep the \

@@ -31,7 +31,6 @@ pub(crate) const CHECKS: &[Check] = &[
 ];
 
 const WEIGHT: f64 = 0.37;
-const RADIUS: f64 = 1.7;
 const FORCES: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 1e3];
 const ANGLES: [f64; 4] = [0.35, std::f64::consts::FRAC_PI_6, 0.8, 1.1];
 
@@ -54,7 +53,7 @@ struct Balanced {
 fn balanced() -> impl Iterator<Item = Balanced> {
     pairs(ANGLES, FORCES).filter_map(|(angle, force)| {
         let (normal, f) = (direction(angle), force * WEIGHT);
-        let forces = equilibrium(normal, RADIUS, f, WEIGHT)?;
+        let forces = equilibrium(normal, f, WEIGHT)?;
         Some(Balanced { f, normal, forces })
     })
 }
@@ -198,7 +197,7 @@ fn six_conditions(paper: &PaperTheory) -> Finding {
 /// f/(m g) at which rigid cylinders slip, by bisection of e − μ d; 0 if they slip at once, infinite if never.
 fn slip_force(mu: f64) -> f64 {
     let excess = |f: f64| {
-        equilibrium(upright(), RADIUS, f * WEIGHT, WEIGHT)
+        equilibrium(upright(), f * WEIGHT, WEIGHT)
             .map_or(f64::NAN, |forces| forces.e - mu * forces.d)
     };
     let (mut low, mut high) = (0.0, 1e12);
@@ -247,7 +246,7 @@ fn rigid_directions(paper: &PaperTheory) -> Finding {
 fn rigid_states() -> impl Iterator<Item = (f64, Forces)> {
     FORCES.into_iter().filter_map(|force| {
         let f = force * WEIGHT;
-        equilibrium(upright(), RADIUS, f, WEIGHT).map(|forces| (f, forces))
+        equilibrium(upright(), f, WEIGHT).map(|forces| (f, forces))
     })
 }
 
@@ -272,7 +271,7 @@ fn ratios() -> (f64, f64) {
         } else {
             10f64.powf(f64::from(index) / 25.0 - 4.0)
         };
-        equilibrium(upright(), RADIUS, f * WEIGHT, WEIGHT).map(|forces| forces.e / forces.d)
+        equilibrium(upright(), f * WEIGHT, WEIGHT).map(|forces| forces.e / forces.d)
     });
     ratios.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), ratio| {
         (low.min(ratio), high.max(ratio))

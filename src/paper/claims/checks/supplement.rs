@@ -6,37 +6,51 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
     Displacements, Forces, NORMAL_STIFFNESS, RADIUS, arbitrary_displacements, turned, yield_states,
 };
-use nalgebra::{Matrix4x5, Vector2};
+use nalgebra::Matrix4x5;
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::theory("displacement-vectors", displacement_vectors),
     Check::theory("positions", positions),
     Check::theory("separation", separation),
     Check::theory("explicit-normal", |paper| {
-        kinematics(|moved| (paper.normal(moved, RADIUS) - moved.normal(RADIUS)).norm())
+        kinematics(|moved| (paper.normal(moved) - moved.normal()).norm())
     }),
     Check::theory("explicit-tangent", |paper| {
-        kinematics(|moved| {
-            (paper.explicit_tangent(moved, RADIUS) - turned(moved.normal(RADIUS))).norm()
-        })
+        kinematics(|moved| (paper.explicit_tangent(moved) - turned(moved.normal())).norm())
     }),
     Check::theory("relative-displacement", relative_displacement),
     Check::theory("normal-component", normal_component),
     Check::theory("tangential-component", tangential_component),
     Check::theory("floor-shear", |paper| {
-        kinematics(|moved| (paper.floor_shear(moved, RADIUS) - floor_point(moved).x).abs())
+        kinematics(|moved| (paper.floor_shear(moved) - moved.floor_point().x).abs())
     }),
     Check::theory("floor-sinking", |paper| {
-        kinematics(|moved| (paper.floor_sinking(moved) - floor_point(moved).y).abs())
+        kinematics(|moved| (paper.floor_sinking(moved) - moved.floor_point().y).abs())
     }),
-    Check::theory("spring-a", |paper| implicit(paper, |forces| forces.a)),
-    Check::theory("spring-b", |paper| implicit(paper, |forces| forces.b)),
-    Check::theory("spring-d", |paper| implicit(paper, |forces| forces.d)),
-    Check::theory("spring-e", |paper| implicit(paper, |forces| forces.e)),
-    Check::theory("explicit-a", |paper| explicit(paper, |forces| forces.a)),
-    Check::theory("explicit-b", |paper| explicit(paper, |forces| forces.b)),
-    Check::theory("explicit-d", |paper| explicit(paper, |forces| forces.d)),
-    Check::theory("explicit-e", |paper| explicit(paper, |forces| forces.e)),
+    Check::theory("spring-a", |paper| {
+        springs(paper, PaperTheory::forces, |forces| forces.a)
+    }),
+    Check::theory("spring-b", |paper| {
+        springs(paper, PaperTheory::forces, |forces| forces.b)
+    }),
+    Check::theory("spring-d", |paper| {
+        springs(paper, PaperTheory::forces, |forces| forces.d)
+    }),
+    Check::theory("spring-e", |paper| {
+        springs(paper, PaperTheory::forces, |forces| forces.e)
+    }),
+    Check::theory("explicit-a", |paper| {
+        springs(paper, PaperTheory::explicit_forces, |forces| forces.a)
+    }),
+    Check::theory("explicit-b", |paper| {
+        springs(paper, PaperTheory::explicit_forces, |forces| forces.b)
+    }),
+    Check::theory("explicit-d", |paper| {
+        springs(paper, PaperTheory::explicit_forces, |forces| forces.d)
+    }),
+    Check::theory("explicit-e", |paper| {
+        springs(paper, PaperTheory::explicit_forces, |forces| forces.e)
+    }),
     Check::theory("supplement-balances", supplement_balances),
     Check::theory("indeterminate-c", indeterminate_c),
 ];
@@ -44,38 +58,20 @@ pub(crate) const CHECKS: &[Check] = &[
 const RATIO: f64 = 2.5;
 
 fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
-    let deviations = arbitrary_displacements()
-        .into_iter()
-        .map(|moved| deviation(&moved) / RADIUS);
+    let deviations = arbitrary_displacements().map(|moved| deviation(&moved) / RADIUS);
     let compared = "positions and motions of rigid cylinders at arbitrary displacements, r not 1";
     Finding::identity(deviations, compared)
 }
 
-/// Motion of the point of cylinder 2 on the floor.
-fn floor_point(moved: &Displacements) -> Vector2<f64> {
-    moved.lower_surface(Vector2::new(0.0, -RADIUS))
-}
+/// Spring forces as printed: by Eqs. (S11), (S12), (S15) and (S16), or by Eqs. (S17) to (S20).
+type Springs = fn(&PaperTheory, &Displacements, f64) -> Forces;
 
-/// Eqs. (S11), (S12), (S15) or (S16), by the `component` of the forces.
-fn implicit(paper: &PaperTheory, component: impl Fn(&Forces) -> f64) -> Finding {
-    springs(
-        |moved| component(&paper.forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)),
-        &component,
-    )
-}
-
-/// Eqs. (S17) to (S20), by the `component` of the forces.
-fn explicit(paper: &PaperTheory, component: impl Fn(&Forces) -> f64) -> Finding {
-    springs(
-        |moved| component(&paper.explicit_forces(moved, RADIUS, NORMAL_STIFFNESS, RATIO)),
-        &component,
-    )
-}
-
-fn springs(printed: impl Fn(&Displacements) -> f64, component: impl Fn(&Forces) -> f64) -> Finding {
-    let deviations = arbitrary_displacements().into_iter().map(|moved| {
-        let truth = component(&moved.spring_forces(RADIUS, NORMAL_STIFFNESS, RATIO));
-        ((printed(&moved) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
+/// One `component` of the `printed` spring forces.
+fn springs(paper: &PaperTheory, printed: Springs, component: fn(&Forces) -> f64) -> Finding {
+    let deviations = arbitrary_displacements().map(|moved| {
+        let truth = component(&moved.spring_forces(RATIO));
+        let printed = component(&printed(paper, &moved, RATIO));
+        ((printed - truth) / NORMAL_STIFFNESS / RADIUS).abs()
     });
     let compared = "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)";
     Finding::identity(deviations, compared)
@@ -85,48 +81,46 @@ fn displacement_vectors(paper: &PaperTheory) -> Finding {
     let at_rest = Displacements::default();
     kinematics(|moved| {
         let [upper, lower] = paper.displacement_vectors(moved);
-        let upper_moved = moved.upper(RADIUS) - at_rest.upper(RADIUS);
-        let lower_moved = moved.lower(RADIUS) - at_rest.lower(RADIUS);
+        let upper_moved = moved.upper() - at_rest.upper();
+        let lower_moved = moved.lower() - at_rest.lower();
         worst([(upper - upper_moved).norm(), (lower - lower_moved).norm()])
     })
 }
 
 fn positions(paper: &PaperTheory) -> Finding {
     kinematics(|moved| {
-        let [upper, lower] = paper.positions(moved, RADIUS);
+        let [upper, lower] = paper.positions(moved);
         worst([
-            (upper - moved.upper(RADIUS)).norm(),
-            (lower - moved.lower(RADIUS)).norm(),
+            (upper - moved.upper()).norm(),
+            (lower - moved.lower()).norm(),
         ])
     })
 }
 
 fn separation(paper: &PaperTheory) -> Finding {
-    kinematics(|moved| {
-        (paper.separation(moved, RADIUS) - (moved.upper(RADIUS) - moved.lower(RADIUS))).norm()
-    })
+    kinematics(|moved| (paper.separation(moved) - (moved.upper() - moved.lower())).norm())
 }
 
 /// δ₁₂ is the motion of the centre of 2 relative to that of 1.
 fn relative_displacement(paper: &PaperTheory) -> Finding {
     let at_rest = Displacements::default();
     kinematics(|moved| {
-        let seen = |moved: &Displacements| moved.lower(RADIUS) - moved.upper(RADIUS);
+        let seen = |moved: &Displacements| moved.lower() - moved.upper();
         (paper.relative_displacement_vector(moved) - (seen(moved) - seen(&at_rest))).norm()
     })
 }
 
 fn normal_component(paper: &PaperTheory) -> Finding {
     kinematics(|moved| {
-        let gap = moved.surface_gap(RADIUS).dot(&moved.normal(RADIUS));
-        (paper.normal_component(moved, RADIUS) - gap).abs()
+        let gap = moved.surface_gap().dot(&moved.normal());
+        (paper.normal_component(moved) - gap).abs()
     })
 }
 
 fn tangential_component(paper: &PaperTheory) -> Finding {
     kinematics(|moved| {
-        let gap = moved.surface_gap(RADIUS).dot(&turned(moved.normal(RADIUS)));
-        (paper.tangential_component(moved, RADIUS) - gap).abs()
+        let gap = moved.surface_gap().dot(&turned(moved.normal()));
+        (paper.tangential_component(moved) - gap).abs()
     })
 }
 
@@ -134,8 +128,8 @@ fn tangential_component(paper: &PaperTheory) -> Finding {
 fn supplement_balances(paper: &PaperTheory) -> Finding {
     let deviations = yield_states().iter().map(|state| {
         let moved = &state.displacements;
-        let forces = paper.forces(moved, RADIUS, NORMAL_STIFFNESS, state.ratio);
-        let normal = moved.normal(RADIUS);
+        let forces = paper.forces(moved, state.ratio);
+        let normal = moved.normal();
         worst([
             imbalance(&paper.torque_terms(&forces)),
             imbalance(&paper.horizontal_terms(&forces, normal)),

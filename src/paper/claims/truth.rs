@@ -58,14 +58,29 @@ fn imbalance(forces: &Forces, normal: Vector2<f64>, f: f64, weight: f64) -> Vect
     Vector4::new(on_lower.x, on_lower.y, torque / RADIUS, upper)
 }
 
-/// The forces that keep the stack in equilibrium under `f` when cylinder 1 lies in the direction `normal`
-/// from cylinder 2; `None` if there are none.
-pub(crate) fn equilibrium(normal: Vector2<f64>, f: f64, weight: f64) -> Option<Forces> {
+/// A stack in equilibrium.
+pub(crate) struct Balanced {
+    /// Force of the wall.
+    pub(crate) f: f64,
+    pub(crate) weight: f64,
+    /// Direction from cylinder 2 to 1.
+    pub(crate) normal: Vector2<f64>,
+    pub(crate) forces: Forces,
+}
+
+/// The stack in equilibrium under `f` when cylinder 1 lies in the direction `normal` from cylinder 2; `None` if there
+/// are no such forces.
+pub(crate) fn equilibrium(normal: Vector2<f64>, f: f64, weight: f64) -> Option<Balanced> {
     let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, f, weight);
     let loads = under(Vector4::zeros());
     let columns = [0, 1, 2, 3].map(|index| under(Vector4::ith(index, 1.0)) - loads);
     let solution = Matrix4::from_columns(&columns).lu().solve(&-loads)?;
-    Some(solution.into())
+    Some(Balanced {
+        f,
+        weight,
+        normal,
+        forces: solution.into(),
+    })
 }
 
 /// Displacements of the stack.

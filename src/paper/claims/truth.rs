@@ -285,6 +285,11 @@ pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
+/// F of the DEM's exact quasi-static limit; not a number if the stack does not yield.
+pub(crate) fn yield_force(stack: &Stack) -> f64 {
+    closed_form_limit(stack).yield_force.unwrap_or(f64::NAN)
+}
+
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
 pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {

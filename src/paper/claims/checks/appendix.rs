@@ -4,7 +4,7 @@ use super::Check;
 use crate::paper::claims::finding::{Finding, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
-    Displacements, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
+    Displacements, Forces, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
 };
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -35,24 +35,21 @@ pub(crate) const CHECKS: &[Check] = &[
             // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
             let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
             let square = (twice - state.y()).powi(2);
+            let squares = distance * distance * square;
             worst([
                 relative(a, forces.a * distance * square / NORMAL_STIFFNESS),
                 relative(b, forces.b * distance * square / NORMAL_STIFFNESS),
-                relative(
-                    c,
-                    distance * distance * square * forces.d / NORMAL_STIFFNESS,
-                ),
+                relative(c, squares * forces.d / NORMAL_STIFFNESS),
             ])
         })
     }),
     Check::at_states("a-eliminated", PaperTheory::a_eliminated),
     Check::theory("factors-not-zero", |paper| {
-        let mut smallest = f64::INFINITY;
-        for state in yield_states() {
+        let factors = yield_states().iter().map(|state| {
             let shear = paper.shear(state) / (state.epsilon * RADIUS);
-            let outward = 1.0 + state.y() / RADIUS;
-            smallest = smallest.min(shear).min(outward);
-        }
+            shear.min(1.0 + state.y() / RADIUS)
+        });
+        let smallest = factors.fold(f64::INFINITY, f64::min);
         let evidence = format!(
             "{COMPARED}: (x + sqrt3 y)/(epsilon r) and (r + y)/r are both at least {smallest:.3}"
         );
@@ -66,10 +63,8 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("non-negative-variables", |paper| {
         let states = yield_states();
         let positive = |state: &&YieldState| {
-            let forces = state.forces();
-            [forces.a, forces.b, forces.d, forces.e]
-                .iter()
-                .all(|&force| force > 0.0)
+            let Forces { a, b, d, e } = state.forces();
+            [a, b, d, e].iter().all(|&force| force > 0.0)
         };
         let inward = states.iter().filter(|state| state.y() < 0.0);
         let needless = inward.clone().filter(positive).count();

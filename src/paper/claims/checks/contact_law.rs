@@ -13,7 +13,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let deviations = [3.1, 3.39, 3.41].map(|distance| {
             // Interpenetration of the surfaces on the line of centres.
             let (right_of_left, left_of_right) = (RADIUS, distance - RADIUS);
-            (paper.overlap(distance, RADIUS) - (right_of_left - left_of_right)).abs()
+            (paper.overlap(distance) - (right_of_left - left_of_right)).abs()
         });
         let compared = "positions of the two surfaces on the line of centres";
         Finding::identity(deviations, compared)
@@ -32,7 +32,7 @@ pub(crate) const CHECKS: &[Check] = &[
             } else {
                 0.0
             };
-            let force = paper.normal_force(STIFFNESS, damping, overlap, velocity);
+            let force = paper.normal_force(damping, overlap, velocity);
             ((force - spring) * velocity - power).abs()
         })
     }),
@@ -40,7 +40,6 @@ pub(crate) const CHECKS: &[Check] = &[
         let compared = "power of a spring k_t and of a dashpot eta_t";
         at_samples(30, compared, |sample| {
             let contact = Sliding {
-                stiffness: STIFFNESS,
                 damping: 0.6,
                 stretch: 0.1 * sample,
                 velocity: (5.0 * sample).sin(),
@@ -74,7 +73,7 @@ pub(crate) const CHECKS: &[Check] = &[
             let difference =
                 velocity + surface(spins[0], -normal * RADIUS) - surface(spins[1], normal * RADIUS);
             let tangent = Vector2::new(-normal.y, normal.x);
-            let printed = paper.tangential_velocity(normal * 3.3, velocity, spins, RADIUS);
+            let printed = paper.tangential_velocity(normal * 3.3, velocity, spins);
             (printed - difference.dot(&tangent)).abs()
         })
     }),
@@ -82,7 +81,6 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("stick", |paper| {
         let (cap, step) = (0.4, 1e-4);
         let mut contact = Sliding {
-            stiffness: STIFFNESS,
             damping: 0.0,
             stretch: 0.0,
             velocity: 0.1,
@@ -106,29 +104,22 @@ pub(crate) const CHECKS: &[Check] = &[
     // The force must be continuous at the Coulomb threshold, and defined where the contact does not move.
     Check::theory("cap-direction", |paper| {
         let (cap, damping) = (0.4, 0.05);
+        let force = |stretch: f64, velocity: f64| {
+            paper.tangential_force(&Sliding {
+                damping,
+                stretch,
+                velocity,
+                cap,
+            })
+        };
         let jump = |velocity: f64| {
             let threshold = (cap - damping * velocity) / STIFFNESS;
-            let force = |stretch: f64| {
-                paper.tangential_force(&Sliding {
-                    stiffness: STIFFNESS,
-                    damping,
-                    stretch,
-                    velocity,
-                    cap,
-                })
-            };
-            (force(threshold * (1.0 + 1e-9)) - force(threshold * (1.0 - 1e-9))).abs() / cap
+            let at = |part: f64| force(threshold * part, velocity);
+            (at(1.0 + 1e-9) - at(1.0 - 1e-9)).abs() / cap
         };
         let loading = worst([1.0, 0.1, 1e-3].map(jump));
         let unloading = worst([-1e-3, -0.1, -1.0].map(jump));
-        let still = Sliding {
-            stiffness: STIFFNESS,
-            damping,
-            stretch: 1.0,
-            velocity: 0.0,
-            cap,
-        };
-        let undefined = paper.tangential_force(&still).is_nan();
+        let undefined = force(1.0, 0.0).is_nan();
         let evidence = format!(
             "jump of the force as |h_t| passes the cap, in units of the cap: {loading:.2} while the spring is stretched \
              further, {unloading:.2} while it relaxes; a contact at rest with |h_t| above the cap has {} force",
@@ -140,24 +131,20 @@ pub(crate) const CHECKS: &[Check] = &[
     // Whether stacks that the paper has yield at the floor stand until then, with the printed cap between cylinders.
     Check::theory("cap-between-cylinders", |paper| {
         let frictions = [0.12, 0.15, 0.2, 0.25];
-        let fallen: Vec<f64> = frictions
-            .into_iter()
-            .filter(|&mu| {
-                let stack = Stack {
-                    cylinder_friction: paper.friction_between_cylinders(mu),
-                    ..Stack::paper(mu, 1e3)
-                };
-                let outcome = LoadingOutcome::of(&stack);
-                outcome.is_none_or(|outcome| outcome.first.stage == LoadingPhase::OwnWeight)
-            })
-            .collect();
+        let falls = |&mu: &f64| {
+            let stack = Stack {
+                cylinder_friction: paper.friction_between_cylinders(mu),
+                ..Stack::paper(mu, 1e3)
+            };
+            let outcome = LoadingOutcome::of(&stack);
+            outcome.is_none_or(|outcome| outcome.first.stage == LoadingPhase::OwnWeight)
+        };
+        let (fallen, all) = (frictions.into_iter().filter(falls).count(), frictions.len());
         let evidence = format!(
-            "exact path of equilibria at 1/epsilon = 1e3 with this cap between cylinders: {} of {} stacks with mu from \
-             0.12 to 0.25 (Fig. 2(a) has all of them yield under the wall) fall under their own weight, because b/a = T >= mu_c",
-            fallen.len(),
-            frictions.len()
+            "exact path of equilibria at 1/epsilon = 1e3 with this cap between cylinders: {fallen} of {all} stacks with mu from \
+             0.12 to 0.25 (Fig. 2(a) has all of them yield under the wall) fall under their own weight, because b/a = T >= mu_c"
         );
-        Finding::new(fallen.len() as f64 / frictions.len() as f64, 0.0, evidence)
+        Finding::new(fallen as f64 / all as f64, 0.0, evidence)
     }),
     // Torque of a tangential force k_t u with the arm r + r₁ δ, less that with the arm r.
     Check::theory("arm-correction", |paper| {

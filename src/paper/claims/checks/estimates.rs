@@ -1,10 +1,11 @@
 //! Orders of magnitude of the concluding remarks, and the cylinders of the movies.
 
 use super::Check;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 use crate::paper::claims::finding::{Finding, list, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
-use crate::theory::{floor_slip_force, quasistatic_limit};
+use crate::paper::claims::truth::yield_force;
+use crate::theory::floor_slip_force;
 
 pub(crate) const CHECKS: &[Check] = &[
     // A line contact of a cylinder of radius r and length l has k_n of order E l.
@@ -56,12 +57,9 @@ pub(crate) const CHECKS: &[Check] = &[
         Finding::new(deviation, 0.0, evidence)
     }),
     Check::theory("mass-of-estimates", |paper| {
-        let cube = paper.elastomer_density * paper.elastomer_length.powi(3);
-        let cylinder = paper.mass(
-            paper.elastomer_density,
-            paper.elastomer_length,
-            paper.elastomer_length,
-        );
+        let (density, length) = (paper.elastomer_density, paper.elastomer_length);
+        let cube = density * length.powi(3);
+        let cylinder = paper.mass(density, length, length);
         let evidence = format!(
             "rho L^3 = {:.2} g; pi rho r^2 l = {:.2} g for r = l = 1 cm and {:.2} g for a diameter of 1 cm",
             1e3 * cube,
@@ -94,11 +92,8 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("stiffness-range", |paper| {
         let decades = (paper.highest_stiffness / paper.lowest_stiffness).log10();
-        let yields = [paper.lowest_stiffness, 1e3, paper.highest_stiffness].map(|stiffness| {
-            quasistatic_limit(&paper.stack(0.3, stiffness), &Arms::PAPER)
-                .yield_force
-                .unwrap_or(f64::NAN)
-        });
+        let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
+        let yields = stiffnesses.map(|stiffness| yield_force(&paper.stack(0.3, stiffness)));
         let evidence = format!(
             "all three have a yield force in the exact limit at mu = 0.3: {:.2}, {:.2}, {:.2} mg; they span {decades:.0} decades, in steps of one",
             yields[0], yields[1], yields[2]

@@ -24,9 +24,8 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("inward-solutions", |paper| {
         let stacks = pairs([0.8, 0.85, 0.9, 0.95], [1e2, 1e3, 1e4]);
-        let right = stacks
-            .filter(|&(mu, stiffness)| outward(paper, mu, stiffness) < 0.0)
-            .count();
+        let inward = |&(mu, stiffness): &(f64, f64)| outward(paper, mu, stiffness) < 0.0;
+        let right = stacks.filter(inward).count();
         let evidence = format!(
             "the elastic equation has one root z >= 3 epsilon r/2 with y > -r; at {right} of 12 stacks (mu = 0.8 to 0.95, 1/epsilon = 1e2 \
              to 1e4) it has y < 0"
@@ -35,10 +34,13 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     // Whether a stack with μ ≥ 0.8 withstands any force.
     Check::theory("non-destructive", |paper| {
-        let ends: Vec<_> = pairs([0.8, 0.9], [1e2, 1e3, 1e4])
-            .filter_map(|(mu, stiffness)| first_event(&stack(paper, mu, stiffness)))
+        let stacks = pairs([0.8, 0.9], [1e2, 1e3, 1e4]);
+        let stacks = stacks.map(|(mu, stiffness)| stack(paper, mu, stiffness));
+        let ends: Vec<_> = stacks
+            .filter_map(|stack| LoadingOutcome::of(&stack))
             .collect();
-        let count = |events: &[Event]| ends.iter().filter(|end| events.contains(end)).count();
+        let ends = ends.iter().map(|outcome| outcome.first.event);
+        let count = |events: &[Event]| ends.clone().filter(|end| events.contains(end)).count();
         let wall = count(&[Event::WallContact]);
         let slips = count(&[Event::FloorSlip, Event::CylinderSlip]);
         let evidence = format!(
@@ -54,22 +56,14 @@ pub(crate) const CHECKS: &[Check] = &[
         let confirmed =
             side(closed - 1e-4) == Event::FloorSlip && side(closed + 1e-4) == Event::WallContact;
         let evidence = format!(
-            "exact quasi-static limit at 1/epsilon = 1e2: from mu = {closed:.5} on the top wall reaches cylinder 2 before the floor slips ({} by \
+            "exact quasi-static limit at 1/epsilon = 1e2: from mu = {closed:.5} on the top wall reaches cylinder 2 before the floor slips ({}confirmed by \
              the path follower at mu +- 1e-4); {:.5} at 1e3 and {:.5} at 1e4",
-            if confirmed {
-                "confirmed"
-            } else {
-                "not confirmed"
-            },
+            if confirmed { "" } else { "not " },
             wall_contact_friction(paper, 1e3),
             wall_contact_friction(paper, 1e4)
         );
-        let deviation = (closed - paper.wall_contact_friction).abs();
-        Finding::new(
-            if confirmed { deviation } else { f64::NAN },
-            0.005,
-            evidence,
-        )
+        let deviation = confirmed.then_some((closed - paper.wall_contact_friction).abs());
+        Finding::new(deviation.unwrap_or(f64::NAN), 0.005, evidence)
     }),
     // The concluding remarks use the friction of wall contact for the breakdown of the analysis.
     Check::theory("breakdown", |paper| {
@@ -89,11 +83,10 @@ pub(crate) const CHECKS: &[Check] = &[
         for stiffness in [paper.lowest_stiffness, 1e3, paper.highest_stiffness] {
             for step in 0..=10 {
                 let base = stack(paper, 0.1 + 0.04 * f64::from(step), stiffness);
-                let Some(outcome) = LoadingOutcome::of(&base) else {
-                    continue;
-                };
-                slips += usize::from(outcome.first.event == Event::CylinderSlip);
-                highest = highest.max(outcome.first.tangent);
+                if let Some(outcome) = LoadingOutcome::of(&base) {
+                    slips += usize::from(outcome.first.event == Event::CylinderSlip);
+                    highest = highest.max(outcome.first.tangent);
+                }
             }
         }
         let evidence = format!(
@@ -121,17 +114,10 @@ fn last_outward(paper: &PaperTheory, stiffness: f64) -> f64 {
     bracketed_root(|mu| outward(paper, mu, stiffness), 0.5, 1.0).unwrap_or(f64::NAN)
 }
 
-/// The first event on the exact path of equilibria.
-fn first_event(stack: &Stack) -> Option<Event> {
-    LoadingOutcome::of(stack).map(|outcome| outcome.first.event)
-}
-
 /// The floor friction above which the wall reaches cylinder 2 before the floor slips.
 fn wall_contact_friction(paper: &PaperTheory, stiffness: f64) -> f64 {
     let base = stack(paper, 0.3, stiffness);
-    let boundaries = Boundary::in_friction(&EquilibriumPath::new(&base), &base);
-    let wall = boundaries
-        .iter()
-        .find(|boundary| boundary.above == Event::WallContact);
+    let mut boundaries = Boundary::in_friction(&EquilibriumPath::new(&base), &base).into_iter();
+    let wall = boundaries.find(|boundary| boundary.above == Event::WallContact);
     wall.map_or(f64::NAN, |boundary| boundary.floor_friction)
 }

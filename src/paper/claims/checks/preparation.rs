@@ -3,21 +3,17 @@
 use super::Check;
 use crate::code::Code;
 use crate::paper::claims::finding::{Finding, list, worst};
-use crate::study::preparation::{PreparationRow, PreparationStudy};
+use crate::study::preparation::PreparationStudy;
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::runs("prepared-without-contact", |_, runs| {
         let mut without = 0;
         let mut listed = Vec::new();
         for study in &runs.preparation {
-            let unpushed = pushed(study).into_iter().find(|row| row.push == Some(0.0));
-            without += usize::from(unpushed.is_some_and(|row| row.contact_force == Some(0.0)));
+            without += usize::from(contact_forces(study).contains(&(0.0, Some(0.0))));
             if let Some(found) = study.critical_push {
-                listed.push(format!(
-                    "{:.4} epsilon r at {}",
-                    found.push * study.stack.stiffness,
-                    name(study)
-                ));
+                let push = found.push * study.stack.stiffness;
+                listed.push(format!("{push:.4} epsilon r at {}", name(study)));
             }
         }
         let all = runs.preparation.len();
@@ -34,13 +30,11 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut wrong = 0;
         let mut listed = Vec::new();
         for study in &runs.preparation {
-            let contacts = pushed(study)
-                .into_iter()
-                .map(|row| row.contact_force.unwrap_or(f64::NAN));
+            let contacts = contact_forces(study).into_iter();
+            let contacts = contacts.map(|(_, force)| force.unwrap_or(f64::NAN));
             let contacts: Vec<f64> = contacts.collect();
-            let grows = contacts
-                .windows(2)
-                .all(|pair| pair[1] > pair[0] || pair == [0.0, 0.0]);
+            let mut pairs = contacts.windows(2);
+            let grows = pairs.all(|pair| pair[1] > pair[0] || pair == [0.0, 0.0]);
             let last = contacts.last().copied().unwrap_or(f64::NAN);
             wrong += usize::from(!(grows && last > 0.0));
             listed.push(format!("{last:.3} mg at {}", name(study)));
@@ -59,10 +53,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut shifts = Vec::new();
         let mut listed = Vec::new();
         for study in &runs.preparation {
-            let shift = study
-                .critical_push
-                .and_then(|found| study.shift(found.push));
-            if let Some(shift) = shift {
+            let critical = study.critical_push;
+            if let Some(shift) = critical.and_then(|found| study.shift(found.push)) {
                 listed.push(format!("{:+.3} % at {}", 100.0 * shift, name(study)));
                 shifts.push(shift.abs());
             }
@@ -81,13 +73,13 @@ pub(crate) const CHECKS: &[Check] = &[
 
 const MISSING: &str = "there is no native study of the preparation in this reproduction";
 
-/// Native rows under the paper's convention, sorted by push.
-fn pushed(study: &PreparationStudy) -> Vec<&PreparationRow> {
+/// Pushes and the contact forces that they leave, natively under the paper's convention, sorted by push.
+fn contact_forces(study: &PreparationStudy) -> Vec<(f64, Option<f64>)> {
     let rows = study.rows_of(Code::NATIVE, Code::NATIVE);
-    let mut pushed: Vec<_> = rows.filter(|row| row.push.is_some()).collect();
-    pushed.sort_by(|left, right| {
-        f64::total_cmp(&left.push.unwrap_or(0.0), &right.push.unwrap_or(0.0))
-    });
+    let mut pushed: Vec<_> = rows
+        .filter_map(|row| Some((row.push?, row.contact_force)))
+        .collect();
+    pushed.sort_by(|left, right| left.0.total_cmp(&right.0));
     pushed
 }
 

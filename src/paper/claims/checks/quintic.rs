@@ -3,12 +3,35 @@
 use super::Check;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::claims::finding::{Finding, ROUND_OFF, list, relative, size, worst};
-use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{RADIUS, RATIOS, multiplied_out, pairs};
 use crate::theory::bracketed_root;
 
 pub(crate) const CHECKS: &[Check] = &[
-    Check::theory("quintic", quintic),
+    // The constant term, and −z⋆ in the coefficient of z⁴, against the elastic equation multiplied out.
+    Check::theory("quintic", |paper| {
+        let epsilon: f64 = 1e-2;
+        let (mut constant, mut leading) = (Vec::new(), Vec::new());
+        for (mu, kappa) in pairs(FRICTIONS, RATIOS) {
+            let table = multiplied_out(mu, kappa);
+            let truth = table[0][4] * epsilon.powi(4) * RADIUS.powi(5);
+            let printed = paper.quintic_constant(mu, kappa, epsilon, RADIUS);
+            constant.push(relative(printed, truth));
+            let stiff = paper.stiff_displacement(mu, kappa, 1.0);
+            leading.push((table[4][0] + stiff).abs());
+        }
+        let count = constant.len();
+        let kappa = paper.stiffness_ratio;
+        let coefficient = multiplied_out(CRITICAL_FRICTION, kappa)[0][4];
+        let (constant, leading) = (worst(constant), worst(leading));
+        let evidence = format!(
+            "the elastic equation multiplied out at {count} pairs of mu and kappa, coefficient of z^5 made 1: that of z^4 at \
+             epsilon = 0 is -z_star (deviation {}); the constant term is c_0 epsilon^4 with c_0 = {coefficient:.4} r^5 at mu_c and kappa = 2.5, \
+             off by a factor of up to {:.2} from the printed one. With the bare epsilon^4 the roots given for beta = 1 would not follow",
+            size(leading, ROUND_OFF),
+            constant + 1.0
+        );
+        Finding::new(worst([constant, leading]), ROUND_OFF, evidence)
+    }),
     // The powers of ε that come with each power of z: z⁵; z⁴ {1, ε}; z³ {ε, ε²}; z² {ε², ε³}; z {ε³, ε⁴}; 1 {ε⁴}.
     Check::theory("quintic-orders", |paper| {
         let last = |power: usize| (power as f64 - paper.quintic_constant_order).abs() < ROUND_OFF;
@@ -38,13 +61,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let kappa = paper.stiffness_ratio;
         let (coarse, fine) = (roots(kappa, 1e-8), roots(kappa, 1e-10));
         let exponents = [0, 1, 2, 3, 4].map(|index| (coarse[index] / fine[index]).log10() / 2.0);
-        let expected = [
-            paper.larger_exponent,
-            paper.smaller_exponent,
-            paper.smaller_exponent,
-            paper.smaller_exponent,
-            paper.larger_exponent,
-        ];
+        let (outer, inner) = (paper.larger_exponent, paper.smaller_exponent);
+        let expected = [outer, inner, inner, inner, outer];
         let deviation =
             worst([0, 1, 2, 3, 4].map(|index| (exponents[index] - expected[index]).abs()));
         let evidence = format!(
@@ -60,11 +78,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let needed = -larger * larger / epsilon;
         let table = multiplied_out(CRITICAL_FRICTION, kappa);
         // c₃ ε z³ with c₃ = c₃⁽⁰⁾ + ε c₃⁽¹⁾.
-        let named = if paper.balancing_superscript == 0.0 {
-            table[3][1]
-        } else {
-            table[3][2]
-        };
+        let bare = paper.balancing_superscript == 0.0;
+        let named = table[3][if bare { 1 } else { 2 }];
         let evidence = format!(
             "z^5 and c epsilon z^3 balance at mu_c with c = -z^2/epsilon = {needed:.4}; the quintic has c_3^(0) = {:.4}, c_3^(1) = {:.4} \
              (kappa = 2.5, r = 1), and c_3^(1) comes with epsilon^2",
@@ -105,10 +120,8 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("only-admissible-root", |paper| {
         let epsilon = 1e-6;
         let lowest = paper.lowest_displacement * epsilon;
-        let admissible = roots(paper.stiffness_ratio, epsilon)
-            .into_iter()
-            .filter(|&root| root >= lowest)
-            .count();
+        let roots = roots(paper.stiffness_ratio, epsilon).into_iter();
+        let admissible = roots.filter(|&root| root >= lowest).count();
         let evidence = format!(
             "{admissible} of the five roots at mu_c, epsilon = 1e-6, has z >= 3 epsilon r/2"
         );
@@ -118,46 +131,18 @@ pub(crate) const CHECKS: &[Check] = &[
 
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 
-/// The constant term, and −z⋆ in the coefficient of z⁴, against the elastic equation multiplied out.
-fn quintic(paper: &PaperTheory) -> Finding {
-    let epsilon: f64 = 1e-2;
-    let (mut constant, mut leading) = (Vec::new(), Vec::new());
-    for (mu, kappa) in pairs(FRICTIONS, RATIOS) {
-        let table = multiplied_out(mu, kappa);
-        let truth = table[0][4] * epsilon.powi(4) * RADIUS.powi(5);
-        let printed = paper.quintic_constant(mu, kappa, epsilon, RADIUS);
-        constant.push(relative(printed, truth));
-        let stiff = paper.stiff_displacement(mu, kappa, 1.0);
-        leading.push((table[4][0] + stiff).abs());
-    }
-    let count = constant.len();
-    let kappa = paper.stiffness_ratio;
-    let coefficient = multiplied_out(CRITICAL_FRICTION, kappa)[0][4];
-    let (constant, leading) = (worst(constant), worst(leading));
-    let evidence = format!(
-        "the elastic equation multiplied out at {count} pairs of mu and kappa, coefficient of z^5 made 1: that of z^4 at \
-         epsilon = 0 is -z_star (deviation {}); the constant term is c_0 epsilon^4 with c_0 = {coefficient:.4} r^5 at mu_c and kappa = 2.5, \
-         off by a factor of up to {:.2} from the printed one. With the bare epsilon^4 the roots given for beta = 1 would not follow",
-        size(leading, ROUND_OFF),
-        constant + 1.0
-    );
-    Finding::new(worst([constant, leading]), ROUND_OFF, evidence)
-}
-
 /// P(z) at μ_c.
 fn polynomial(kappa: f64, epsilon: f64, z: f64) -> f64 {
     let mut table = multiplied_out(CRITICAL_FRICTION, kappa);
     // z⋆ = 0 at μ_c up to rounding, which 1/ε² would magnify.
     table[4][0] = 0.0;
-    let row = |row: &[f64; 6]| {
-        row.iter()
-            .rev()
-            .fold(0.0, |sum, coefficient| sum * epsilon + coefficient)
-    };
-    table
-        .iter()
-        .rev()
-        .fold(0.0, |sum, coefficients| sum * z + row(coefficients))
+    horner(&table.map(|coefficients| horner(&coefficients, epsilon)), z)
+}
+
+/// The polynomial of `x` with these coefficients, that of the lowest power first.
+fn horner(coefficients: &[f64], x: f64) -> f64 {
+    let highest_first = coefficients.iter().rev();
+    highest_first.fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
 /// The five roots at μ_c, smallest first: the negative one, the three of order ε, and the large positive one.

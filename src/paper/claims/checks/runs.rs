@@ -4,7 +4,6 @@ use super::Check;
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
-use crate::paper::claims::printed::PaperTheory;
 use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction};
 use crate::study::yield_force::Judgement;
 
@@ -34,10 +33,8 @@ pub(crate) const CHECKS: &[Check] = &[
     // The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
     Check::runs("peak-is-quasistatic", |_, runs| {
         let series = &runs.force_series;
-        let (peak, limit) = series
-            .peak_force
-            .zip(series.limit)
-            .ok_or_else(|| missing("f(t)"))?;
+        let forces = series.peak_force.zip(series.limit);
+        let (peak, limit) = forces.ok_or_else(|| missing("f(t)"))?;
         let evidence = format!(
             "native DEM at mu = 0.2, k_n r/mg = 1e2, v = {:e}, dt = {:e}: peak {peak:.6} mg, exact quasi-static limit {limit:.6} mg: {:+.4} %",
             series.wall_speed,
@@ -60,8 +57,8 @@ pub(crate) const CHECKS: &[Check] = &[
         Ok(Finding::statement(shrinks, evidence))
     }),
     Check::runs("compression-speed", |paper, runs| {
-        let excess =
-            excess(runs, paper.compression_speed).ok_or_else(|| missing("this wall speed"))?;
+        let excess = excess(runs, paper.compression_speed);
+        let excess = excess.ok_or_else(|| missing("this wall speed"))?;
         let evidence = format!(
             "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}: it grows as v/epsilon",
             percents(runs, &[1e-5, 1e-6, 1e-7])
@@ -71,14 +68,11 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::runs("time-step", |paper, runs| {
         let points = &runs.convergence.time_steps;
         let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
-        let (at, finer) = peak(paper.time_step)
-            .zip(peak(0.1 * paper.time_step))
-            .ok_or_else(|| missing("these time steps"))?;
+        let peaks = peak(paper.time_step).zip(peak(0.1 * paper.time_step));
+        let (at, finer) = peaks.ok_or_else(|| missing("these time steps"))?;
         let coarse = peak(0.1).map_or_else(String::new, |coarse| {
-            format!(
-                "; even at dt = 0.1 it is {:.1e} off",
-                relative(coarse, finer)
-            )
+            let off = relative(coarse, finer);
+            format!("; even at dt = 0.1 it is {off:.1e} off")
         });
         let change = relative(at, finer);
         let evidence = format!(
@@ -87,7 +81,14 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Ok(Finding::new(change, 1e-4, evidence))
     }),
-    Check::theory("leapfrog", leapfrog),
+    Check::theory("leapfrog", |paper| {
+        let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
+        let evidence = format!(
+            "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
+            paper.time_step
+        );
+        Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
+    }),
     Check::runs("agrees-with-perturbation", |paper, runs| {
         let rows = forces(&runs.yield_curves);
         let kappa = paper.stiffness_ratio;
@@ -96,9 +97,8 @@ pub(crate) const CHECKS: &[Check] = &[
             (relative(printed, force + 3.0), mu, stiffness)
         });
         let compared: Vec<_> = compared.collect();
-        let farthest = compared
-            .iter()
-            .max_by(|left, right| left.0.total_cmp(&right.0));
+        let rows = compared.iter();
+        let farthest = rows.max_by(|left, right| left.0.total_cmp(&right.0));
         let &(largest, mu, stiffness) = farthest.ok_or_else(|| missing("Fig. 2(a)"))?;
         let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
         let near = worst(near.map(|row| row.0));
@@ -112,16 +112,13 @@ pub(crate) const CHECKS: &[Check] = &[
         Ok(Finding::new(largest, 1e-3, evidence))
     }),
     Check::runs("runs-approach-rigid-limit", |paper, runs| {
-        let mut below: Vec<(f64, f64)> = forces(&runs.scaling)
-            .into_iter()
-            .filter(|&(mu, ..)| mu < CRITICAL_FRICTION)
-            .map(|(mu, stiffness, force)| {
-                (
-                    stiffness,
-                    relative(force + 3.0, paper.rigid_yield_force(mu) + 3.0),
-                )
-            })
-            .collect();
+        let rows = forces(&runs.scaling).into_iter();
+        let below = rows.filter(|&(mu, ..)| mu < CRITICAL_FRICTION);
+        let below = below.map(|(mu, stiffness, force)| {
+            let rigid = paper.rigid_yield_force(mu);
+            (stiffness, relative(force + 3.0, rigid + 3.0))
+        });
+        let mut below: Vec<(f64, f64)> = below.collect();
         below.sort_by(|left, right| left.0.total_cmp(&right.0));
         let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
         let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
@@ -178,12 +175,8 @@ fn native(
 
 /// Excess of the peak over the limit at a wall speed.
 fn excess(runs: &Reproduction, speed: f64) -> Option<f64> {
-    native(
-        &runs.convergence.wall_speeds,
-        |point| point.wall_speed,
-        speed,
-    )?
-    .excess_of_peak()
+    let points = &runs.convergence.wall_speeds;
+    native(points, |point| point.wall_speed, speed)?.excess_of_peak()
 }
 
 fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
@@ -193,20 +186,9 @@ fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
     }))
 }
 
-fn leapfrog(paper: &PaperTheory) -> Finding {
-    let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
-    let evidence = format!(
-        "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
-        paper.time_step
-    );
-    Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
-}
-
 /// Friction, stiffness and yield force of the native rows that have one.
 fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
-    let rows = judgements.iter();
-    let native = rows.filter(|row| row.code == Code::NATIVE);
-    native
-        .filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)))
-        .collect()
+    let native = judgements.iter().filter(|row| row.code == Code::NATIVE);
+    let forces = native.filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)));
+    forces.collect()
 }

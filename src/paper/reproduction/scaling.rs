@@ -5,7 +5,6 @@ use crate::model::{CRITICAL_FRICTION, Stack};
 use crate::study::MAX_TOLERANCE;
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, Measurement, plan};
-use serde::Serialize;
 
 /// Frictions of Fig. 2(b).
 pub(crate) const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
@@ -17,7 +16,7 @@ const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 pub(crate) const FITTED_FROM: f64 = 1e3;
 
 /// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from 10³ on.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Exponent {
     /// The code that measured the yield forces.
     pub code: Code,
@@ -43,10 +42,8 @@ pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
         .iter()
         .flat_map(|&mu| SCALING_STIFFNESSES.map(|stiffness| Stack::paper(mu, stiffness)));
     let rows = stacks.flat_map(|stack| {
-        let plans = codes
-            .iter()
-            .map(move |&code| plan(code, &stack, code.convention()));
-        plans.collect::<Vec<_>>()
+        let codes = codes.iter();
+        codes.map(move |&code| plan(code, &stack, code.convention()))
     });
     rows.filter(|row| !row.cases.is_empty()).collect()
 }

@@ -87,10 +87,6 @@ fn contact_row(
         other_torque: two.torque,
         wall_force: row.wall_force,
         time_step: dt,
-        friction: match kind {
-            ContactKind::Pair => test.cylinder_friction,
-            ContactKind::Floor => test.floor_friction,
-            ContactKind::Wall => 0.0,
-        },
+        friction: kind.friction(test),
     }
 }

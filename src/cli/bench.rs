@@ -7,7 +7,7 @@ use crate::files::FileError;
 use crate::output::{
     DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
-use crate::study::cost::{BenchTarget, PyramidBench, ScalingBench, StackBench, StackCost};
+use crate::study::cost::{BenchTarget, PyramidBench, StackBench, StackCost, measure_scaling};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -96,12 +96,7 @@ fn time_scaling(
     costs: &[StackCost],
     context: &RunContext,
 ) -> Result<String, CliError> {
-    let default = ScalingBench::default();
-    let bench = ScalingBench {
-        repeats: arguments.repeats.map_or(default.repeats, usize::from),
-        ..default
-    };
-    let measured = bench.measure(context)?;
+    let measured = measure_scaling(arguments.repeats.map(usize::from), context)?;
     write_all(arguments.out.as_deref(), || {
         let all = measured.cases.iter().chain(&measured.cores);
         let rows = crate::output::bench(costs);

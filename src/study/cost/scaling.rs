@@ -1,6 +1,6 @@
 //! Scaling of native lanes with the number of cases on one core, and with cores.
 
-use super::stack::{LENGTHS, StackBench, timed_cases};
+use super::stack::{LENGTHS, plans, timed_cases};
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
 use crate::code::{Code, RunContext};
@@ -50,7 +50,8 @@ pub(crate) fn measure_scaling(
     context: &RunContext,
 ) -> Result<Scaling, BenchError> {
     let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
-    let planned = planned_cases();
+    let planned = plans(Code::NATIVE, STACKS).into_iter();
+    let planned: Vec<Case> = planned.flat_map(|plan| plan.cases).collect();
     let cores = numbers_of_cores();
     let mut over_cases = CASES.map(|_| Vec::new());
     let mut over_cores = vec![Vec::new(); cores.len()];
@@ -63,13 +64,10 @@ pub(crate) fn measure_scaling(
         }
     }
     let over_cases = CASES.iter().map(|&cases| (cases, 1)).zip(&over_cases);
-    let over_cores = cores
-        .iter()
-        .map(|&cores| (planned.len(), cores))
-        .zip(&over_cores);
+    let sizes = cores.iter().map(|&cores| (planned.len(), cores));
     Ok(Scaling {
         cases: rows(over_cases),
-        cores: rows(over_cores),
+        cores: rows(sizes.zip(&over_cores)),
     })
 }
 
@@ -77,21 +75,8 @@ pub(crate) fn measure_scaling(
 fn numbers_of_cores() -> Vec<usize> {
     let all = std::thread::available_parallelism().map_or(1, usize::from);
     let doubled = std::iter::successors(Some(1), |cores| Some(2 * cores));
-    doubled
-        .take_while(|&cores| cores < all)
-        .chain([all])
-        .collect()
-}
-
-/// The planned runs of all stacks.
-fn planned_cases() -> Vec<Case> {
-    let bench = StackBench {
-        targets: Vec::new(),
-        stacks: STACKS,
-        ..StackBench::default()
-    };
-    let plans = bench.plans(Code::NATIVE).into_iter();
-    plans.flat_map(|plan| plan.cases).collect()
+    let numbers = doubled.take_while(|&cores| cores < all);
+    numbers.chain([all]).collect()
 }
 
 /// Nanoseconds per step and case of `count` cases in one call.

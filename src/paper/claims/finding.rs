@@ -73,12 +73,6 @@ impl Finding {
         Self::new(largest, ROUND_OFF, evidence)
     }
 
-    /// A number of the text, which may be off by half a unit of its last digit.
-    pub(crate) fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
-        let evidence = format!("{of} is {truth:.5}, printed is {printed}");
-        Self::new((printed - truth).abs(), 0.5 * unit * (1.0 + 1e-9), evidence)
-    }
-
     /// The verdict, where the words of the claim allow a deviation up to `allowed`.
     pub(crate) fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
         if self.deviation <= self.bound {

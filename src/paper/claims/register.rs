@@ -36,11 +36,10 @@ pub struct Erratum {
 impl Erratum {
     /// The corrected paper; `None` if it has no constant of a name.
     pub fn apply(&self, paper: &PaperTheory) -> Option<PaperTheory> {
-        let mut corrected = paper.clone();
-        for (name, &value) in &self.set {
-            corrected = corrected.with(name, value)?;
-        }
-        Some(corrected)
+        let mut set = self.set.iter();
+        set.try_fold(paper.clone(), |paper, (name, &value)| {
+            paper.with(name, value)
+        })
     }
 }
 

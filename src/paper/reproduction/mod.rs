@@ -12,7 +12,7 @@ pub(crate) use curves::codes_by_arms;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub use force_series::{ForceSeries, force_series};
 pub use scaling::{Exponent, exponents, scaling_measurements};
-pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS};
+pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at};
 pub use snapshots::{Snapshots, snapshots};
 
 use crate::code::{Code, Provenance};

@@ -55,7 +55,8 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
         for code in Code::all() {
             let own = judgements
                 .iter()
-                .filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
+                .filter(|row| row.code == code && row.mu() == mu);
+            let own = own.filter(|row| row.stiffness() >= FITTED_FROM);
             let points: Vec<Point> = own.filter_map(Point::of).collect();
             if points.len() >= 2 {
                 fitted.push(fit(code, mu, &points));
@@ -101,7 +102,7 @@ fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
         exponent,
         uncertainty,
         exact,
-        asymptotic: asymptotic_exponent(mu),
+        asymptotic: exponent_at(mu, [0.0, 0.5, 1.0]),
         points: points.len(),
         verdict: Verdict::of(exponent - exact, uncertainty, tolerance),
     }
@@ -111,22 +112,17 @@ fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
 fn slope_weights(points: &[Point]) -> Vec<f64> {
     let count = points.len() as f64;
     let mean = points.iter().map(|point| point.stiffness).sum::<f64>() / count;
-    let spread: f64 = points
-        .iter()
-        .map(|point| (point.stiffness - mean).powi(2))
-        .sum();
-    points
-        .iter()
-        .map(|point| (point.stiffness - mean) / spread)
-        .collect()
+    let distances = points.iter().map(|point| point.stiffness - mean);
+    let spread: f64 = distances.clone().map(|distance| distance.powi(2)).sum();
+    distances.map(|distance| distance / spread).collect()
 }
 
-/// The exponent for ε → 0 (paper, scaling of f + 3 m g below, at and above μ_c).
-fn asymptotic_exponent(mu: f64) -> f64 {
+/// The one of three exponents, for frictions below, at and above μ_c, that belongs to `mu`.
+pub(crate) fn exponent_at(mu: f64, [below, at, above]: [f64; 3]) -> f64 {
     match mu.total_cmp(&CRITICAL_FRICTION) {
-        std::cmp::Ordering::Less => 0.0,
-        std::cmp::Ordering::Equal => 0.5,
-        std::cmp::Ordering::Greater => 1.0,
+        std::cmp::Ordering::Less => below,
+        std::cmp::Ordering::Equal => at,
+        std::cmp::Ordering::Greater => above,
     }
 }
 

@@ -4,17 +4,15 @@ use super::Check;
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
-use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction};
+use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction, exponent_at};
 use crate::study::yield_force::Judgement;
 
 pub(crate) const CHECKS: &[Check] = &[
     // f(t) rises, has one maximum, and falls.
     Check::runs("force-series", |_, runs| {
         let rows = &runs.force_series.rows;
-        let peak = rows
-            .iter()
-            .enumerate()
-            .max_by(|left, right| left.1.1.total_cmp(&right.1.1));
+        let numbered = rows.iter().enumerate();
+        let peak = numbered.max_by(|left, right| left.1.1.total_cmp(&right.1.1));
         let (index, &(_, highest)) = peak.ok_or_else(|| missing("f(t)"))?;
         let (mut so_far, mut drop) = (0.0f64, 0.0f64);
         for &(_, force) in &rows[..index] {
@@ -134,11 +132,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut deviations = Vec::new();
         let exponents = runs.exponents.iter();
         for exponent in exponents.filter(|exponent| exponent.code == Code::NATIVE) {
-            let printed = match exponent.mu.total_cmp(&CRITICAL_FRICTION) {
-                std::cmp::Ordering::Less => 0.0,
-                std::cmp::Ordering::Equal => paper.scaling_at,
-                std::cmp::Ordering::Greater => paper.scaling_above,
-            };
+            let printed = exponent_at(exponent.mu, [0.0, paper.scaling_at, paper.scaling_above]);
             deviations.push((exponent.exponent - printed).abs());
             listed.push(format!(
                 "{:.4} +- {:.0e} at mu = {:.3}",

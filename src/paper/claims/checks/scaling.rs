@@ -138,11 +138,9 @@ pub(crate) const CHECKS: &[Check] = &[
             let mu = |index: i32| CRITICAL_FRICTION + SPACING * f64::from(index);
             let load = |index: i32| exact_load(&paper.stack(mu(index), stiffness)).ln();
             let loads: Vec<f64> = (-18..=18).map(load).collect();
-            let slopes = loads
-                .windows(3)
-                .map(|triple| triple[2] - triple[0])
-                .enumerate();
-            let largest = slopes.max_by(|left, right| left.1.total_cmp(&right.1));
+            let slopes = loads.windows(3).map(|triple| triple[2] - triple[0]);
+            let numbered = slopes.enumerate();
+            let largest = numbered.max_by(|left, right| left.1.total_cmp(&right.1));
             largest.map_or(f64::NAN, |(index, _)| mu(index as i32 - 17))
         };
         let found = [1e2, 1e3, 1e4].map(steepest);

@@ -56,7 +56,7 @@ const BESIDE: InitialMotion = InitialMotion {
 };
 
 /// Motion of the first body relative to the second in the frame of the contact, spins of both, and how it is observed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 struct Start {
     overlap: f64,
     /// Velocity along the normal, positive when separating.

@@ -5,7 +5,7 @@ use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{Balanced, Forces, equilibrium, pairs, turned};
-use crate::theory::{bracketed_root, quasistatic_limit};
+use crate::theory::quasistatic_limit;
 use nalgebra::{Matrix6, Vector2, Vector6};
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -141,7 +141,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let deviations = (1..=80).map(|index| {
             let mu = 0.005 * f64::from(index) + 1e-3;
             let (printed, truth) = (paper.rigid_yield_force(mu), slip_force(mu));
-            // Both are infinite from mu_c on.
+            // Both are infinite from μ_c on.
             match printed == truth {
                 true => 0.0,
                 false => ((printed - truth) / (truth + 3.0)).abs(),
@@ -232,10 +232,19 @@ fn conditions(paper: &PaperTheory, mu: f64) -> Matrix6<f64> {
 /// f/(m g) at which rigid cylinders slip, by bisection of e − μ d; 0 if they slip at once, infinite if never.
 fn slip_force(mu: f64) -> f64 {
     let excess = |force: f64| rigid_forces(force).map_or(f64::NAN, |(e, d)| e - mu * d);
-    if excess(0.0) >= 0.0 {
+    let (mut low, mut high) = (0.0, 1e12);
+    if excess(low) >= 0.0 {
         return 0.0;
     }
-    bracketed_root(excess, 0.0, 1e12).unwrap_or(f64::INFINITY)
+    if excess(high) < 0.0 {
+        return f64::INFINITY;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        let below = excess(middle) < 0.0;
+        (low, high) = if below { (middle, high) } else { (low, middle) };
+    }
+    high
 }
 
 /// The smallest and the largest e/d of the balances over all forces. The floor slips at every force if μ is below
@@ -243,9 +252,8 @@ fn slip_force(mu: f64) -> f64 {
 fn ratios() -> (f64, f64) {
     let growing = (1..=400).map(|index| 10f64.powf(f64::from(index) / 25.0 - 4.0));
     let states = std::iter::once(0.0).chain(growing).filter_map(rigid_forces);
-    states
-        .map(|(e, d)| e / d)
-        .fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), ratio| {
-            (low.min(ratio), high.max(ratio))
-        })
+    let ratios = states.map(|(e, d)| e / d);
+    ratios.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), ratio| {
+        (low.min(ratio), high.max(ratio))
+    })
 }

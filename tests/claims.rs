@@ -97,12 +97,7 @@ fn every_erratum_holds_and_is_needed() {
         else {
             continue;
         };
-        assert_eq!(
-            row.erratum.as_ref(),
-            Some(&erratum.text),
-            "{}",
-            row.claim.id
-        );
+        assert_eq!(row.erratum.as_ref(), Some(&erratum.text), "{}", claim.id);
         let corrected = judge(
             &Register {
                 claims: vec![claim.clone()],
@@ -110,13 +105,8 @@ fn every_erratum_holds_and_is_needed() {
             &erratum.apply(&printed).expect("known constants"),
             None,
         );
-        assert_eq!(
-            corrected[0].verdict,
-            ClaimVerdict::Holds,
-            "{}",
-            row.claim.id
-        );
-        assert_eq!(corrected[0].erratum, None, "{}", row.claim.id);
+        assert_eq!(corrected[0].verdict, ClaimVerdict::Holds, "{}", claim.id);
+        assert_eq!(corrected[0].erratum, None, "{}", claim.id);
     }
 }
 

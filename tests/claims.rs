@@ -7,7 +7,6 @@ use tristack::code::{Code, Failure, Interrupt};
 use tristack::model::{CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
-    judge_theory,
 };
 use tristack::paper::reproduction::{
     Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
@@ -34,7 +33,7 @@ fn table(rows: &[ClaimJudgement]) -> String {
         } else {
             ""
         };
-        writeln!(table, "{}: {}{erratum}", row.id, row.verdict).expect("a string");
+        writeln!(table, "{}: {}{erratum}", row.claim.id, row.verdict).expect("a string");
         table
     })
 }
@@ -69,14 +68,14 @@ fn every_check_is_used() {
 
 #[test]
 fn verdicts_by_theory() {
-    let rows = judge_theory(&register(), &PaperTheory::printed());
+    let rows = judge(&register(), &PaperTheory::printed(), None);
     assert_snapshot!(table(&rows));
     for row in rows {
-        assert!(!row.evidence.is_empty(), "{}", row.id);
+        assert!(!row.evidence.is_empty(), "{}", row.claim.id);
         assert!(
             !row.evidence.contains("NaN"),
             "{}: {}",
-            row.id,
+            row.claim.id,
             row.evidence
         );
     }
@@ -87,7 +86,7 @@ fn verdicts_by_theory() {
 fn every_erratum_holds_and_is_needed() {
     let register = register();
     let printed = PaperTheory::printed();
-    let rows = judge_theory(&register, &printed);
+    let rows = judge(&register, &printed, None);
     assert_eq!(rows.len(), register.claims.len());
     for (claim, row) in register.claims.iter().zip(&rows) {
         let Some(erratum) = claim
@@ -97,15 +96,16 @@ fn every_erratum_holds_and_is_needed() {
         else {
             continue;
         };
-        assert_eq!(row.erratum.as_ref(), Some(&erratum.text), "{}", row.id);
-        let corrected = judge_theory(
+        assert_eq!(row.erratum.as_ref(), Some(&erratum.text), "{}", claim.id);
+        let corrected = judge(
             &Register {
                 claims: vec![claim.clone()],
             },
             &erratum.apply(&printed).expect("known constants"),
+            None,
         );
-        assert_eq!(corrected[0].verdict, ClaimVerdict::Holds, "{}", row.id);
-        assert_eq!(corrected[0].erratum, None, "{}", row.id);
+        assert_eq!(corrected[0].verdict, ClaimVerdict::Holds, "{}", claim.id);
+        assert_eq!(corrected[0].erratum, None, "{}", claim.id);
     }
 }
 
@@ -157,15 +157,15 @@ fn flips(register: &Register, name: &'static str) -> Flips {
     if let Some((constant, value)) = mended(name) {
         paper = paper.with(constant, value).expect("a constant");
     }
-    let before = judge_theory(register, &paper);
+    let before = judge(register, &paper, None);
     let constant = paper.constant_mut(name).expect("a constant");
     *constant = changed(name, *constant);
-    let after = judge_theory(register, &paper);
+    let after = judge(register, &paper, None);
     let pairs = before.into_iter().zip(after);
     let flipped = pairs.filter(|(before, after)| before.verdict != after.verdict);
     let words = flipped.map(|(before, after)| {
         let change = format!("{} -> {}", before.verdict, after.verdict);
-        (before.id, change)
+        (before.claim.id, change)
     });
     (name, words.collect())
 }
@@ -200,13 +200,13 @@ fn changing_one_constant_flips_the_right_verdicts() {
         assert!(seen, "{name} flips nothing");
     }
     let flipped: BTreeSet<&String> = table.iter().flat_map(|(_, flips)| flips.keys()).collect();
-    for row in judge_theory(&register, &PaperTheory::printed()) {
+    for row in judge(&register, &PaperTheory::printed(), None) {
         // Equations that fail flip with the constants of their erratum, which is another test.
-        let holds = row.kind == ClaimKind::Equation && row.verdict == ClaimVerdict::Holds;
+        let holds = row.claim.kind == ClaimKind::Equation && row.verdict == ClaimVerdict::Holds;
         assert!(
-            !holds || flipped.contains(&row.id),
+            !holds || flipped.contains(&row.claim.id),
             "nothing flips {}",
-            row.id
+            row.claim.id
         );
     }
 }
@@ -277,16 +277,16 @@ fn native_reproduction() -> Reproduction {
 fn verdicts_on_the_simulations() {
     let register = register();
     let printed = PaperTheory::printed();
-    let untested: BTreeSet<String> = judge_theory(&register, &printed)
+    let untested: BTreeSet<String> = judge(&register, &printed, None)
         .into_iter()
         .filter(|row| row.verdict == ClaimVerdict::Untestable)
-        .map(|row| row.id)
+        .map(|row| row.claim.id)
         .collect();
     let runs = native_reproduction();
-    let rows = judge(&register, &printed, &runs);
+    let rows = judge(&register, &printed, Some(&runs));
     let on_runs: Vec<ClaimJudgement> = rows
         .into_iter()
-        .filter(|row| untested.contains(&row.id))
+        .filter(|row| untested.contains(&row.claim.id))
         .collect();
     assert_snapshot!(table(&on_runs));
     a_wrong_constant_is_noticed(&register, &runs);
@@ -315,8 +315,8 @@ fn a_wrong_constant_is_noticed(register: &Register, runs: &Reproduction) {
         let paper = PaperTheory::printed()
             .with(name, value)
             .expect("a constant");
-        let rows = judge(register, &paper, runs);
-        let row = rows.iter().find(|row| row.id == id).expect("a claim");
+        let rows = judge(register, &paper, Some(runs));
+        let row = rows.iter().find(|row| row.claim.id == id).expect("a claim");
         assert_eq!(row.verdict, verdict, "{id}: {}", row.evidence);
     }
 }

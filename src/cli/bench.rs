@@ -7,7 +7,9 @@ use crate::files::FileError;
 use crate::output::{
     DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
-use crate::study::cost::{BenchTarget, PyramidBench, ScalingBench, StackBench, StackCost};
+use crate::study::cost::{
+    PyramidBench, StackCost, installed_codes, measure_scaling, measure_stack,
+};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -60,7 +62,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 /// The named codes with native, or else the installed ones.
 fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
-        return Ok(StackBench::installed());
+        return Ok(installed_codes());
     }
     let mut names = vec![Code::NATIVE];
     names.extend(named);
@@ -74,13 +76,7 @@ fn time_stack(
     codes: &[Code],
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
-    let default = StackBench::default();
-    let bench = StackBench {
-        targets: codes.iter().copied().flat_map(BenchTarget::of).collect(),
-        repeats: arguments.repeats.map_or(default.repeats, usize::from),
-        ..default
-    };
-    let costs = bench.measure(context)?;
+    let costs = measure_stack(codes, arguments.repeats.map(usize::from), context)?;
     let rows = crate::output::bench(&costs);
     let further = match arguments.scaling || arguments.out.is_some() {
         true => time_scaling(arguments, command, &costs, context)?,
@@ -96,12 +92,7 @@ fn time_scaling(
     costs: &[StackCost],
     context: &RunContext,
 ) -> Result<String, CliError> {
-    let default = ScalingBench::default();
-    let bench = ScalingBench {
-        repeats: arguments.repeats.map_or(default.repeats, usize::from),
-        ..default
-    };
-    let measured = bench.measure(context)?;
+    let measured = measure_scaling(arguments.repeats.map(usize::from), context)?;
     write_all(arguments.out.as_deref(), || {
         let all = measured.cases.iter().chain(&measured.cores);
         let rows = crate::output::bench(costs);

@@ -60,7 +60,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             return Ok(ExitStatus::Interrupted);
         }
     };
-    let claims = judge(&register, &PaperTheory::printed(), &reproduced);
+    let claims = judge(&register, &PaperTheory::printed(), Some(&reproduced));
     let absent = codes.iter().filter(|selected| selected.code.is_none());
     let origin = Origin {
         command: command.to_owned(),

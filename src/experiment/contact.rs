@@ -2,7 +2,6 @@
 
 use super::Cylinder;
 use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -13,8 +12,7 @@ use std::fmt;
 /// The contact has the half-width a, a² = 2 P r/(π E*) (Hertz; K. L. Johnson, *Contact Mechanics*, 1985,
 /// section 4.2), and the centres approach each other by twice the compression of a half cylinder,
 /// (P/(2 π E*)) (2 ln(4 r/a) − 1) (there Eq. 5.57). The logarithm makes k_n depend on the load, but weakly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ContactEstimate {
     /// The paper's ε = L ρ g/E with L = r, that is k_n = π E l. An order of magnitude, and on the
     /// stiff side of it.

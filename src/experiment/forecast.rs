@@ -47,7 +47,7 @@ impl fmt::Display for FrictionRegime {
 }
 
 /// A force in both units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Force {
     /// In m g.
     pub weights: f64,
@@ -56,7 +56,7 @@ pub struct Force {
 }
 
 /// The forecast by one estimate of the contact.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Forecasted {
     /// The estimate.
     pub contact: ContactEstimate,
@@ -69,7 +69,6 @@ pub struct Forecasted {
     /// The first event.
     pub event: Event,
     /// Why that event is no yield, if it is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Overlap of the contacts between the cylinders at that event, in r.
     pub overlap: f64,
@@ -85,7 +84,7 @@ pub struct Forecasted {
 }
 
 /// Smallest and largest of the forces that a stack may carry.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceRange {
     /// In N.
     pub lowest: Option<f64>,
@@ -94,10 +93,9 @@ pub struct ForceRange {
 }
 
 /// The forecast of an experiment.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
     /// The experiment.
-    #[serde(flatten)]
     pub experiment: Experiment,
     /// m in kg.
     pub mass: f64,
@@ -134,8 +132,8 @@ impl Forecast {
     pub fn new(experiment: &Experiment, contact: ContactEstimate) -> Result<Self, InvalidValue> {
         experiment.validate()?;
         let at = |mu: f64| -> Result<Vec<Forecasted>, InvalidValue> {
-            let all = ContactEstimate::ALL.into_iter();
-            all.map(|contact| forecasted(experiment, contact, mu))
+            let all = ContactEstimate::ALL.iter();
+            all.map(|&contact| forecasted(experiment, contact, mu))
                 .collect()
         };
         let estimates = at(experiment.mu)?;
@@ -144,9 +142,8 @@ impl Forecast {
             extremes.extend(at(experiment.mu - experiment.mu_uncertainty)?);
             extremes.extend(at(experiment.mu + experiment.mu_uncertainty)?);
         }
-        let chosen = estimates
-            .iter()
-            .find(|estimate| estimate.contact == contact);
+        let mut all = estimates.iter();
+        let chosen = all.find(|estimate| estimate.contact == contact);
         let mass = experiment.cylinder.mass();
         Ok(Self {
             experiment: *experiment,

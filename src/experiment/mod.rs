@@ -16,7 +16,6 @@ pub use forecast::{Force, ForceRange, Forecast, Forecasted, FrictionRegime};
 pub use quantity::{density, length, mass, modulus};
 
 use crate::model::{InvalidValue, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
-use serde::Serialize;
 use std::f64::consts::PI;
 
 /// Standard gravity in m/s².
@@ -28,7 +27,7 @@ const PAPER_LENGTH: f64 = 0.01;
 const PAPER_MASS: f64 = 1e-3;
 
 /// A solid cylinder, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     /// E in Pa; across the grain, for wood.
     pub youngs_modulus: f64,
@@ -80,12 +79,9 @@ impl Cylinder {
     }
 
     fn validate(&self) -> Result<(), InvalidValue> {
+        let modulus = self.youngs_modulus;
         let positive = [
-            (
-                "cylinder.youngs_modulus",
-                self.youngs_modulus,
-                "a modulus above 0 Pa",
-            ),
+            ("cylinder.youngs_modulus", modulus, "a modulus above 0 Pa"),
             ("cylinder.density", self.density, "a density above 0 kg/m3"),
             ("cylinder.radius", self.radius, "a length above 0 m"),
             ("cylinder.length", self.length, "a length above 0 m"),
@@ -105,10 +101,9 @@ impl Cylinder {
 }
 
 /// Three equal cylinders on a floor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Experiment {
     /// One of them.
-    #[serde(flatten)]
     pub cylinder: Cylinder,
     /// Floor friction μ.
     pub mu: f64,
@@ -152,10 +147,11 @@ impl Experiment {
         };
         groups.validate()?;
         if !(self.mu_uncertainty >= 0.0 && self.mu_uncertainty < self.mu) {
+            let accepted = "a number from 0 to below mu";
             return Err(InvalidValue::new(
                 "mu_uncertainty",
                 self.mu_uncertainty,
-                "a number from 0 to below mu",
+                accepted,
             ));
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! Quantities as people write them: "1 MPa", "1000 kg/m3", "20mm".
 
+use std::str::FromStr;
 use uom::si::f64::{Length, Mass, MassDensity, Pressure};
 use uom::si::length::meter;
 use uom::si::mass::kilogram;
@@ -12,38 +13,32 @@ use uom::si::pressure::pascal;
 /// The accepted units and an example, as for the other quantities.
 pub fn modulus(text: &str) -> Result<f64, String> {
     let accepted = "Pa, kPa, MPa, GPa, N/mm2 or psi, as in \"1 MPa\"";
-    quantity(text, accepted, |text| {
-        Some(text.parse::<Pressure>().ok()?.get::<pascal>())
-    })
+    quantity(text, accepted, |read: Pressure| read.get::<pascal>())
 }
 
 /// Reads a mass density, in kg/m³.
 pub fn density(text: &str) -> Result<f64, String> {
     let accepted = "kg/m3, g/cm3 or t/m3, as in \"1000 kg/m3\"";
-    quantity(text, accepted, |text| {
-        let density = text.parse::<MassDensity>().ok()?;
-        Some(density.get::<kilogram_per_cubic_meter>())
+    quantity(text, accepted, |read: MassDensity| {
+        read.get::<kilogram_per_cubic_meter>()
     })
 }
 
 /// Reads a length, in m.
 pub fn length(text: &str) -> Result<f64, String> {
     let accepted = "m, cm, mm, um or in, as in \"1 cm\"";
-    quantity(text, accepted, |text| {
-        Some(text.parse::<Length>().ok()?.get::<meter>())
-    })
+    quantity(text, accepted, |read: Length| read.get::<meter>())
 }
 
 /// Reads a mass, in kg.
 pub fn mass(text: &str) -> Result<f64, String> {
     let accepted = "kg, g, mg or t, as in \"21.9 g\"";
-    quantity(text, accepted, |text| {
-        Some(text.parse::<Mass>().ok()?.get::<kilogram>())
-    })
+    quantity(text, accepted, |read: Mass| read.get::<kilogram>())
 }
 
-fn quantity(text: &str, accepted: &str, read: impl Fn(&str) -> Option<f64>) -> Result<f64, String> {
-    let value = read(&spelled_out(text)).filter(|value| value.is_finite() && *value > 0.0);
+fn quantity<Q: FromStr>(text: &str, accepted: &str, si: fn(Q) -> f64) -> Result<f64, String> {
+    let value = spelled_out(text).parse().ok().map(si);
+    let value = value.filter(|value| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| format!("accepted is a number above 0 and its unit: {accepted}"))
 }
 
@@ -51,12 +46,11 @@ fn quantity(text: &str, accepted: &str, read: impl Fn(&str) -> Option<f64>) -> R
 fn spelled_out(text: &str) -> String {
     let text = text.trim();
     // The longest part that is a number: "1e" is none, so that the e of a unit stays with the unit.
-    let end = text
-        .char_indices()
-        .map(|(index, _)| index)
-        .chain([text.len()])
-        .filter(|&end| text[..end].parse::<f64>().is_ok())
-        .max();
+    let is_number = |&end: &usize| {
+        text.get(..end)
+            .is_some_and(|part| part.parse::<f64>().is_ok())
+    };
+    let end = (0..=text.len()).rev().find(is_number);
     let (number, unit) = text.split_at(end.unwrap_or(0));
     let unit: String = unit.split_whitespace().collect();
     let unit = unit.replace("**", "").replace('^', "");

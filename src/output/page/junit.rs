@@ -59,18 +59,18 @@ fn status(verdict: Verdict, text: &str) -> TestCaseStatus {
     status
 }
 
-fn claim(claim: &ClaimJudgement) -> TestCase {
-    let status = match claim.verdict {
+fn claim(judged: &ClaimJudgement) -> TestCase {
+    let status = match judged.verdict {
         ClaimVerdict::Untestable => {
             let mut status = TestCaseStatus::skipped();
-            status.set_message(&claim.evidence);
+            status.set_message(&judged.evidence);
             status
         }
         _ => TestCaseStatus::success(),
     };
-    let mut case = TestCase::new(claim.id.clone(), status);
-    case.set_classname(claim.place.clone());
-    let verdict = super::sections::in_words(claim.verdict);
-    case.set_system_out(format!("{verdict}: {}", claim.evidence));
+    let mut case = TestCase::new(judged.claim.id.clone(), status);
+    case.set_classname(judged.claim.place.clone());
+    let verdict = super::sections::in_words(judged.verdict);
+    case.set_system_out(format!("{verdict}: {}", judged.evidence));
     case
 }

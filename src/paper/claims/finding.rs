@@ -1,14 +1,11 @@
 //! The finding of a check, and the one rule that derives a verdict from it.
 
-use serde::Serialize;
-
 /// Deviation below which two formulas count as the same. The states at which they are evaluated are known to
 /// some 1e-11.
 pub(crate) const ROUND_OFF: f64 = 1e-8;
 
 /// The verdict on a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ClaimVerdict {
     /// The claim holds as stated.
     Holds,
@@ -20,21 +17,14 @@ pub enum ClaimVerdict {
     Untestable,
 }
 
-impl ClaimVerdict {
-    /// The word in tables.
-    pub fn as_str(self) -> &'static str {
-        match self {
+impl std::fmt::Display for ClaimVerdict {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
             Self::Holds => "holds",
             Self::Approximately => "approximately",
             Self::Fails => "fails",
             Self::Untestable => "untestable",
-        }
-    }
-}
-
-impl std::fmt::Display for ClaimVerdict {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(self.as_str())
+        })
     }
 }
 
@@ -81,12 +71,6 @@ impl Finding {
             _ => format!("{compared}; at {count} points the largest relative deviation is {found}"),
         };
         Self::new(largest, ROUND_OFF, evidence)
-    }
-
-    /// A number of the text, which may be off by half a unit of its last digit.
-    pub(crate) fn rounded(printed: f64, unit: f64, truth: f64, of: &str) -> Self {
-        let evidence = format!("{of} is {truth:.5}, printed is {printed}");
-        Self::new((printed - truth).abs(), 0.5 * unit * (1.0 + 1e-9), evidence)
     }
 
     /// The verdict, where the words of the claim allow a deviation up to `allowed`.

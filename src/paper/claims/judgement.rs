@@ -3,22 +3,15 @@
 use super::checks;
 use super::finding::{ClaimVerdict, Finding};
 use super::printed::PaperTheory;
-use super::register::{Claim, ClaimKind, Register};
+use super::register::{Claim, Register};
 use crate::paper::reproduction::Reproduction;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use serde::Serialize;
 
-/// One row of `claims.json`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// A claim and the verdict on it.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ClaimJudgement {
-    /// Name of the claim.
-    pub id: String,
-    /// Place in the paper.
-    pub place: String,
-    /// Statement, in words or as a formula.
-    pub statement: String,
-    /// Kind of the statement.
-    pub kind: ClaimKind,
+    /// The claim.
+    pub claim: Claim,
     /// Verdict by the finding of the check.
     pub verdict: ClaimVerdict,
     /// The quantities compared and their values, or the reason why there are none.
@@ -27,29 +20,16 @@ pub struct ClaimJudgement {
     pub erratum: Option<String>,
 }
 
-/// Judges every claim of `register` by the formulas of `paper` and the runs of `reproduction`.
+/// Judges every claim of `register` by the formulas of `paper` and by `runs`, without which claims on DEM runs are
+/// untestable.
 pub fn judge(
-    register: &Register,
-    paper: &PaperTheory,
-    reproduction: &Reproduction,
-) -> Vec<ClaimJudgement> {
-    judge_with(register, paper, Some(reproduction))
-}
-
-/// Judges every claim by theory alone, which leaves claims on DEM runs untestable.
-pub fn judge_theory(register: &Register, paper: &PaperTheory) -> Vec<ClaimJudgement> {
-    judge_with(register, paper, None)
-}
-
-fn judge_with(
     register: &Register,
     paper: &PaperTheory,
     runs: Option<&Reproduction>,
 ) -> Vec<ClaimJudgement> {
     let claims = register.claims.par_iter();
-    claims
-        .map(|claim| judge_claim(claim, paper, runs))
-        .collect()
+    let judged = claims.map(|claim| judge_claim(claim, paper, runs));
+    judged.collect()
 }
 
 fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) -> ClaimJudgement {
@@ -58,10 +38,7 @@ fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) 
         Err(reason) => (ClaimVerdict::Untestable, reason),
     };
     ClaimJudgement {
-        id: claim.id.clone(),
-        place: claim.place.clone(),
-        statement: claim.statement.clone(),
-        kind: claim.kind,
+        claim: claim.clone(),
         verdict,
         evidence,
         erratum: erratum(claim, paper, runs, verdict),

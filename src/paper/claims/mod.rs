@@ -15,6 +15,6 @@ mod truth;
 
 pub use checks::check_names;
 pub use finding::ClaimVerdict;
-pub use judgement::{ClaimJudgement, judge, judge_theory};
+pub use judgement::{ClaimJudgement, judge};
 pub use printed::PaperTheory;
 pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};

@@ -23,17 +23,6 @@ pub enum ClaimKind {
     Statement,
 }
 
-impl ClaimKind {
-    /// The word in tables.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Equation => "equation",
-            Self::Number => "number",
-            Self::Statement => "statement",
-        }
-    }
-}
-
 /// The correction of a claim that does not hold.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -47,11 +36,10 @@ pub struct Erratum {
 impl Erratum {
     /// The corrected paper; `None` if it has no constant of a name.
     pub fn apply(&self, paper: &PaperTheory) -> Option<PaperTheory> {
-        let mut corrected = paper.clone();
-        for (name, &value) in &self.set {
-            corrected = corrected.with(name, value)?;
-        }
-        Some(corrected)
+        let mut set = self.set.iter();
+        set.try_fold(paper.clone(), |paper, (name, &value)| {
+            paper.with(name, value)
+        })
     }
 }
 
@@ -91,25 +79,12 @@ pub struct Register {
 
 /// A register that cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum RegisterError {
-    /// No TOML, or an unknown key, or a value of the wrong type.
-    #[error("{file}: {message}")]
-    Syntax {
-        /// The file.
-        file: String,
-        /// The defect and its place.
-        message: String,
-    },
-    /// A value that is not accepted.
-    #[error("{file}: claim `{id}`: {invalid}")]
-    Value {
-        /// The file.
-        file: String,
-        /// The claim.
-        id: String,
-        /// Key, value, and the values accepted.
-        invalid: InvalidValue,
-    },
+#[error("{file}: {message}")]
+pub struct RegisterError {
+    /// The file.
+    pub file: String,
+    /// The defect and its place.
+    pub message: String,
 }
 
 fn invalid(key: &str, value: impl ToString, accepted: impl Into<String>) -> InvalidValue {
@@ -128,19 +103,15 @@ impl Register {
 
     /// Reads and validates claims from the `text` of a `file`.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, RegisterError> {
-        let register: Self = toml::from_str(text).map_err(|error| RegisterError::Syntax {
+        let refused = |message: String| RegisterError {
             file: file.to_owned(),
-            message: error.to_string(),
-        })?;
+            message,
+        };
+        let register: Self = toml::from_str(text).map_err(|error| refused(error.to_string()))?;
         let mut seen = BTreeSet::new();
         for claim in &register.claims {
-            claim
-                .validate(&mut seen)
-                .map_err(|invalid| RegisterError::Value {
-                    file: file.to_owned(),
-                    id: claim.id.clone(),
-                    invalid,
-                })?;
+            let valid = claim.validate(&mut seen);
+            valid.map_err(|invalid| refused(format!("claim `{}`: {invalid}", claim.id)))?;
         }
         Ok(register)
     }
@@ -152,7 +123,11 @@ impl Claim {
             return Err(invalid("id", &self.id, "different for every claim"));
         }
         match (&self.check, &self.untestable) {
-            (Some(check), None) => validate_check(check)?,
+            (Some(check), None) if checks::find(check).is_some() => {}
+            (Some(check), None) => {
+                let accepted = format!("one of {}", checks::check_names().join(", "));
+                return Err(invalid("check", check, accepted));
+            }
             (None, Some(_)) => {}
             _ => {
                 let accepted = "given where there is no `untestable`, and only there";
@@ -175,29 +150,19 @@ impl Claim {
             let accepted = "given, with a check that tests it";
             return Err(invalid("erratum.set", "absent", accepted));
         }
-        let mut set = erratum.set.iter();
-        if let Some((name, value)) = set.find(|(_, value)| !value.is_finite()) {
-            let key = format!("erratum.set.{name}");
-            return Err(invalid(&key, value, "a finite number"));
-        }
-        let mut names = erratum.set.keys();
-        match names.find(|name| !PaperTheory::NAMES.contains(&name.as_str())) {
-            None => Ok(()),
-            Some(name) => {
-                let accepted =
-                    format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "));
-                Err(invalid("erratum.set", name, accepted))
+        for (name, value) in &erratum.set {
+            if !value.is_finite() {
+                let key = format!("erratum.set.{name}");
+                return Err(invalid(&key, value, "a finite number"));
+            }
+            if !PaperTheory::NAMES.contains(&name.as_str()) {
+                let names = PaperTheory::NAMES.join(", ");
+                let accepted = format!("a constant of the paper: {names}");
+                return Err(invalid("erratum.set", name, accepted));
             }
         }
+        Ok(())
     }
-}
-
-fn validate_check(name: &str) -> Result<(), InvalidValue> {
-    if checks::find(name).is_some() {
-        return Ok(());
-    }
-    let accepted = format!("one of {}", checks::check_names().join(", "));
-    Err(invalid("check", name, accepted))
 }
 
 #[cfg(test)]

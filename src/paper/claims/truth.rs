@@ -49,34 +49,38 @@ impl From<Vector4<f64>> for Forces {
 }
 
 /// Force and torque on cylinder 2, and the vertical force on 1, for c = 0 and torque arms r.
-fn imbalance(
-    forces: &Forces,
-    normal: Vector2<f64>,
-    radius: f64,
-    f: f64,
-    weight: f64,
-) -> Vector4<f64> {
+fn imbalance(forces: &Forces, normal: Vector2<f64>, f: f64, weight: f64) -> Vector4<f64> {
     let on_upper = normal * forces.a + turned(normal) * forces.b;
     let floor = Vector2::new(-forces.e, forces.d);
     let on_lower = floor - on_upper - Vector2::new(0.0, weight);
-    let torque = cross(normal * radius, -on_upper) + cross(Vector2::new(0.0, -radius), floor);
+    let torque = cross(normal * RADIUS, -on_upper) + cross(Vector2::new(0.0, -RADIUS), floor);
     let upper = 2.0 * on_upper.y - f - weight;
-    Vector4::new(on_lower.x, on_lower.y, torque / radius, upper)
+    Vector4::new(on_lower.x, on_lower.y, torque / RADIUS, upper)
 }
 
-/// The forces that keep the stack in equilibrium under `f` when cylinder 1 lies in the direction `normal`
-/// from cylinder 2; `None` if there are none.
-pub(crate) fn equilibrium(
-    normal: Vector2<f64>,
-    radius: f64,
-    f: f64,
-    weight: f64,
-) -> Option<Forces> {
-    let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, radius, f, weight);
+/// A stack in equilibrium.
+pub(crate) struct Balanced {
+    /// Force of the wall.
+    pub(crate) f: f64,
+    pub(crate) weight: f64,
+    /// Direction from cylinder 2 to 1.
+    pub(crate) normal: Vector2<f64>,
+    pub(crate) forces: Forces,
+}
+
+/// The stack in equilibrium under `f` when cylinder 1 lies in the direction `normal` from cylinder 2; `None` if there
+/// are no such forces.
+pub(crate) fn equilibrium(normal: Vector2<f64>, f: f64, weight: f64) -> Option<Balanced> {
+    let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, f, weight);
     let loads = under(Vector4::zeros());
     let columns = [0, 1, 2, 3].map(|index| under(Vector4::ith(index, 1.0)) - loads);
     let solution = Matrix4::from_columns(&columns).lu().solve(&-loads)?;
-    Some(solution.into())
+    Some(Balanced {
+        f,
+        weight,
+        normal,
+        forces: solution.into(),
+    })
 }
 
 /// Displacements of the stack.
@@ -94,44 +98,49 @@ pub(crate) struct Displacements {
 
 impl Displacements {
     /// Centre of cylinder 1; without displacements the cylinders just touch.
-    pub(crate) fn upper(&self, radius: f64) -> Vector2<f64> {
-        let rise = (4.0 * radius * radius - radius * radius).sqrt();
-        Vector2::new(0.0, radius + rise - self.delta_11)
+    pub(crate) fn upper(&self) -> Vector2<f64> {
+        let rise = (4.0 * RADIUS * RADIUS - RADIUS * RADIUS).sqrt();
+        Vector2::new(0.0, RADIUS + rise - self.delta_11)
     }
 
     /// Centre of cylinder 2.
-    pub(crate) fn lower(&self, radius: f64) -> Vector2<f64> {
-        Vector2::new(radius + self.delta_22, radius - self.delta_21)
+    pub(crate) fn lower(&self) -> Vector2<f64> {
+        Vector2::new(RADIUS + self.delta_22, RADIUS - self.delta_21)
     }
 
     /// Direction from 2 to 1.
-    pub(crate) fn normal(&self, radius: f64) -> Vector2<f64> {
-        (self.upper(radius) - self.lower(radius)).normalize()
+    pub(crate) fn normal(&self) -> Vector2<f64> {
+        (self.upper() - self.lower()).normalize()
     }
 
     /// Motion of the surface of 1 relative to that of 2 at their contact.
-    pub(crate) fn surface_gap(&self, radius: f64) -> Vector2<f64> {
-        let arm = self.normal(radius) * radius;
+    pub(crate) fn surface_gap(&self) -> Vector2<f64> {
+        let arm = self.normal() * RADIUS;
         let upper = Vector2::new(0.0, -self.delta_11);
         upper - self.lower_surface(arm)
     }
 
     /// Motion of the point of 2 at `arm` from its centre.
-    pub(crate) fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
+    fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
         let centre = Vector2::new(self.delta_22, -self.delta_21);
         centre + Vector2::new(-arm.y, arm.x) * self.theta
     }
 
+    /// Motion of the point of 2 on the floor.
+    pub(crate) fn floor_point(&self) -> Vector2<f64> {
+        self.lower_surface(Vector2::new(0.0, -RADIUS))
+    }
+
     /// The forces of linear springs on these displacements.
-    pub(crate) fn spring_forces(&self, radius: f64, normal_stiffness: f64, ratio: f64) -> Forces {
-        let normal = self.normal(radius);
-        let gap = self.surface_gap(radius);
-        let floor = self.lower_surface(Vector2::new(0.0, -radius));
-        let tangential_stiffness = normal_stiffness / ratio;
+    pub(crate) fn spring_forces(&self, ratio: f64) -> Forces {
+        let normal = self.normal();
+        let gap = self.surface_gap();
+        let floor = self.floor_point();
+        let tangential_stiffness = NORMAL_STIFFNESS / ratio;
         Forces {
-            a: -normal_stiffness * gap.dot(&normal),
+            a: -NORMAL_STIFFNESS * gap.dot(&normal),
             b: -tangential_stiffness * gap.dot(&turned(normal)),
-            d: -normal_stiffness * floor.y,
+            d: -NORMAL_STIFFNESS * floor.y,
             e: tangential_stiffness * floor.x,
         }
     }
@@ -193,8 +202,8 @@ impl YieldState {
 
     fn residual(&self) -> SVector<f64, 5> {
         let forces = self.forces();
-        let normal = self.displacements.normal(RADIUS);
-        let balance = imbalance(&forces, normal, RADIUS, self.force, self.weight());
+        let normal = self.displacements.normal();
+        let balance = imbalance(&forces, normal, self.force, self.weight());
         let slip = forces.e - self.friction * forces.d;
         SVector::from([balance[0], balance[1], balance[2], balance[3], slip])
     }
@@ -205,8 +214,7 @@ impl YieldState {
     }
 
     pub(crate) fn forces(&self) -> Forces {
-        self.displacements
-            .spring_forces(RADIUS, NORMAL_STIFFNESS, self.ratio)
+        self.displacements.spring_forces(self.ratio)
     }
 
     /// x = δ₁₁ − δ₂₁.
@@ -231,7 +239,7 @@ impl YieldState {
 
     /// T, the tangent of half the angle between the line 2–1 and the vertical.
     pub(crate) fn half_angle_tangent(&self) -> f64 {
-        let normal = self.displacements.normal(RADIUS);
+        let normal = self.displacements.normal();
         -normal.x / (1.0 + normal.y)
     }
 }
@@ -277,6 +285,11 @@ pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
+/// F of the DEM's exact quasi-static limit; not a number if the stack does not yield.
+pub(crate) fn yield_force(stack: &Stack) -> f64 {
+    closed_form_limit(stack).yield_force.unwrap_or(f64::NAN)
+}
+
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
 pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
@@ -290,18 +303,16 @@ pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
 }
 
 /// Displacements out of equilibrium, for which statements on springs must hold too.
-pub(crate) fn arbitrary_displacements() -> Vec<Displacements> {
-    (1..=12)
-        .map(|index| {
-            let wave = |frequency: f64| (f64::from(index) * frequency).sin();
-            Displacements {
-                delta_11: 0.3 * wave(1.1),
-                delta_21: 0.2 * wave(2.3),
-                delta_22: 0.25 * wave(3.7),
-                theta: 0.4 * wave(5.3),
-            }
-        })
-        .collect()
+pub(crate) fn arbitrary_displacements() -> impl Iterator<Item = Displacements> {
+    (1..=12).map(|index| {
+        let wave = |frequency: f64| (f64::from(index) * frequency).sin();
+        Displacements {
+            delta_11: 0.3 * wave(1.1),
+            delta_21: 0.2 * wave(2.3),
+            delta_22: 0.25 * wave(3.7),
+            theta: 0.4 * wave(5.3),
+        }
+    })
 }
 
 /// The elastic equation multiplied out, with r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.

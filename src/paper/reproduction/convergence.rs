@@ -1,12 +1,12 @@
 //! Supplement, figure on convergence: the yield force over wall speed and time step, at μ = 0.2 and 1/ε = 1e4.
 
+use super::case_at_speed;
 use crate::code::Code;
-use crate::model::{Case, Protocol, Sampling, Stack};
+use crate::model::{Case, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::study::Campaign;
-use crate::study::yield_force::{PAPER_TIME_STEP, protocol_at_speed};
+use crate::study::yield_force::PAPER_TIME_STEP;
 use crate::theory::quasistatic_limit;
-use serde::Serialize;
 
 /// Wall speeds at the paper's time step. The native DEM alone runs the slowest.
 const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
@@ -23,7 +23,7 @@ pub(crate) fn convergence_stack() -> Stack {
 }
 
 /// One run of the study.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ConvergencePoint {
     /// The code that ran it.
     pub code: Code,
@@ -59,7 +59,7 @@ impl ConvergencePoint {
 }
 
 /// The whole study.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Convergence {
     /// Over the wall speed, at the paper's time step.
     pub wall_speeds: Vec<ConvergencePoint>,
@@ -67,38 +67,32 @@ pub struct Convergence {
     pub time_steps: Vec<ConvergencePoint>,
 }
 
+/// The wall speeds at which `code` runs.
+fn wall_speeds(code: Code) -> &'static [f64] {
+    &WALL_SPEEDS[..WALL_SPEEDS.len() - usize::from(code != Code::NATIVE)]
+}
+
+/// The time steps at which `code` runs.
+fn time_steps(code: Code) -> &'static [f64] {
+    &TIME_STEPS[..TIME_STEPS.len() - usize::from(code != Code::NATIVE)]
+}
+
 /// The runs of one code: those over the wall speed first.
 fn workload(code: Code) -> Workload {
-    let left_out = usize::from(code != Code::NATIVE);
-    let speeds = WALL_SPEEDS.map(|speed| (speed, PAPER_TIME_STEP));
-    let steps = TIME_STEPS.map(|step| (FAST_WALL, step));
-    let speeds = &speeds[..speeds.len() - left_out];
-    let steps = &steps[..steps.len() - left_out];
-    let runs = speeds.iter().chain(steps);
-    let cases = runs.filter_map(|&(speed, step)| case(code, speed, step));
+    let speeds = wall_speeds(code).iter();
+    let speeds = speeds.filter_map(|&speed| case(code, speed, PAPER_TIME_STEP));
+    let steps = time_steps(code).iter();
+    let steps = steps.filter_map(|&step| case(code, FAST_WALL, step));
     Workload {
         code,
-        tasks: cases.collect(),
+        tasks: speeds.chain(steps).collect(),
     }
 }
 
 fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
-    let (stack, convention) = (convergence_stack(), code.convention());
-    let limit = quasistatic_limit(&stack, &convention.arms);
-    let protocol = protocol_at_speed(&limit, wall_speed, time_step)?;
-    let sampling = Sampling {
-        fine_interval: FINE_INTERVAL,
-        ..protocol.sampling
-    };
-    let protocol = Protocol {
-        sampling,
-        ..protocol
-    };
-    Some(Case {
-        stack,
-        convention,
-        protocol,
-    })
+    let mut case = case_at_speed(code, convergence_stack(), wall_speed, time_step)?;
+    case.protocol.sampling.fine_interval = FINE_INTERVAL;
+    Some(case)
 }
 
 /// The runs of the study, code by code.
@@ -114,27 +108,19 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
         wall_speeds: Vec::new(),
         time_steps: Vec::new(),
     };
-    let mut summaries = Vec::new();
-    for (workload, results) in workloads.iter().zip(results) {
-        let speeds = workload.tasks.iter();
-        let speeds = speeds.filter(|case| case.protocol.time_step == PAPER_TIME_STEP);
-        let speeds = speeds.count().saturating_sub(1);
-        for (index, (case, result)) in workload.tasks.iter().zip(results).enumerate() {
-            let point = point(workload.code, case, &result);
-            if index < speeds {
-                study.wall_speeds.push(point);
-            } else {
-                study.time_steps.push(point);
-            }
-            summaries.extend(result.ok());
-        }
+    for (workload, results) in workloads.iter().zip(&results) {
+        let runs = workload.tasks.iter().zip(results);
+        let mut points = runs.map(|(case, result)| point(workload.code, case, result));
+        let speeds = wall_speeds(workload.code).len();
+        study.wall_speeds.extend(points.by_ref().take(speeds));
+        study.time_steps.extend(points);
     }
-    (study, summaries)
+    let summaries = results.into_iter().flatten().flatten();
+    (study, summaries.collect())
 }
 
 fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
-    let convention = &case.convention;
-    let limit = quasistatic_limit(&case.stack, &convention.arms);
+    let limit = quasistatic_limit(&case.stack, &case.convention.arms);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     ConvergencePoint {
         code,

@@ -4,7 +4,6 @@ use crate::code::Code;
 use crate::model::{Arms, CRITICAL_FRICTION, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
-use serde::Serialize;
 
 /// Frictions of the curves: lowest, highest, and their number.
 const FRICTIONS: (f64, f64, usize) = (0.09, 0.54, 91);
@@ -14,7 +13,7 @@ const DECADES: (f64, f64) = (1.0, 6.0);
 const STIFFNESSES: usize = 41;
 
 /// Every theory for one stack.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TheoryPoint {
     /// Floor friction μ.
     pub mu: f64,
@@ -54,7 +53,7 @@ impl TheoryPoint {
 }
 
 /// Difference of the limits under the convention of a code and under the paper's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ModelFormPoint {
     /// The code whose convention differs.
     pub code: Code,
@@ -67,7 +66,7 @@ pub struct ModelFormPoint {
 }
 
 /// All curves.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
     /// Over the friction, at the stiffnesses of the paper.
     pub over_friction: Vec<TheoryPoint>,

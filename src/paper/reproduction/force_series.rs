@@ -1,15 +1,15 @@
 //! Supplement, figure on the yield force: f(t) at μ = 0.2, 1/ε = 100, at the paper's literal settings.
 
+use super::case_at_speed;
 use crate::code::{Code, Identity, Run};
-use crate::model::{Arms, Case, Stack};
+use crate::model::{Case, Stack};
 use crate::runs::{Reading, RunError, RunSummary, Workload};
 use crate::study::Campaign;
-use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED, protocol_at_speed};
-use crate::theory::quasistatic_limit;
-use serde::Serialize;
+use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
+use crate::theory::closed_form_limit;
 
 /// The wall force of one native run, from rest into collapse.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ForceSeries {
     /// Time in √(m/k_n), and F in m g.
     pub rows: Vec<(f64, f64)>,
@@ -23,11 +23,6 @@ pub struct ForceSeries {
     pub wall_speed: f64,
     /// Time step in √(m/k_n).
     pub time_step: f64,
-}
-
-/// The stack of the paper's figure.
-fn force_series_stack() -> Stack {
-    Stack::paper(0.2, 100.0)
 }
 
 /// The rows of the wall force, and the summary of their run.
@@ -60,17 +55,11 @@ impl Reading for ForceRows {
 /// # Errors
 /// If the run fails.
 pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), RunError> {
-    let stack = force_series_stack();
-    let limit = quasistatic_limit(&stack, &Arms::PAPER);
-    let protocol = protocol_at_speed(&limit, PAPER_WALL_SPEED, PAPER_TIME_STEP);
-    let cases = protocol.map(|protocol| Case {
-        stack,
-        convention: Code::NATIVE.convention(),
-        protocol,
-    });
+    let stack = Stack::paper(0.2, 100.0);
+    let case = case_at_speed(Code::NATIVE, stack, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let workload = Workload {
         code: Code::NATIVE,
-        tasks: cases.into_iter().collect(),
+        tasks: case.into_iter().collect(),
     };
     let results = campaign.read(&[workload]);
     let first = results.into_iter().flatten().next();
@@ -79,7 +68,7 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
         rows,
         slip_force: summary.estimates.slip.map(|slip| slip.force),
         peak_force: summary.estimates.peak.map(|peak| peak.force),
-        limit: limit.yield_force,
+        limit: closed_form_limit(&stack).yield_force,
         wall_speed: PAPER_WALL_SPEED,
         time_step: PAPER_TIME_STEP,
     };

@@ -12,11 +12,11 @@ pub(crate) use curves::codes_by_arms;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub use force_series::{ForceSeries, force_series};
 pub use scaling::{Exponent, exponents, scaling_measurements};
-pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS};
+pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at};
 pub use snapshots::{Snapshots, snapshots};
 
 use crate::code::{Code, Provenance};
-use crate::model::PAPER_STIFFNESS_RATIO;
+use crate::model::{Case, PAPER_STIFFNESS_RATIO, Stack};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings};
 use crate::series::SeriesError;
 use crate::study::Campaign;
@@ -26,8 +26,8 @@ use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, s
 use crate::study::trajectory::{
     Trajectory, TrajectoryJudgement, plan_trajectory, trajectory_stack,
 };
-use crate::study::yield_force::{Judgement, Measurement, Profile};
-use crate::theory::{BoundaryPoint, RegimeMap};
+use crate::study::yield_force::{Judgement, Measurement, Profile, protocol_at_speed};
+use crate::theory::{BoundaryPoint, RegimeMap, quasistatic_limit};
 use thiserror::Error;
 
 /// Number of points examined on every boundary of the regime maps.
@@ -108,7 +108,7 @@ pub(crate) fn reproduce(
     };
     let names = campaign.names().into_iter();
     Ok(Some(Reproduction {
-        provenances: measured.provenances(),
+        provenances: measured.provenances,
         probes: names.zip(campaign.into_probes()).collect(),
         exponents: exponents(&measured.scaling),
         yield_curves: measured.yield_curves,
@@ -145,25 +145,22 @@ impl Theory {
 
 /// The part that is read off runs.
 struct Measured {
-    /// Every judgement once.
-    judgements: Vec<Judgement>,
     yield_curves: Vec<Judgement>,
     scaling: Vec<Judgement>,
     literal: Vec<Judgement>,
     convergence: Convergence,
     force_series: ForceSeries,
-    /// Of the runs of the last two.
-    summaries: Vec<RunSummary>,
     preparation: Vec<PreparationStudy>,
     trajectories: Vec<TrajectoryJudgement>,
+    provenances: Vec<Provenance>,
 }
 
 impl Measured {
     /// Carries out all runs; `None` after an interrupt.
     fn new(scope: &Scope, campaign: &Campaign) -> Result<Option<Self>, RunError> {
         let interrupted = || scope.settings.interrupt.requested();
-        let plan = Plan::new(scope);
-        let judgements = campaign.carry_out(plan.all());
+        let parts = planned(scope);
+        let judgements = campaign.carry_out(every_measurement(&parts));
         if interrupted() {
             return Ok(None);
         }
@@ -177,29 +174,36 @@ impl Measured {
         if interrupted() {
             return Ok(None);
         }
+        let preparation = preparation?;
+        let runs = judgements.iter().flat_map(Judgement::runs);
+        let runs = runs.chain(&summaries).map(|summary| &summary.provenance);
+        let prepared = preparation.iter().flat_map(|study| &study.rows);
+        let prepared = prepared.flat_map(|row| &row.provenances);
+        let provenances = runs.chain(prepared).cloned().collect();
+        let [yield_curves, scaling, literal] = parts.map(|part| judged(&part, &judgements));
+        let trajectories = campaign.carry_out(trajectories(scope.codes));
         Ok(Some(Self {
-            yield_curves: judged(&plan.yield_curves, &judgements),
-            scaling: judged(&plan.scaling, &judgements),
-            literal: judged(&plan.literal, &judgements),
-            judgements,
+            yield_curves,
+            scaling,
+            literal,
             convergence,
             force_series,
-            summaries,
-            preparation: preparation?,
-            trajectories: campaign.carry_out(trajectories(scope.codes)),
+            preparation,
+            trajectories,
+            provenances,
         }))
     }
+}
 
-    /// The provenances of all runs, in the order of their use.
-    fn provenances(&self) -> Vec<Provenance> {
-        let runs = self.judgements.iter().flat_map(Judgement::runs);
-        let runs = runs
-            .chain(&self.summaries)
-            .map(|summary| &summary.provenance);
-        let prepared = self.preparation.iter().flat_map(|study| &study.rows);
-        let prepared = prepared.flat_map(|row| &row.provenances);
-        runs.chain(prepared).cloned().collect()
-    }
+/// The run of `stack` with a given wall speed; `None` where nothing yields.
+fn case_at_speed(code: Code, stack: Stack, wall_speed: f64, time_step: f64) -> Option<Case> {
+    let convention = code.convention();
+    let limit = quasistatic_limit(&stack, &convention.arms);
+    Some(Case {
+        stack,
+        convention,
+        protocol: protocol_at_speed(&limit, wall_speed, time_step)?,
+    })
 }
 
 fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
@@ -208,45 +212,40 @@ fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
 }
 
 fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
-    let external = codes.iter().map(|selected| selected.name);
-    let external = external.filter(|name| !name.accepts_any_convention());
-    external
-        .map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()))
-        .collect()
+    let names = codes.iter().map(|selected| selected.name);
+    let external = names.filter(|name| !name.accepts_any_convention());
+    let planned =
+        external.map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()));
+    planned.collect()
 }
 
-/// The measurements behind the figures.
-struct Plan {
-    yield_curves: Vec<Measurement>,
-    scaling: Vec<Measurement>,
-    literal: Vec<Measurement>,
+/// The measurements behind Fig. 2(a) and Fig. 2(b), and those at the paper's literal settings.
+fn planned(scope: &Scope) -> [Vec<Measurement>; 3] {
+    let codes: Vec<Code> = scope.codes.iter().map(|code| code.name).collect();
+    let [yield_curves, scaling, mut literal] = all_measurements(&codes);
+    if !scope.literal {
+        literal.retain(|row| row.stack == convergence_stack());
+    }
+    [yield_curves, scaling, literal]
 }
 
-impl Plan {
-    fn new(scope: &Scope) -> Self {
-        let codes: Vec<Code> = scope.codes.iter().map(|code| code.name).collect();
-        let mut literal = Profile::Paper.measurements(&codes);
-        if !scope.literal {
-            literal.retain(|row| row.stack == convergence_stack());
-        }
-        Self {
-            yield_curves: Profile::Standard.measurements(&codes),
-            scaling: scaling_measurements(&codes),
-            literal,
-        }
-    }
+fn all_measurements(codes: &[Code]) -> [Vec<Measurement>; 3] {
+    [
+        Profile::Standard.measurements(codes),
+        scaling_measurements(codes),
+        Profile::Paper.measurements(codes),
+    ]
+}
 
-    /// Every measurement once, since figures share stacks.
-    fn all(&self) -> Vec<Measurement> {
-        let parts = [&self.yield_curves, &self.scaling, &self.literal];
-        let mut all: Vec<Measurement> = Vec::new();
-        for measurement in parts.into_iter().flatten() {
-            if !all.iter().any(|known| is_same(known, measurement)) {
-                all.push(measurement.clone());
-            }
+/// Every measurement once, since figures share stacks.
+fn every_measurement(parts: &[Vec<Measurement>]) -> Vec<Measurement> {
+    let mut all: Vec<Measurement> = Vec::new();
+    for measurement in parts.iter().flatten() {
+        if !all.iter().any(|known| is_same(known, measurement)) {
+            all.push(measurement.clone());
         }
-        all
     }
+    all
 }
 
 fn is_same(left: &Measurement, right: &Measurement) -> bool {
@@ -274,14 +273,9 @@ pub(crate) fn summaries_to_record(
     let codes = [selected.name];
     let campaign = Campaign::new(std::slice::from_ref(selected), settings, progress);
     let mut workloads = convergence_workloads(&codes);
-    let measurements = [
-        Profile::Standard.measurements(&codes),
-        scaling_measurements(&codes),
-        Profile::Paper.measurements(&codes),
-    ];
     let prepared = preparation_cases(&campaign, selected.name)?;
-    let cases = measurements.into_iter().flatten();
-    let cases = cases.flat_map(|measurement| measurement.cases);
+    let measurements = all_measurements(&codes).into_iter().flatten();
+    let cases = measurements.flat_map(|measurement| measurement.cases);
     for case in cases.chain(prepared) {
         if !workloads[0].tasks.contains(&case) {
             workloads[0].tasks.push(case);

@@ -5,7 +5,6 @@ use crate::model::{CRITICAL_FRICTION, Stack};
 use crate::study::MAX_TOLERANCE;
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, Measurement, plan};
-use serde::Serialize;
 
 /// Frictions of Fig. 2(b).
 pub(crate) const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
@@ -17,7 +16,7 @@ const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 pub(crate) const FITTED_FROM: f64 = 1e3;
 
 /// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from 10³ on.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Exponent {
     /// The code that measured the yield forces.
     pub code: Code,
@@ -43,10 +42,8 @@ pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
         .iter()
         .flat_map(|&mu| SCALING_STIFFNESSES.map(|stiffness| Stack::paper(mu, stiffness)));
     let rows = stacks.flat_map(|stack| {
-        let plans = codes
-            .iter()
-            .map(move |&code| plan(code, &stack, code.convention()));
-        plans.collect::<Vec<_>>()
+        let codes = codes.iter();
+        codes.map(move |&code| plan(code, &stack, code.convention()))
     });
     rows.filter(|row| !row.cases.is_empty()).collect()
 }
@@ -58,7 +55,8 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
         for code in Code::all() {
             let own = judgements
                 .iter()
-                .filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
+                .filter(|row| row.code == code && row.mu() == mu);
+            let own = own.filter(|row| row.stiffness() >= FITTED_FROM);
             let points: Vec<Point> = own.filter_map(Point::of).collect();
             if points.len() >= 2 {
                 fitted.push(fit(code, mu, &points));
@@ -104,7 +102,7 @@ fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
         exponent,
         uncertainty,
         exact,
-        asymptotic: asymptotic_exponent(mu),
+        asymptotic: exponent_at(mu, [0.0, 0.5, 1.0]),
         points: points.len(),
         verdict: Verdict::of(exponent - exact, uncertainty, tolerance),
     }
@@ -114,22 +112,17 @@ fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
 fn slope_weights(points: &[Point]) -> Vec<f64> {
     let count = points.len() as f64;
     let mean = points.iter().map(|point| point.stiffness).sum::<f64>() / count;
-    let spread: f64 = points
-        .iter()
-        .map(|point| (point.stiffness - mean).powi(2))
-        .sum();
-    points
-        .iter()
-        .map(|point| (point.stiffness - mean) / spread)
-        .collect()
+    let distances = points.iter().map(|point| point.stiffness - mean);
+    let spread: f64 = distances.clone().map(|distance| distance.powi(2)).sum();
+    distances.map(|distance| distance / spread).collect()
 }
 
-/// The exponent for ε → 0 (paper, scaling of f + 3 m g below, at and above μ_c).
-fn asymptotic_exponent(mu: f64) -> f64 {
+/// The one of three exponents, for frictions below, at and above μ_c, that belongs to `mu`.
+pub(crate) fn exponent_at(mu: f64, [below, at, above]: [f64; 3]) -> f64 {
     match mu.total_cmp(&CRITICAL_FRICTION) {
-        std::cmp::Ordering::Less => 0.0,
-        std::cmp::Ordering::Equal => 0.5,
-        std::cmp::Ordering::Greater => 1.0,
+        std::cmp::Ordering::Less => below,
+        std::cmp::Ordering::Equal => at,
+        std::cmp::Ordering::Greater => above,
     }
 }
 

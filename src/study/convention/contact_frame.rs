@@ -10,7 +10,6 @@ use crate::series::{Motion, MotionRow};
 pub struct ContactRow {
     /// Unit normal, towards cylinder 1.
     pub normal: [f64; 2],
-    /// Overlap δ.
     pub overlap: f64,
     /// Normal velocity, positive when separating.
     pub separation_speed: f64,
@@ -18,7 +17,6 @@ pub struct ContactRow {
     pub tangential_speed: f64,
     /// Sum of the angular velocities.
     pub spin: f64,
-    /// Normal force.
     pub normal_force: f64,
     /// Tangential force on cylinder 1.
     pub tangential_force: f64,
@@ -28,9 +26,7 @@ pub struct ContactRow {
     pub other_torque: f64,
     /// Reported force of the top wall.
     pub wall_force: f64,
-    /// Time step.
     pub time_step: f64,
-    /// Friction coefficient of the micro-test.
     pub friction: f64,
 }
 
@@ -87,10 +83,6 @@ fn contact_row(
         other_torque: two.torque,
         wall_force: row.wall_force,
         time_step: dt,
-        friction: match kind {
-            ContactKind::Pair => test.cylinder_friction,
-            ContactKind::Floor => test.floor_friction,
-            ContactKind::Wall => 0.0,
-        },
+        friction: kind.friction(test),
     }
 }

@@ -22,6 +22,15 @@ impl ContactKind {
             Self::Wall => "wall",
         }
     }
+
+    /// The friction coefficient of a micro-test at this contact; the wall has none.
+    pub fn friction(self, test: &ContactTest) -> f64 {
+        match self {
+            Self::Pair => test.cylinder_friction,
+            Self::Floor => test.floor_friction,
+            Self::Wall => 0.0,
+        }
+    }
 }
 
 /// Weak damping, so that the normal force of a collision rises for a while.
@@ -46,103 +55,101 @@ const BESIDE: InitialMotion = InitialMotion {
     spin: 0.0,
 };
 
-/// Motion of the first body relative to the second in the frame of the contact, and spins of both.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Start {
-    /// Overlap.
-    pub overlap: f64,
+/// Motion of the first body relative to the second in the frame of the contact, spins of both, and how it is observed.
+#[derive(Clone, Copy)]
+struct Start {
+    overlap: f64,
     /// Velocity along the normal, positive when separating.
-    pub separation_speed: f64,
-    /// Velocity along the tangent.
-    pub tangential_speed: f64,
+    separation_speed: f64,
+    tangential_speed: f64,
     /// Angular velocity of the first body; the second one of a pair has two thirds of it.
-    pub spin: f64,
+    spin: f64,
     /// Angular velocity at which a pair turns as a whole.
-    pub turn: f64,
-}
-
-/// Friction, time step and number of steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Run {
+    turn: f64,
     friction: f64,
     time_step: f64,
     steps: u64,
 }
 
-/// Gentle motions at three overlaps, in which the contact sticks.
-pub fn sticking(kind: ContactKind, convention: &ContactConvention) -> [ContactTest; 3] {
-    let run = Run {
-        friction: ROUGH,
-        time_step: 0.05,
-        steps: 40,
-    };
-    GENTLE.map(|start| test(kind, convention, start, run))
-}
+/// A contact at rest that sticks.
+const AT_REST: Start = Start {
+    overlap: 0.0,
+    separation_speed: 0.0,
+    tangential_speed: 0.0,
+    spin: 0.0,
+    turn: 0.0,
+    friction: ROUGH,
+    time_step: 0.05,
+    steps: 40,
+};
 
+/// Gentle motions at three overlaps, in which the contact sticks.
 const GENTLE: [Start; 3] = [
     Start {
         overlap: 0.02,
         separation_speed: -0.03,
         tangential_speed: 0.002,
-        spin: 0.0,
-        turn: 0.0,
+        ..AT_REST
     },
     Start {
         overlap: 0.1,
         separation_speed: -0.05,
-        tangential_speed: 0.0,
         spin: 0.004,
-        turn: 0.0,
+        ..AT_REST
     },
     Start {
         overlap: 0.3,
         separation_speed: -0.1,
         tangential_speed: 0.008,
         spin: -0.006,
-        turn: 0.0,
+        ..AT_REST
     },
 ];
 
-/// The same motions with half the time step, from which the times to which forces belong follow.
-pub fn refined(kind: ContactKind, convention: &ContactConvention) -> [ContactTest; 3] {
-    let run = Run {
-        friction: ROUGH,
-        time_step: 0.025,
-        steps: 80,
-    };
-    GENTLE.map(|start| test(kind, convention, start, run))
-}
+/// A separation so fast that the damping exceeds the spring.
+const SEPARATING: Start = Start {
+    overlap: 0.03,
+    separation_speed: 1.0,
+    time_step: 0.01,
+    steps: 4,
+    ..AT_REST
+};
 
 /// A fast motion, in which the contact slides while the normal force changes, and then sticks again.
-pub fn sliding(kind: ContactKind, convention: &ContactConvention) -> ContactTest {
-    let start = Start {
-        overlap: 0.08,
-        separation_speed: -0.3,
-        tangential_speed: 0.08,
-        spin: -0.03,
-        turn: 0.0,
-    };
-    let run = Run {
-        friction: SLIPPERY,
-        time_step: 0.02,
-        steps: 120,
-    };
-    test(kind, convention, start, run)
-}
+const SLIDING: Start = Start {
+    overlap: 0.08,
+    separation_speed: -0.3,
+    tangential_speed: 0.08,
+    spin: -0.03,
+    friction: SLIPPERY,
+    time_step: 0.02,
+    steps: 120,
+    ..AT_REST
+};
 
-/// A separation so fast that the damping exceeds the spring.
-pub fn separating(kind: ContactKind, convention: &ContactConvention) -> ContactTest {
-    let start = Start {
-        overlap: 0.03,
-        separation_speed: 1.0,
-        ..Start::default()
-    };
-    let run = Run {
-        friction: ROUGH,
-        time_step: 0.01,
-        steps: 4,
-    };
-    test(kind, convention, start, run)
+/// A stretched spring between two cylinders that turn about each other.
+const TURNING: Start = Start {
+    overlap: 0.3,
+    separation_speed: -0.2,
+    tangential_speed: 0.1,
+    turn: 0.1,
+    time_step: 0.005,
+    steps: 400,
+    ..AT_REST
+};
+
+/// Gentle motions, the same with half the time step, from which the times to which forces belong follow, a separation,
+/// and a motion that slides (not along the wall, which is frictionless).
+pub fn common(kind: ContactKind, convention: &ContactConvention) -> Vec<ContactTest> {
+    let refined = GENTLE.map(|gentle| Start {
+        time_step: 0.5 * gentle.time_step,
+        steps: 2 * gentle.steps,
+        ..gentle
+    });
+    let sliding = (kind != ContactKind::Wall).then_some(SLIDING);
+    let starts = GENTLE.into_iter().chain(refined);
+    let starts = starts.chain([SEPARATING]).chain(sliding);
+    starts.map(|start| test(kind, convention, start)).collect()
 }
 
 /// A spin that brings the contact to Coulomb's limit within a few steps, if it is fast enough.
@@ -150,34 +157,20 @@ pub fn near_slip(kind: ContactKind, convention: &ContactConvention, spin: f64) -
     let start = Start {
         overlap: 0.2,
         spin,
-        ..Start::default()
-    };
-    let run = Run {
         friction: SLEEK,
         time_step: 0.01,
         steps: 8,
+        ..AT_REST
     };
-    test(kind, convention, start, run)
+    test(kind, convention, start)
 }
 
-/// A stretched spring between two cylinders that turn about each other.
+/// The motion of a pair that turns.
 pub fn turning(convention: &ContactConvention) -> ContactTest {
-    let start = Start {
-        overlap: 0.3,
-        separation_speed: -0.2,
-        tangential_speed: 0.1,
-        turn: 0.1,
-        ..Start::default()
-    };
-    let run = Run {
-        friction: ROUGH,
-        time_step: 0.005,
-        steps: 400,
-    };
-    test(ContactKind::Pair, convention, start, run)
+    test(ContactKind::Pair, convention, TURNING)
 }
 
-fn test(kind: ContactKind, convention: &ContactConvention, start: Start, run: Run) -> ContactTest {
+fn test(kind: ContactKind, convention: &ContactConvention, start: Start) -> ContactTest {
     let initial_motions = match kind {
         ContactKind::Pair => pair(start),
         ContactKind::Floor => [
@@ -195,10 +188,10 @@ fn test(kind: ContactKind, convention: &ContactConvention, start: Start, run: Ru
             ..*convention
         },
         stiffness_ratio: STIFFNESS_RATIO,
-        floor_friction: run.friction,
-        cylinder_friction: run.friction,
-        time_step: run.time_step,
-        steps: run.steps,
+        floor_friction: start.friction,
+        cylinder_friction: start.friction,
+        time_step: start.time_step,
+        steps: start.steps,
         wall_height: WALL_HEIGHT,
         wall_speed: if kind == ContactKind::Wall { 0.02 } else { 0.0 },
         initial_motions,

@@ -4,7 +4,6 @@ use super::experiments::ContactKind;
 use super::regression::Measured;
 use crate::code::Code;
 use crate::study::Verdict;
-use serde::{Deserialize, Serialize};
 
 /// Largest deviation of an external code that agrees, relative to the declared value (to 1 where that is 0): a tenth of
 /// the largest tolerance for yield forces, and a thousand times the largest deviation of the known codes.
@@ -14,7 +13,7 @@ pub const TOLERANCE: f64 = 1e-6;
 pub const NATIVE_TOLERANCE: f64 = 1e-9;
 
 /// A property of one code, measured.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// The code.
     pub code: Code,
@@ -60,15 +59,13 @@ impl Property {
 
     /// The finding on `code`.
     pub fn judge(self, code: Code, version: &str) -> Finding {
-        let scale = if self.declared == 0.0 {
-            1.0
-        } else {
-            self.declared.abs()
+        let scale = match self.declared {
+            0.0 => 1.0,
+            declared => declared.abs(),
         };
-        let relative = if code == Code::NATIVE {
-            NATIVE_TOLERANCE
-        } else {
-            TOLERANCE
+        let relative = match code {
+            Code::NATIVE => NATIVE_TOLERANCE,
+            _ => TOLERANCE,
         };
         let Measured { value, uncertainty } = self.measured;
         let known = value.is_finite() && uncertainty.is_finite();

@@ -38,12 +38,8 @@ const GENTLE: usize = 8;
 impl Plan {
     /// The tests of `kind` for a code with the given convention.
     pub fn new(kind: ContactKind, convention: &ContactConvention) -> Self {
-        let mut tests = Vec::new();
-        tests.extend(experiments::sticking(kind, convention));
-        tests.extend(experiments::refined(kind, convention));
-        tests.push(experiments::separating(kind, convention));
+        let mut tests = experiments::common(kind, convention);
         if kind != ContactKind::Wall {
-            tests.push(experiments::sliding(kind, convention));
             tests.push(experiments::near_slip(kind, convention, GENTLE_SPIN));
         }
         Self {
@@ -104,13 +100,12 @@ impl Laws {
             let at_limit = GENTLE_SPIN / largest.map_or(f64::NAN, |(_, ratio)| ratio);
             [at_limit * (1.0 - MARGIN), at_limit * (1.0 + MARGIN)]
         });
-        spins
-            .map(|spin| {
-                // A contact without friction or damping has no threshold: any motion will do.
-                let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
-                experiments::near_slip(self.plan.kind, &self.plan.convention, rounded(spin))
-            })
-            .collect()
+        let tests = spins.map(|spin| {
+            // A contact without friction or damping has no threshold: any motion will do.
+            let spin = if spin.is_finite() { spin } else { GENTLE_SPIN };
+            experiments::near_slip(self.plan.kind, &self.plan.convention, rounded(spin))
+        });
+        tests.collect()
     }
 
     /// The share of the damping in the Coulomb operand: the one with which the contact sticks just below the
@@ -159,11 +154,8 @@ impl Laws {
     fn wall_properties(&self) -> [Property; 2] {
         let rows = self.rows[STICKING].iter().flatten();
         let against_normal = |value: fn(&ContactRow) -> f64| {
-            let terms: Vec<([f64; 1], f64)> = rows
-                .clone()
-                .map(|row| ([row.normal_force], value(row)))
-                .collect();
-            let [ratio] = fit(&terms);
+            let terms = rows.clone().map(|row| ([row.normal_force], value(row)));
+            let [ratio] = fit(&terms.collect::<Vec<_>>());
             ratio
         };
         let friction = against_normal(|row| row.tangential_force.abs());

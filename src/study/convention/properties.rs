@@ -6,9 +6,16 @@ use super::normal::NormalLaw;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
-use crate::model::{
-    ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
-};
+use crate::model::{ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};
+
+/// A property of the contacts of one kind: name, as measured, as declared.
+type Row = (&'static str, Measured, f64);
+
+fn at(kind: ContactKind, rows: impl IntoIterator<Item = Row>) -> Vec<Property> {
+    let rows = rows.into_iter();
+    let named = rows.map(|(name, measured, declared)| Property::at(kind, name, measured, declared));
+    named.collect()
+}
 
 /// Properties of the normal force at `kind`; only `pull` differs between codes.
 pub fn normal_properties(
@@ -22,13 +29,14 @@ pub fn normal_properties(
         TensileForce::MayPull => 1.0,
         TensileForce::NeverPulls => 0.0,
     };
-    vec![
-        Property::at(kind, "normal_stiffness", law.stiffness, 1.0),
-        Property::at(kind, "normal_damping", law.damping, convention.damping(1.0)),
-        Property::at(kind, "overlap_lead", law.overlap_lead, 0.0),
-        Property::at(kind, "damping_velocity_lag", law.velocity_lag, 0.5),
-        Property::at(kind, "pull", pull, pulls),
-    ]
+    let rows = [
+        ("normal_stiffness", law.stiffness, 1.0),
+        ("normal_damping", law.damping, convention.damping(1.0)),
+        ("overlap_lead", law.overlap_lead, 0.0),
+        ("damping_velocity_lag", law.velocity_lag, 0.5),
+        ("pull", pull, pulls),
+    ];
+    at(kind, rows)
 }
 
 /// Properties of a sticking contact at `kind`.
@@ -39,71 +47,48 @@ pub fn tangential_properties(
 ) -> Vec<Property> {
     let convention = &test.convention;
     let stiffness = test.tangential_stiffness();
+    let damping = convention.damping(stiffness);
     let arms = match kind {
         ContactKind::Pair => convention.arms.pair,
         ContactKind::Floor | ContactKind::Wall => convention.arms.floor,
     };
-    let mut properties = vec![
-        Property::at(kind, "tangential_stiffness", law.stiffness, stiffness),
-        Property::at(
-            kind,
-            "tangential_damping",
-            law.damping,
-            convention.damping(stiffness),
-        ),
-        Property::at(kind, "radius", law.radius, 1.0),
-        Property::at(kind, "torque_arm", law.torque_arm, arms.torque),
-        Property::at(kind, "kinematic_arm", law.kinematic_arm, arms.kinematic),
-        Property::at(kind, "damping_arm", law.damping_arm, arms.kinematic),
+    let update = match convention.history_update {
+        HistoryUpdate::Rotated => 0.0,
+        HistoryUpdate::Projected => -1.0,
+        HistoryUpdate::Linearised => 1.0,
+    };
+    let turns = (kind == ContactKind::Pair).then_some(("history_update", law.transport, update));
+    let rows = [
+        ("tangential_stiffness", law.stiffness, stiffness),
+        ("tangential_damping", law.damping, damping),
+        ("radius", law.radius, 1.0),
+        ("torque_arm", law.torque_arm, arms.torque),
+        ("kinematic_arm", law.kinematic_arm, arms.kinematic),
+        ("damping_arm", law.damping_arm, arms.kinematic),
     ];
-    if kind == ContactKind::Pair {
-        let declared = match convention.history_update {
-            HistoryUpdate::Rotated => 0.0,
-            HistoryUpdate::Projected => -1.0,
-            HistoryUpdate::Linearised => 1.0,
-        };
-        properties.push(Property::at(
-            kind,
-            "history_update",
-            law.transport,
-            declared,
-        ));
-    }
-    properties
+    at(kind, rows.into_iter().chain(turns))
 }
 
-/// Properties of a sliding contact at `kind`.
+/// Properties of a sliding contact at `kind`; `operand_damping` is the share of the damping in the Coulomb operand.
 pub fn sliding_properties(
     kind: ContactKind,
     law: &SlidingLaw,
     operand_damping: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
-    let friction = match kind {
-        ContactKind::Pair => test.cylinder_friction,
-        ContactKind::Floor | ContactKind::Wall => test.floor_friction,
+    let share = match test.convention.coulomb_operand {
+        CoulombOperand::SpringAndDamping => 1.0,
+        CoulombOperand::Spring => 0.0,
     };
     let memory = match test.convention.sliding_spring {
         SlidingSpring::Frozen => 1.0,
         SlidingSpring::FollowsLimit => 0.0,
     };
-    vec![
-        Property::at(kind, "friction", law.friction, friction),
-        Property::at(
-            kind,
-            "coulomb_damping_share",
-            operand_damping,
-            damping_share(&test.convention),
-        ),
-        Property::at(kind, "sliding_damping", law.damping, 0.0),
-        Property::at(kind, "sliding_spring_memory", law.memory, memory),
-    ]
-}
-
-/// How much of the damping counts in the Coulomb operand.
-fn damping_share(convention: &ContactConvention) -> f64 {
-    match convention.coulomb_operand {
-        CoulombOperand::SpringAndDamping => 1.0,
-        CoulombOperand::Spring => 0.0,
-    }
+    let rows = [
+        ("friction", law.friction, kind.friction(test)),
+        ("coulomb_damping_share", operand_damping, share),
+        ("sliding_damping", law.damping, 0.0),
+        ("sliding_spring_memory", law.memory, memory),
+    ];
+    at(kind, rows)
 }

@@ -28,11 +28,6 @@ impl Measured {
         Self { value, uncertainty }
     }
 
-    /// The number minus one that is known exactly.
-    pub fn minus(self, exact: f64) -> Self {
-        Self::new(self.value - exact, self.uncertainty)
-    }
-
     /// The ratio to another number.
     pub fn over(self, other: Self) -> Self {
         let value = self.value / other.value;
@@ -50,11 +45,8 @@ impl Measured {
 /// Coefficients c with rows · c ≈ targets, all rows with the same weight. [`Measured::UNKNOWN`] if there are too few
 /// rows, or the coefficients are not resolved.
 pub fn fit<const N: usize>(rows: &[([f64; N], f64)]) -> [Measured; N] {
-    let general: Vec<(Vec<f64>, f64)> = rows
-        .iter()
-        .map(|(row, target)| (row.to_vec(), *target))
-        .collect();
-    let coefficients = fit_rows(&general, N);
+    let general = rows.iter().map(|(row, target)| (row.to_vec(), *target));
+    let coefficients = fit_rows(&general.collect::<Vec<_>>(), N);
     std::array::from_fn(|index| coefficients[index])
 }
 
@@ -64,17 +56,12 @@ pub fn fit_rows(rows: &[(Vec<f64>, f64)], columns: usize) -> Vec<Measured> {
 }
 
 fn solve(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<Vec<Measured>> {
-    let freedom = rows
-        .len()
-        .checked_sub(columns)
-        .filter(|&freedom| freedom > 0)?;
+    let freedom = rows.len().checked_sub(columns)?;
     let mut matrix = DMatrix::from_fn(rows.len(), columns, |row, column| rows[row].0[column]);
     let target = DVector::from_fn(rows.len(), |row, _| rows[row].1);
     let scales: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
-    if scales
-        .iter()
-        .any(|&scale| scale == 0.0 || !scale.is_finite())
-    {
+    let mut normal = scales.iter().map(|&scale| scale > 0.0 && scale.is_finite());
+    if freedom == 0 || !normal.all(|normal| normal) {
         return None;
     }
     for (mut column, scale) in matrix.column_iter_mut().zip(&scales) {

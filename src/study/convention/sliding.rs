@@ -46,17 +46,14 @@ impl SlidingLaw {
 
 /// Marks the rows that slide: those with the most frequent ratio of forces.
 fn slides(rows: &[ContactRow]) -> Vec<bool> {
-    let ratios: Vec<f64> = rows
-        .iter()
-        .map(|row| row.tangential_force.abs() / row.normal_force)
-        .collect();
+    let ratios = rows.iter();
+    let ratios = ratios.map(|row| row.tangential_force.abs() / row.normal_force);
+    let ratios: Vec<f64> = ratios.collect();
     let same = |left: f64, right: f64| (left - right).abs() < SAME_RATIO * right;
     let like = |ratio: f64| ratios.iter().filter(|&&other| same(other, ratio)).count();
     let most = ratios.iter().copied().max_by_key(|&ratio| like(ratio));
-    ratios
-        .iter()
-        .map(|&ratio| most.is_some_and(|most| same(ratio, most)))
-        .collect()
+    let slides = |&ratio: &f64| most.is_some_and(|most| same(ratio, most));
+    ratios.iter().map(slides).collect()
 }
 
 /// The memory of the spring, from the stretch of sliding on which the two lengths are furthest apart.

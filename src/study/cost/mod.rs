@@ -9,7 +9,7 @@ mod target;
 
 pub use pyramid::PyramidBench;
 pub(crate) use pyramid::PyramidCost;
-pub(crate) use scaling::{Scaling, ScalingBench, ScalingRow};
-pub(crate) use stack::{StackBench, StackCost};
+pub(crate) use scaling::{Scaling, ScalingRow, measure_scaling};
+pub(crate) use stack::{StackCost, installed_codes, measure_stack};
 pub use target::BenchError;
 pub(crate) use target::BenchTarget;

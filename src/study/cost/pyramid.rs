@@ -65,10 +65,12 @@ impl PyramidBench {
     pub fn measure(&self, context: &RunContext) -> Result<Vec<PyramidCost>, BenchError> {
         let find = |name: &Code| name.find().ok_or(BenchError::Missing { code: *name });
         let codes: Vec<_> = self.codes.iter().map(find).collect::<Result<_, _>>()?;
-        let mut costs = self.nothing_measured_yet(&codes);
+        let pairs = self.rows.iter();
+        let pairs = pairs.flat_map(|&rows| codes.iter().map(move |code| (code, rows)));
+        let costs = pairs.map(|(code, rows)| (code, self.nothing_measured_yet(&**code, rows)));
+        let mut costs: Vec<_> = costs.collect();
         for _ in 0..self.repeats {
-            for (index, cost) in costs.iter_mut().enumerate() {
-                let code = &codes[index % codes.len()];
+            for (code, cost) in &mut costs {
                 let directory = format!("{}-{}", cost.code, cost.rows);
                 let context = RunContext {
                     directory: &context.directory.join(directory),
@@ -80,7 +82,7 @@ impl PyramidBench {
                 }
             }
         }
-        Ok(costs)
+        Ok(costs.into_iter().map(|(_, cost)| cost).collect())
     }
 
     /// The pyramid of so many rows as `code` builds it. Native takes the convention of an external code with
@@ -95,21 +97,16 @@ impl PyramidBench {
         }
     }
 
-    fn nothing_measured_yet(&self, codes: &[Box<dyn InstalledCode>]) -> Vec<PyramidCost> {
-        let cost = |rows: u32, code: &dyn InstalledCode| {
-            let pyramid = self.pyramid(code.name(), rows);
-            PyramidCost {
-                code: code.name(),
-                version: code.identity().version.clone(),
-                rows,
-                cylinders: pyramid.cylinder_count(),
-                timed_steps: pyramid.timed_steps,
-                nanoseconds: Vec::new(),
-            }
-        };
-        let rows = self.rows.iter();
-        rows.flat_map(|rows| codes.iter().map(move |code| cost(*rows, &**code)))
-            .collect()
+    fn nothing_measured_yet(&self, code: &dyn InstalledCode, rows: u32) -> PyramidCost {
+        let pyramid = self.pyramid(code.name(), rows);
+        PyramidCost {
+            code: code.name(),
+            version: code.identity().version.clone(),
+            rows,
+            cylinders: pyramid.cylinder_count(),
+            timed_steps: pyramid.timed_steps,
+            nanoseconds: Vec::new(),
+        }
     }
 }
 

@@ -1,30 +1,23 @@
 //! Scaling of native lanes with the number of cases on one core, and with cores.
 
-use super::stack::{LENGTHS, StackBench, timed_cases};
+use super::stack::{LENGTHS, plans, timed_cases};
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
 use crate::code::{Code, RunContext};
 use crate::model::Case;
 use crate::runs::in_parallel;
-use serde::Serialize;
 use std::time::Instant;
 
-/// The sizes that are measured.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ScalingBench {
-    /// Numbers of cases on one core.
-    pub cases: Vec<usize>,
-    /// Steps of each of them.
-    pub steps: u64,
-    /// Smallest number of cases that are timed together, so that the time of a few can be resolved.
-    pub least_cases: usize,
-    /// Numbers of cores.
-    pub cores: Vec<usize>,
-    /// Stacks whose planned runs are distributed over these cores.
-    pub stacks: usize,
-    /// Repeats of the whole measurement.
-    pub repeats: usize,
-}
+/// Numbers of cases on one core.
+const CASES: [usize; 7] = [1, 2, 4, 8, 16, 64, 256];
+/// Steps of each of them.
+const STEPS: u64 = 50_000;
+/// Smallest number of cases that are timed together, so that the time of a few can be resolved.
+const LEAST_CASES: usize = 64;
+/// Stacks whose planned runs are distributed over the cores of this machine.
+const STACKS: usize = 32;
+/// Repeats of the whole measurement, if nothing else is wanted: half a minute.
+const REPEATS: usize = 5;
 
 /// The measured scaling.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +29,7 @@ pub struct Scaling {
 }
 
 /// The cost of a step at one size.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ScalingRow {
     /// Number of cases.
     pub cases: usize,
@@ -48,92 +41,58 @@ pub struct ScalingRow {
     pub speedup: f64,
 }
 
-impl Default for ScalingBench {
-    /// Up to 256 cases, and all cores of this machine: half a minute.
-    fn default() -> Self {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let doubled = std::iter::successors(Some(1), |cores| Some(2 * cores));
-        let mut numbers: Vec<usize> = doubled.take_while(|&number| number < cores).collect();
-        numbers.push(cores);
-        Self {
-            cases: vec![1, 2, 4, 8, 16, 64, 256],
-            steps: 50_000,
-            least_cases: 64,
-            cores: numbers,
-            stacks: 32,
-            repeats: 5,
+/// Measures the scaling with so many `repeats`, each call in a directory of its own in that of `context`.
+///
+/// # Errors
+/// If a run is interrupted, or files cannot be written.
+pub(crate) fn measure_scaling(
+    repeats: Option<usize>,
+    context: &RunContext,
+) -> Result<Scaling, BenchError> {
+    let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
+    let planned = plans(Code::NATIVE, STACKS).into_iter();
+    let planned: Vec<Case> = planned.flat_map(|plan| plan.cases).collect();
+    let cores = numbers_of_cores();
+    let mut over_cases = CASES.map(|_| Vec::new());
+    let mut over_cores = vec![Vec::new(); cores.len()];
+    for _ in 0..repeats.unwrap_or(REPEATS) {
+        for (&cases, measured) in CASES.iter().zip(&mut over_cases) {
+            measured.push(in_lanes(&lanes, cases, context)?);
+        }
+        for (&cores, measured) in cores.iter().zip(&mut over_cores) {
+            measured.push(on_cores(&lanes, &planned, cores, context)?);
         }
     }
+    let over_cases = CASES.iter().map(|&cases| (cases, 1)).zip(&over_cases);
+    let sizes = cores.iter().map(|&cores| (planned.len(), cores));
+    Ok(Scaling {
+        cases: rows(over_cases),
+        cores: rows(sizes.zip(&over_cores)),
+    })
 }
 
-/// Repeated measurements at one size.
-struct Size {
-    cases: usize,
-    cores: usize,
-    nanoseconds: Vec<f64>,
+/// Powers of two, and all cores of this machine.
+fn numbers_of_cores() -> Vec<usize> {
+    let all = std::thread::available_parallelism().map_or(1, usize::from);
+    let doubled = std::iter::successors(Some(1), |cores| Some(2 * cores));
+    let numbers = doubled.take_while(|&cores| cores < all);
+    numbers.chain([all]).collect()
 }
 
-impl ScalingBench {
-    /// Measures, each call in a directory of its own in that of `context`.
-    ///
-    /// # Errors
-    /// If a run is interrupted, or files cannot be written.
-    pub fn measure(&self, context: &RunContext) -> Result<Scaling, BenchError> {
-        let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
-        let planned = self.planned_cases();
-        let nothing = |cases, cores| Size {
-            cases,
-            cores,
-            nanoseconds: Vec::new(),
-        };
-        let over_cases = self.cases.iter().map(|&cases| nothing(cases, 1));
-        let mut over_cases: Vec<Size> = over_cases.collect();
-        let over_cores = self.cores.iter();
-        let over_cores = over_cores.map(|&cores| nothing(planned.len(), cores));
-        let mut over_cores: Vec<Size> = over_cores.collect();
-        for _ in 0..self.repeats {
-            for size in &mut over_cases {
-                let nanoseconds = self.in_lanes(&lanes, size.cases, context)?;
-                size.nanoseconds.push(nanoseconds);
-            }
-            for size in &mut over_cores {
-                size.nanoseconds
-                    .push(on_cores(&lanes, &planned, size.cores, context)?);
-            }
-        }
-        Ok(Scaling {
-            cases: rows(&over_cases),
-            cores: rows(&over_cores),
-        })
+/// Nanoseconds per step and case of `count` cases in one call.
+fn in_lanes(
+    lanes: &InstalledTarget,
+    count: usize,
+    context: &RunContext,
+) -> Result<f64, BenchError> {
+    let cases = timed_cases(Code::NATIVE, count, STEPS, LENGTHS);
+    let steps: u64 = cases.iter().map(Case::total_steps).sum();
+    let calls = LEAST_CASES.div_ceil(count);
+    let mut seconds = 0.0;
+    for _ in 0..calls {
+        seconds += lanes.time(&cases, context)?.duration.as_secs_f64();
     }
-
-    /// The planned runs of all stacks.
-    fn planned_cases(&self) -> Vec<Case> {
-        let bench = StackBench {
-            targets: Vec::new(),
-            stacks: self.stacks,
-            ..StackBench::default()
-        };
-        let plans = bench.plans(Code::NATIVE).into_iter();
-        plans.flat_map(|plan| plan.cases).collect()
-    }
-
-    /// Nanoseconds per step and case of `count` cases in one call.
-    fn in_lanes(
-        &self,
-        lanes: &InstalledTarget,
-        count: usize,
-        context: &RunContext,
-    ) -> Result<f64, BenchError> {
-        let cases = timed_cases(Code::NATIVE, count, self.steps, LENGTHS);
-        let steps: u64 = cases.iter().map(Case::total_steps).sum();
-        let calls = self.least_cases.div_ceil(count.max(1));
-        let mut seconds = 0.0;
-        for _ in 0..calls {
-            seconds += lanes.time(&cases, context)?.duration.as_secs_f64();
-        }
-        Ok(1e9 * seconds / (calls as f64 * steps as f64))
-    }
+    Ok(1e9 * seconds / (calls as f64 * steps as f64))
 }
 
 /// Nanoseconds per step and case of `cases`, distributed over so many `cores`.
@@ -155,15 +114,17 @@ fn on_cores(
     Ok(1e9 * seconds / steps as f64)
 }
 
-fn rows(sizes: &[Size]) -> Vec<ScalingRow> {
-    let first = sizes
-        .first()
-        .map_or(f64::NAN, |size| median(&size.nanoseconds));
-    let row = |size: &Size| ScalingRow {
-        cases: size.cases,
-        cores: size.cores,
-        ns_per_step: median(&size.nanoseconds),
-        speedup: first / median(&size.nanoseconds),
-    };
-    sizes.iter().map(row).collect()
+/// A row for each number of cases and of cores, from the nanoseconds of all repeats.
+fn rows<'a>(sizes: impl Iterator<Item = ((usize, usize), &'a Vec<f64>)>) -> Vec<ScalingRow> {
+    let mut first = None;
+    let rows = sizes.map(|((cases, cores), nanoseconds)| {
+        let ns_per_step = median(nanoseconds);
+        ScalingRow {
+            cases,
+            cores,
+            ns_per_step,
+            speedup: *first.get_or_insert(ns_per_step) / ns_per_step,
+        }
+    });
+    rows.collect()
 }

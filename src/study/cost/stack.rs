@@ -24,21 +24,14 @@ const TIME_STEP: f64 = 0.1;
 const RAMP_TIME: f64 = 100.0;
 const FINE_INTERVAL: f64 = 10.0;
 
-/// The targets and the amount of work that are timed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StackBench {
-    /// The targets.
-    pub targets: Vec<BenchTarget>,
-    /// Steps of the compression in the longer one of the two runs whose difference is the cost of a step.
-    pub steps: u64,
-    /// Native cases in each of these runs, since native steps are so much faster; external codes run one.
-    pub native_cases: usize,
-    /// Stacks whose yield force is measured by the runs that a crosscheck plans, all in one call.
-    pub stacks: usize,
-    /// Repeats of the whole measurement. The targets take turns, so that other load on the machine slows down all of
-    /// them.
-    pub repeats: usize,
-}
+/// Steps of the compression in the longer one of the two runs whose difference is the cost of a step.
+const STEPS: u64 = 400_000;
+/// Native cases in each of these runs, since native steps are so much faster; external codes run one.
+const NATIVE_CASES: usize = 64;
+/// Stacks whose yield force is measured by the runs that a crosscheck plans, all in one call.
+const STACKS: usize = 8;
+/// Repeats of the whole measurement, if nothing else is wanted: a few minutes for all codes.
+const REPEATS: usize = 5;
 
 /// The cost of the stack for one target.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,89 +56,77 @@ pub struct StackCost {
     pub peak_bytes: Option<u64>,
 }
 
-impl Default for StackBench {
-    /// All installed targets: a few minutes.
-    fn default() -> Self {
-        let installed = Self::installed().into_iter();
-        Self {
-            targets: installed.flat_map(BenchTarget::of).collect(),
-            steps: 400_000,
-            native_cases: 64,
-            stacks: 8,
-            repeats: 5,
-        }
-    }
+/// The codes that are installed, of each the first variant.
+pub(crate) fn installed_codes() -> Vec<Code> {
+    let codes = Code::all().into_iter();
+    let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
+    installed.collect()
 }
 
-impl StackBench {
-    /// The codes that are installed, of each the first variant.
-    pub fn installed() -> Vec<Code> {
-        let codes = Code::all().into_iter();
-        let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
-        installed.collect()
+/// Measures all targets of `codes` on one core, each call in a directory of its own in that of `context`. The targets
+/// take turns, so that other load on the machine slows down all of them.
+///
+/// # Errors
+/// If a code is missing, a run fails, or its files cannot be written.
+pub(crate) fn measure_stack(
+    codes: &[Code],
+    repeats: Option<usize>,
+    context: &RunContext,
+) -> Result<Vec<StackCost>, BenchError> {
+    let targets = codes.iter().copied().flat_map(BenchTarget::of);
+    let targets: Vec<_> = targets
+        .map(InstalledTarget::find)
+        .collect::<Result<_, _>>()?;
+    let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
+    for target in &targets {
+        // The first start reads the program from disk.
+        let short = timed_cases(target.code.name(), 1, STEPS, 1);
+        target.time(&short, context)?;
     }
-
-    /// Measures on one core, each call in a directory of its own in that of `context`.
-    ///
-    /// # Errors
-    /// If a code is missing, a run fails, or its files cannot be written.
-    pub fn measure(&self, context: &RunContext) -> Result<Vec<StackCost>, BenchError> {
-        let targets = self.targets.iter().map(|&who| InstalledTarget::find(who));
-        let targets: Vec<InstalledTarget> = targets.collect::<Result<_, _>>()?;
-        let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
-        for target in &targets {
-            // The first start reads the program from disk.
-            let short = timed_cases(target.code.name(), 1, self.steps, 1);
-            target.time(&short, context)?;
+    for _ in 0..repeats.unwrap_or(REPEATS) {
+        for (target, cost) in targets.iter().zip(&mut costs) {
+            time_steps(target, cost, context)?;
+            time_yield_forces(target, cost, context)?;
         }
-        for _ in 0..self.repeats {
-            for (target, cost) in targets.iter().zip(&mut costs) {
-                self.time_steps(target, cost, context)?;
-                self.time_yield_forces(target, cost, context)?;
-            }
-        }
-        Ok(costs)
     }
+    Ok(costs)
+}
 
-    fn time_steps(
-        &self,
-        target: &InstalledTarget,
-        cost: &mut StackCost,
-        context: &RunContext,
-    ) -> Result<(), BenchError> {
-        let code = target.code.name();
-        let count = match code {
-            Code::NATIVE => self.native_cases,
-            _ => 1,
-        };
-        let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, self.steps, part));
-        let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
-        let short = target.time(&short, context)?.duration.as_secs_f64();
-        let long = target.time(&long, context)?.duration.as_secs_f64();
-        cost.add_steps([(few, short), (many, long)]);
-        Ok(())
-    }
+fn time_steps(
+    target: &InstalledTarget,
+    cost: &mut StackCost,
+    context: &RunContext,
+) -> Result<(), BenchError> {
+    let code = target.code.name();
+    let count = match code {
+        Code::NATIVE => NATIVE_CASES,
+        _ => 1,
+    };
+    let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, STEPS, part));
+    let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
+    let short = target.time(&short, context)?.duration.as_secs_f64();
+    let long = target.time(&long, context)?.duration.as_secs_f64();
+    cost.add_steps([(few, short), (many, long)]);
+    Ok(())
+}
 
-    fn time_yield_forces(
-        &self,
-        target: &InstalledTarget,
-        cost: &mut StackCost,
-        context: &RunContext,
-    ) -> Result<(), BenchError> {
-        let code = target.code.name();
-        let plans = self.plans(code);
-        let cases: Vec<Case> = plans.iter().flat_map(|plan| plan.cases.clone()).collect();
-        let timed = target.time(&cases, context)?;
-        cost.add_yield_forces(&plans, timed);
-        Ok(())
-    }
+fn time_yield_forces(
+    target: &InstalledTarget,
+    cost: &mut StackCost,
+    context: &RunContext,
+) -> Result<(), BenchError> {
+    let plans = plans(target.code.name(), STACKS);
+    let cases: Vec<Case> = plans.iter().flat_map(|plan| plan.cases.clone()).collect();
+    cost.add_yield_forces(&plans, target.time(&cases, context)?);
+    Ok(())
+}
 
-    /// The measurements of a yield force, as a crosscheck plans them for `code`.
-    pub(super) fn plans(&self, code: Code) -> Vec<Measurement> {
-        let stacks = (0..self.stacks).map(stack);
-        let plans = stacks.map(|stack| plan(code, &stack, convention(code)));
-        plans.collect()
-    }
+/// The measurements of the yield forces of so many `stacks`, as a crosscheck plans them for `code`.
+pub(super) fn plans(code: Code, stacks: usize) -> Vec<Measurement> {
+    let stacks = (0..stacks).map(stack);
+    stacks
+        .map(|stack| plan(code, &stack, convention(code)))
+        .collect()
 }
 
 /// The stack of the case at `index`, each with its own friction.

@@ -1,8 +1,7 @@
 //! The codes that are timed, and the timing of runs.
 
 use super::memory::{Processes, with_peak};
-use crate::code::Run;
-use crate::code::{Code, Failure, InstalledCode, RunContext};
+use crate::code::{Code, Failure, InstalledCode, Run, RunContext};
 use crate::files::FileError;
 use crate::model::{Case, ContactConvention};
 use std::time::{Duration, Instant};

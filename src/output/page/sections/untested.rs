@@ -33,11 +33,11 @@ pub(super) fn section(
     items.extend(unjudged(reproduction));
     let untestable = claims
         .iter()
-        .filter(|claim| claim.verdict == ClaimVerdict::Untestable);
-    items.extend(untestable.map(|claim| {
+        .filter(|judged| judged.verdict == ClaimVerdict::Untestable);
+    items.extend(untestable.map(|judged| {
         format!(
             "{}, “{}”: {}.",
-            claim.place, claim.statement, claim.evidence
+            judged.claim.place, judged.claim.statement, judged.evidence
         )
     }));
     let blocks = vec![Block::List { items }];

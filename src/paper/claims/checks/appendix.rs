@@ -4,23 +4,87 @@ use super::Check;
 use crate::paper::claims::finding::{Finding, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
-    Displacements, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
+    Displacements, Forces, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
 };
 
 pub(crate) const CHECKS: &[Check] = &[
-    Check::theory("five-unknowns", five_unknowns),
+    // Newton's method finds isolated solutions, because the Jacobian of the five equations is regular.
+    Check::theory("five-unknowns", |_| {
+        let expected = 90;
+        let found = yield_states().len();
+        let evidence = format!(
+            "Newton's method on the five equations (three balances of cylinder 2, one of cylinder 1, e = mu d) in \
+             delta_11, delta_21, delta_22, theta and f, with a regular Jacobian, has converged for {found} of {expected} stacks"
+        );
+        Finding::exceptions(expected - found, evidence)
+    }),
     Check::at_states("slip-condition", PaperTheory::slip_condition),
     Check::at_states("first-of-xyz", PaperTheory::first_of_xyz),
     Check::at_states("second-of-xyz", PaperTheory::second_of_xyz),
     Check::at_states("third-of-xyz", PaperTheory::third_of_xyz),
-    Check::theory("auxiliary-functions", auxiliary_functions),
+    // A, B and C in terms of the forces, with S the distance of the centres.
+    //
+    // From a = k_n [x(√3r − x) − y(r + y)]/S and b = e = μ k_n z; with r(x + √3y) = S (2μκz − y),
+    // A = a S w²/k_n, B = b S w² z/(k_n z), C = S² w² z for w = 2μκz − y.
+    Check::theory("auxiliary-functions", |paper| {
+        at_states(|state| {
+            let [a, b, c] = paper.auxiliary(state);
+            let forces = state.forces();
+            let moved = &state.displacements;
+            let distance = (moved.upper() - moved.lower()).norm();
+            // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
+            let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
+            let square = (twice - state.y()).powi(2);
+            let squares = distance * distance * square;
+            worst([
+                relative(a, forces.a * distance * square / NORMAL_STIFFNESS),
+                relative(b, forces.b * distance * square / NORMAL_STIFFNESS),
+                relative(c, squares * forces.d / NORMAL_STIFFNESS),
+            ])
+        })
+    }),
     Check::at_states("a-eliminated", PaperTheory::a_eliminated),
-    Check::theory("factors-not-zero", factors_not_zero),
+    Check::theory("factors-not-zero", |paper| {
+        let factors = yield_states().iter().map(|state| {
+            let shear = paper.shear(state) / (state.epsilon * RADIUS);
+            shear.min(1.0 + state.y() / RADIUS)
+        });
+        let smallest = factors.fold(f64::INFINITY, f64::min);
+        let evidence = format!(
+            "{COMPARED}: (x + sqrt3 y)/(epsilon r) and (r + y)/r are both at least {smallest:.3}"
+        );
+        Finding::statement(smallest > 0.0, evidence)
+    }),
     Check::at_states("sum-relation", PaperTheory::sum_relation),
     Check::at_states("conjugate-relation", PaperTheory::conjugate_relation),
     Check::at_states("slope-relation", PaperTheory::slope_relation),
     Check::at_states("closed-form", PaperTheory::closed_form),
-    Check::theory("non-negative-variables", non_negative_variables),
+    // Whether "x, y, z ≥ 0" is necessary or sufficient for a, b, d and e to be positive.
+    Check::theory("non-negative-variables", |paper| {
+        let states = yield_states();
+        let positive = |state: &&YieldState| {
+            let Forces { a, b, d, e } = state.forces();
+            [a, b, d, e].iter().all(|&force| force > 0.0)
+        };
+        let inward = states.iter().filter(|state| state.y() < 0.0);
+        let needless = inward.clone().filter(positive).count();
+        let inward = inward.count();
+        // With x = 0 and y, z > 0 the normal force is −k_n y (r + y)/S.
+        let moved = Displacements {
+            delta_11: 0.01,
+            delta_21: 0.01,
+            delta_22: 0.02,
+            theta: 0.0,
+        };
+        let pulling = paper.forces(&moved, paper.stiffness_ratio).a / NORMAL_STIFFNESS;
+        let evidence = format!(
+            "not necessary: of {inward} solutions with y < 0 (mu = 0.1 to 0.7, kappa = 1, 2.5, 10), {needless} have a, b, d, e > 0; \
+             not sufficient: x = 0, y = z = 0.01 r or so makes a = {pulling:.4} k_n r < 0. What y >= 0 does is keep the \
+             bottom cylinders apart, c = 0"
+        );
+        let violations = needless + usize::from(pulling < 0.0);
+        Finding::exceptions(violations, evidence)
+    }),
 ];
 
 const COMPARED: &str = "put in solutions of the five unreduced equations (Newton's method; mu = 0.1 to 0.7, \
@@ -28,81 +92,4 @@ const COMPARED: &str = "put in solutions of the five unreduced equations (Newton
 
 pub(crate) fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
     Finding::identity(yield_states().iter().map(deviation), COMPARED)
-}
-
-/// Newton's method finds isolated solutions, because the Jacobian of the five equations is regular.
-fn five_unknowns(_: &PaperTheory) -> Finding {
-    let expected = 90;
-    let found = yield_states().len();
-    let evidence = format!(
-        "Newton's method on the five equations (three balances of cylinder 2, one of cylinder 1, e = mu d) in \
-         delta_11, delta_21, delta_22, theta and f, with a regular Jacobian, has converged for {found} of {expected} stacks"
-    );
-    Finding::exceptions(expected - found, evidence)
-}
-
-/// A, B and C in terms of the forces, with S the distance of the centres.
-///
-/// From a = k_n [x(√3r − x) − y(r + y)]/S and b = e = μ k_n z; with r(x + √3y) = S (2μκz − y),
-/// A = a S w²/k_n, B = b S w² z/(k_n z), C = S² w² z for w = 2μκz − y.
-fn auxiliary_functions(paper: &PaperTheory) -> Finding {
-    at_states(|state| {
-        let [a, b, c] = paper.auxiliary(state);
-        let forces = state.forces();
-        let moved = &state.displacements;
-        let distance = (moved.upper(RADIUS) - moved.lower(RADIUS)).norm();
-        // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
-        let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
-        let square = (twice - state.y()).powi(2);
-        worst([
-            relative(a, forces.a * distance * square / NORMAL_STIFFNESS),
-            relative(b, forces.b * distance * square / NORMAL_STIFFNESS),
-            relative(
-                c,
-                distance * distance * square * forces.d / NORMAL_STIFFNESS,
-            ),
-        ])
-    })
-}
-
-fn factors_not_zero(paper: &PaperTheory) -> Finding {
-    let mut smallest = f64::INFINITY;
-    for state in yield_states() {
-        let shear = paper.shear(state) / (state.epsilon * RADIUS);
-        let outward = 1.0 + state.y() / RADIUS;
-        smallest = smallest.min(shear).min(outward);
-    }
-    let evidence = format!(
-        "{COMPARED}: (x + sqrt3 y)/(epsilon r) and (r + y)/r are both at least {smallest:.3}"
-    );
-    Finding::statement(smallest > 0.0, evidence)
-}
-
-/// Whether "x, y, z ≥ 0" is necessary or sufficient for a, b, d and e to be positive.
-fn non_negative_variables(paper: &PaperTheory) -> Finding {
-    let states = yield_states();
-    let positive = |state: &&YieldState| {
-        let forces = state.forces();
-        [forces.a, forces.b, forces.d, forces.e]
-            .iter()
-            .all(|&force| force > 0.0)
-    };
-    let inward = states.iter().filter(|state| state.y() < 0.0);
-    let needless = inward.clone().filter(positive).count();
-    let inward = inward.count();
-    // With x = 0 and y, z > 0 the normal force is −k_n y (r + y)/S.
-    let moved = Displacements {
-        delta_11: 0.01,
-        delta_21: 0.01,
-        delta_22: 0.02,
-        theta: 0.0,
-    };
-    let pulling = paper.forces(&moved, RADIUS, 1.0, paper.stiffness_ratio).a;
-    let evidence = format!(
-        "not necessary: of {inward} solutions with y < 0 (mu = 0.1 to 0.7, kappa = 1, 2.5, 10), {needless} have a, b, d, e > 0; \
-         not sufficient: x = 0, y = z = 0.01 r or so makes a = {pulling:.4} k_n r < 0. What y >= 0 does is keep the \
-         bottom cylinders apart, c = 0"
-    );
-    let violations = needless + usize::from(pulling < 0.0);
-    Finding::exceptions(violations, evidence)
 }

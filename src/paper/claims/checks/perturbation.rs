@@ -7,14 +7,105 @@ use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs, stack};
 
 pub(crate) const CHECKS: &[Check] = &[
-    Check::theory("remainder", remainder),
-    Check::theory("coefficient", coefficient),
-    Check::theory("product-quotient", product_quotient),
-    Check::theory("difference-quotients", difference_quotients),
-    Check::theory("perturbative-solution", perturbative_solution),
-    Check::theory("expansion", expansion),
-    Check::theory("quadratic", quadratic),
-    Check::theory("limiting-alpha", limiting_alpha),
+    Check::theory("remainder", |paper| {
+        let away = [0.2, 0.25, 0.3, 0.5].map(|mu| order(paper, mu, 1e-4, 1e-5));
+        let at = order(paper, CRITICAL_FRICTION, 1e-5, 1e-7);
+        let evidence = format!(
+            "z(z - z_star) - epsilon r^2 Phi at the root of the elastic equation falls as epsilon to the power {} at \
+             mu = 0.2, 0.25, 0.3, 0.5, but {at:.2} at mu_c, where alpha is of order epsilon^(1/2)",
+            list(away.map(|order| format!("{order:.2}")))
+        );
+        let away = worst(away.map(|order| (order - paper.remainder_order).abs()));
+        let at = (at - paper.remainder_order_at_transition).abs();
+        Finding::new(worst([away, at]), 0.05, evidence)
+    }),
+    Check::theory("coefficient", |paper| {
+        let frictions = [0.1, 0.15, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.7];
+        let largest = worst(pairs(frictions, RATIOS).map(|(mu, kappa)| {
+            let epsilon = 1e-8;
+            let alpha = epsilon / root(mu, kappa, epsilon);
+            // F(μ, α → 0) with a step that rounding allows.
+            let truth = true_quotient(mu, kappa, alpha.max(1e-6));
+            relative(paper.coefficient(mu, kappa), truth)
+        }));
+        let evidence = format!(
+            "Phi against [DE(alpha) - DE(0)]/alpha at the elastic equation's own alpha for 1/epsilon = 1e8, mu = 0.1 to 0.7, kappa = 1, 2.5, 10: \
+             largest relative difference {largest:.0e} (it falls with epsilon)"
+        );
+        Finding::new(largest, 1e-3, evidence)
+    }),
+    Check::theory("product-quotient", |paper| {
+        let deviations = points().map(|(mu, kappa, alpha)| {
+            let printed = paper.product_quotient(mu, kappa, alpha);
+            relative(printed, true_quotient(mu, kappa, alpha))
+        });
+        let compared = "F against [DE(alpha) - DE(0)]/alpha of the springs' own D E";
+        Finding::identity(deviations, compared)
+    }),
+    // 𝒟 and ℰ are smooth in α: D and E have limits for α → 0.
+    Check::theory("difference-quotients", |paper| {
+        let change = |function: &dyn Fn(f64) -> f64| {
+            let quotient = |alpha: f64| (function(alpha) - function(0.0)) / alpha;
+            (quotient(1e-5) - quotient(-1e-5)).abs() / (1.0 + quotient(1e-5).abs())
+        };
+        let largest = worst(pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
+            worst([
+                change(&|alpha| paper.geometry(mu, alpha)),
+                change(&|alpha| paper.compliance(mu, kappa, alpha)),
+            ])
+        }));
+        let evidence = format!(
+            "D and E at alpha = 1e-5 and -1e-5 differ by at most {largest:.0e} at 15 pairs of mu and kappa: they are regular at alpha = 0"
+        );
+        Finding::new(largest, 1e-2, evidence)
+    }),
+    Check::theory("perturbative-solution", |paper| {
+        let frictions = [0.1, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.5];
+        let deviations = pairs(frictions, RATIOS).flat_map(|(mu, kappa)| {
+            [1e-2, 1e-4].map(|epsilon| {
+                let z = 0.5 * epsilon * paper.perturbative_load(mu, kappa, epsilon);
+                let stiff = paper.stiff_displacement(mu, kappa, 1.0);
+                let source = epsilon * paper.coefficient(mu, kappa);
+                imbalance(&[z * z, -z * stiff, -source])
+            })
+        });
+        let compared = "z = epsilon r (f + 3mg)/(2mg) put into z(z - z_star) = epsilon r^2 Phi";
+        Finding::identity(deviations, compared)
+    }),
+    // z = z⋆ + α r (ℰ(0) D + 𝒟(0) E + α D E).
+    Check::theory("expansion", |paper| {
+        let deviations = points().map(|(mu, kappa, alpha)| {
+            let z = RADIUS * paper.geometry(mu, alpha) * paper.compliance(mu, kappa, alpha);
+            let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
+            let added = alpha * RADIUS * paper.product_quotient(mu, kappa, alpha);
+            imbalance(&[stiff, added, -z])
+        });
+        Finding::identity(deviations, "r D E against z_star + alpha r F, r not 1")
+    }),
+    // z(z − z⋆) = ε r² F(μ, α) at roots of the elastic equation.
+    Check::theory("quadratic", |paper| {
+        let epsilon = 1e-2;
+        let deviations = pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
+            let z = RADIUS * root(mu, kappa, epsilon);
+            let alpha = epsilon * RADIUS / z;
+            let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
+            let source = epsilon * RADIUS * RADIUS * paper.product_quotient(mu, kappa, alpha);
+            imbalance(&[z * z, -z * stiff, -source])
+        });
+        let compared = "roots of the elastic equation at 1/epsilon = 1e2, r not 1";
+        Finding::identity(deviations, compared)
+    }),
+    Check::theory("limiting-alpha", |paper| {
+        let alpha = |mu: f64, epsilon: f64| epsilon / root(mu, paper.stiffness_ratio, epsilon);
+        let deviation = |mu: f64| (alpha(mu, 1e-8) - paper.limiting_alpha(mu)).abs();
+        let away = worst([0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5].map(deviation));
+        let at = deviation(CRITICAL_FRICTION);
+        let evidence = format!(
+            "alpha of the elastic equation at 1/epsilon = 1e8: within {away:.0e} of the limit at seven mu from 0.1 to 0.5, {at:.0e} at mu_c, \
+             where it vanishes as epsilon^(1/2)"
+        );
+        Finding::new(worst([away, at]), 1e-3, evidence)
+    }),
 ];
 
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
@@ -48,117 +139,8 @@ fn order(paper: &PaperTheory, mu: f64, coarse: f64, fine: f64) -> f64 {
     (left(coarse) / left(fine)).abs().ln() / (coarse / fine).ln()
 }
 
-fn remainder(paper: &PaperTheory) -> Finding {
-    let away = [0.2, 0.25, 0.3, 0.5].map(|mu| order(paper, mu, 1e-4, 1e-5));
-    let at = order(paper, CRITICAL_FRICTION, 1e-5, 1e-7);
-    let evidence = format!(
-        "z(z - z_star) - epsilon r^2 Phi at the root of the elastic equation falls as epsilon to the power {} at \
-         mu = 0.2, 0.25, 0.3, 0.5, but {at:.2} at mu_c, where alpha is of order epsilon^(1/2)",
-        list(away.map(|order| format!("{order:.2}")))
-    );
-    let away = worst(away.map(|order| (order - paper.remainder_order).abs()));
-    let at = (at - paper.remainder_order_at_transition).abs();
-    Finding::new(worst([away, at]), 0.05, evidence)
-}
-
-fn coefficient(paper: &PaperTheory) -> Finding {
-    let frictions = [0.1, 0.15, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.7];
-    let largest = worst(pairs(frictions, RATIOS).map(|(mu, kappa)| {
-        let epsilon = 1e-8;
-        let alpha = epsilon / root(mu, kappa, epsilon);
-        // F(μ, α → 0) with a step that rounding allows.
-        let truth = true_quotient(mu, kappa, alpha.max(1e-6));
-        relative(paper.coefficient(mu, kappa), truth)
-    }));
-    let evidence = format!(
-        "Phi against [DE(alpha) - DE(0)]/alpha at the elastic equation's own alpha for 1/epsilon = 1e8, mu = 0.1 to 0.7, kappa = 1, 2.5, 10: \
-         largest relative difference {largest:.0e} (it falls with epsilon)"
-    );
-    Finding::new(largest, 1e-3, evidence)
-}
-
 /// Points (μ, κ, α) at which quotients keep their digits.
 fn points() -> impl Iterator<Item = (f64, f64, f64)> {
     pairs(FRICTIONS, RATIOS)
         .flat_map(|(mu, kappa)| [0.05, 0.2, 0.4, 0.6].map(|alpha| (mu, kappa, alpha)))
-}
-
-fn product_quotient(paper: &PaperTheory) -> Finding {
-    let deviations = points().map(|(mu, kappa, alpha)| {
-        relative(
-            paper.product_quotient(mu, kappa, alpha),
-            true_quotient(mu, kappa, alpha),
-        )
-    });
-    let compared = "F against [DE(alpha) - DE(0)]/alpha of the springs' own D E";
-    Finding::identity(deviations, compared)
-}
-
-/// 𝒟 and ℰ are smooth in α: D and E have limits for α → 0.
-fn difference_quotients(paper: &PaperTheory) -> Finding {
-    let change = |function: &dyn Fn(f64) -> f64| {
-        let quotient = |alpha: f64| (function(alpha) - function(0.0)) / alpha;
-        (quotient(1e-5) - quotient(-1e-5)).abs() / (1.0 + quotient(1e-5).abs())
-    };
-    let largest = worst(pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
-        worst([
-            change(&|alpha| paper.geometry(mu, alpha)),
-            change(&|alpha| paper.compliance(mu, kappa, alpha)),
-        ])
-    }));
-    let evidence = format!(
-        "D and E at alpha = 1e-5 and -1e-5 differ by at most {largest:.0e} at 15 pairs of mu and kappa: they are regular at alpha = 0"
-    );
-    Finding::new(largest, 1e-2, evidence)
-}
-
-fn perturbative_solution(paper: &PaperTheory) -> Finding {
-    let mut deviations = Vec::new();
-    for (mu, kappa) in pairs([0.1, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.5], RATIOS) {
-        for epsilon in [1e-2, 1e-4] {
-            let z = 0.5 * epsilon * paper.perturbative_load(mu, kappa, epsilon);
-            let stiff = paper.stiff_displacement(mu, kappa, 1.0);
-            let source = epsilon * paper.coefficient(mu, kappa);
-            deviations.push(imbalance(&[z * z, -z * stiff, -source]));
-        }
-    }
-    let compared = "z = epsilon r (f + 3mg)/(2mg) put into z(z - z_star) = epsilon r^2 Phi";
-    Finding::identity(deviations, compared)
-}
-
-/// z = z⋆ + α r (ℰ(0) D + 𝒟(0) E + α D E).
-fn expansion(paper: &PaperTheory) -> Finding {
-    let deviations = points().map(|(mu, kappa, alpha)| {
-        let z = RADIUS * paper.geometry(mu, alpha) * paper.compliance(mu, kappa, alpha);
-        let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
-        let added = alpha * RADIUS * paper.product_quotient(mu, kappa, alpha);
-        imbalance(&[stiff, added, -z])
-    });
-    Finding::identity(deviations, "r D E against z_star + alpha r F, r not 1")
-}
-
-/// z(z − z⋆) = ε r² F(μ, α) at roots of the elastic equation.
-fn quadratic(paper: &PaperTheory) -> Finding {
-    let epsilon = 1e-2;
-    let deviations = pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
-        let z = RADIUS * root(mu, kappa, epsilon);
-        let alpha = epsilon * RADIUS / z;
-        let stiff = paper.stiff_displacement(mu, kappa, RADIUS);
-        let source = epsilon * RADIUS * RADIUS * paper.product_quotient(mu, kappa, alpha);
-        imbalance(&[z * z, -z * stiff, -source])
-    });
-    let compared = "roots of the elastic equation at 1/epsilon = 1e2, r not 1";
-    Finding::identity(deviations, compared)
-}
-
-fn limiting_alpha(paper: &PaperTheory) -> Finding {
-    let alpha = |mu: f64, epsilon: f64| epsilon / root(mu, paper.stiffness_ratio, epsilon);
-    let deviation = |mu: f64| (alpha(mu, 1e-8) - paper.limiting_alpha(mu)).abs();
-    let away = worst([0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5].map(deviation));
-    let at = deviation(CRITICAL_FRICTION);
-    let evidence = format!(
-        "alpha of the elastic equation at 1/epsilon = 1e8: within {away:.0e} of the limit at seven mu from 0.1 to 0.5, {at:.0e} at mu_c, \
-         where it vanishes as epsilon^(1/2)"
-    );
-    Finding::new(worst([away, at]), 1e-3, evidence)
 }

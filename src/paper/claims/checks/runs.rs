@@ -4,64 +4,157 @@ use super::Check;
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
-use crate::paper::claims::printed::PaperTheory;
-use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction};
+use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction, exponent_at};
 use crate::study::yield_force::Judgement;
 
 pub(crate) const CHECKS: &[Check] = &[
-    Check::runs("force-series", force_series),
-    Check::runs("peak-is-quasistatic", peak_is_quasistatic),
-    Check::runs("converges-with-speed", converges_with_speed),
-    Check::runs("compression-speed", compression_speed),
-    Check::runs("time-step", time_step),
-    Check::theory("leapfrog", leapfrog),
-    Check::runs("agrees-with-perturbation", agrees_with_perturbation),
-    Check::runs("runs-approach-rigid-limit", approaches_rigid_limit),
-    Check::runs("runs-scale", scale),
+    // f(t) rises, has one maximum, and falls.
+    Check::runs("force-series", |_, runs| {
+        let rows = &runs.force_series.rows;
+        let numbered = rows.iter().enumerate();
+        let peak = numbered.max_by(|left, right| left.1.1.total_cmp(&right.1.1));
+        let (index, &(_, highest)) = peak.ok_or_else(|| missing("f(t)"))?;
+        let (mut so_far, mut drop) = (0.0f64, 0.0f64);
+        for &(_, force) in &rows[..index] {
+            drop = drop.max(so_far - force);
+            so_far = so_far.max(force);
+        }
+        let last = rows.last().map_or(f64::NAN, |row| row.1);
+        let evidence = format!(
+            "native DEM at mu = 0.2, k_n r/mg = 1e2, v = 1e-6: f rises to {highest:.4} mg (largest fall on the way {:.1e} of it) and then \
+             falls to {last:.3} mg",
+            drop / highest
+        );
+        let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
+        Ok(Finding::new(deviation, 1e-3, evidence))
+    }),
+    // The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
+    Check::runs("peak-is-quasistatic", |_, runs| {
+        let series = &runs.force_series;
+        let forces = series.peak_force.zip(series.limit);
+        let (peak, limit) = forces.ok_or_else(|| missing("f(t)"))?;
+        let evidence = format!(
+            "native DEM at mu = 0.2, k_n r/mg = 1e2, v = {:e}, dt = {:e}: peak {peak:.6} mg, exact quasi-static limit {limit:.6} mg: {:+.4} %",
+            series.wall_speed,
+            series.time_step,
+            100.0 * (peak / limit - 1.0)
+        );
+        Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
+    }),
+    Check::runs("converges-with-speed", |paper, runs| {
+        let speeds = [1e-4, 1e-5, paper.compression_speed];
+        let excesses = speeds.map(|speed| excess(runs, speed));
+        let [Some(fast), Some(middle), Some(slow)] = excesses else {
+            return Err(missing("the convergence study"));
+        };
+        let evidence = format!(
+            "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}",
+            percents(runs, &[1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
+        );
+        let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
+        Ok(Finding::statement(shrinks, evidence))
+    }),
+    Check::runs("compression-speed", |paper, runs| {
+        let excess = excess(runs, paper.compression_speed);
+        let excess = excess.ok_or_else(|| missing("this wall speed"))?;
+        let evidence = format!(
+            "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}: it grows as v/epsilon",
+            percents(runs, &[1e-5, 1e-6, 1e-7])
+        );
+        Ok(Finding::new(excess.abs(), 1e-3, evidence))
+    }),
+    Check::runs("time-step", |paper, runs| {
+        let points = &runs.convergence.time_steps;
+        let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
+        let peaks = peak(paper.time_step).zip(peak(0.1 * paper.time_step));
+        let (at, finer) = peaks.ok_or_else(|| missing("these time steps"))?;
+        let coarse = peak(0.1).map_or_else(String::new, |coarse| {
+            let off = relative(coarse, finer);
+            format!("; even at dt = 0.1 it is {off:.1e} off")
+        });
+        let change = relative(at, finer);
+        let evidence = format!(
+            "native DEM at mu = 0.2, k_n r/mg = 1e4, v = 1e-3: the peak changes by {change:.1e} between dt = {:e} and a tenth of it{coarse}",
+            paper.time_step
+        );
+        Ok(Finding::new(change, 1e-4, evidence))
+    }),
+    Check::theory("leapfrog", |paper| {
+        let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
+        let evidence = format!(
+            "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
+            paper.time_step
+        );
+        Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
+    }),
+    Check::runs("agrees-with-perturbation", |paper, runs| {
+        let rows = forces(&runs.yield_curves);
+        let kappa = paper.stiffness_ratio;
+        let compared = rows.into_iter().map(|(mu, stiffness, force)| {
+            let printed = paper.perturbative_load(mu, kappa, 1.0 / stiffness);
+            (relative(printed, force + 3.0), mu, stiffness)
+        });
+        let compared: Vec<_> = compared.collect();
+        let rows = compared.iter();
+        let farthest = rows.max_by(|left, right| left.0.total_cmp(&right.0));
+        let &(largest, mu, stiffness) = farthest.ok_or_else(|| missing("Fig. 2(a)"))?;
+        let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
+        let near = worst(near.map(|row| row.0));
+        let evidence = format!(
+            "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): f + 3mg differs by at most {:.1} % \
+             (mu = {mu}, k_n r/mg = {stiffness:.0}), {:.1} % up to mu_c. The distance does not vanish for stiff cylinders above mu_c",
+            compared.len(),
+            100.0 * largest,
+            100.0 * near
+        );
+        Ok(Finding::new(largest, 1e-3, evidence))
+    }),
+    Check::runs("runs-approach-rigid-limit", |paper, runs| {
+        let rows = forces(&runs.scaling).into_iter();
+        let below = rows.filter(|&(mu, ..)| mu < CRITICAL_FRICTION);
+        let below = below.map(|(mu, stiffness, force)| {
+            let rigid = paper.rigid_yield_force(mu);
+            (stiffness, relative(force + 3.0, rigid + 3.0))
+        });
+        let mut below: Vec<(f64, f64)> = below.collect();
+        below.sort_by(|left, right| left.0.total_cmp(&right.0));
+        let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
+        let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
+        let evidence = format!(
+            "native DEM at mu = 0.25: f + 3mg comes closer to f_0 + 3mg with every decade of k_n r/mg, to {closest:.1e} at {stiffness:.0e}; \
+             at mu_c and above it grows without bound (see the exponents)"
+        );
+        let deviation = worst([closest, violation(shrinks)]);
+        Ok(Finding::new(deviation, 1e-2, evidence))
+    }),
+    Check::runs("runs-scale", |paper, runs| {
+        let mut listed = Vec::new();
+        let mut deviations = Vec::new();
+        let exponents = runs.exponents.iter();
+        for exponent in exponents.filter(|exponent| exponent.code == Code::NATIVE) {
+            let printed = exponent_at(exponent.mu, [0.0, paper.scaling_at, paper.scaling_above]);
+            deviations.push((exponent.exponent - printed).abs());
+            listed.push(format!(
+                "{:.4} +- {:.0e} at mu = {:.3}",
+                exponent.exponent, exponent.uncertainty, exponent.mu
+            ));
+        }
+        if deviations.len() < 3 {
+            return Err(missing("Fig. 2(b)"));
+        }
+        let evidence = format!(
+            "slopes of ln(f + 3mg) over ln(k_n r/mg), native DEM, fitted from {FITTED_FROM:.0e} on: {}; the paper's 0, {} and {} are their limits",
+            list(listed),
+            paper.scaling_at,
+            paper.scaling_above
+        );
+        Ok(Finding::new(worst(deviations), 2e-3, evidence))
+    }),
 ];
 
 /// The reason for which a check cannot be made.
 fn missing(name: &str) -> String {
     format!("there is no native run of {name} in this reproduction")
-}
-
-/// f(t) rises, has one maximum, and falls.
-fn force_series(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let rows = &runs.force_series.rows;
-    let peak = rows
-        .iter()
-        .enumerate()
-        .max_by(|left, right| left.1.1.total_cmp(&right.1.1));
-    let (index, &(_, highest)) = peak.ok_or_else(|| missing("f(t)"))?;
-    let (mut so_far, mut drop) = (0.0f64, 0.0f64);
-    for &(_, force) in &rows[..index] {
-        drop = drop.max(so_far - force);
-        so_far = so_far.max(force);
-    }
-    let last = rows.last().map_or(f64::NAN, |row| row.1);
-    let evidence = format!(
-        "native DEM at mu = 0.2, k_n r/mg = 1e2, v = 1e-6: f rises to {highest:.4} mg (largest fall on the way {:.1e} of it) and then \
-         falls to {last:.3} mg",
-        drop / highest
-    );
-    let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
-    Ok(Finding::new(deviation, 1e-3, evidence))
-}
-
-/// The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
-fn peak_is_quasistatic(_: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let series = &runs.force_series;
-    let (peak, limit) = series
-        .peak_force
-        .zip(series.limit)
-        .ok_or_else(|| missing("f(t)"))?;
-    let evidence = format!(
-        "native DEM at mu = 0.2, k_n r/mg = 1e2, v = {:e}, dt = {:e}: peak {peak:.6} mg, exact quasi-static limit {limit:.6} mg: {:+.4} %",
-        series.wall_speed,
-        series.time_step,
-        100.0 * (peak / limit - 1.0)
-    );
-    Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
 }
 
 /// The native run with this value of `setting`.
@@ -76,12 +169,8 @@ fn native(
 
 /// Excess of the peak over the limit at a wall speed.
 fn excess(runs: &Reproduction, speed: f64) -> Option<f64> {
-    native(
-        &runs.convergence.wall_speeds,
-        |point| point.wall_speed,
-        speed,
-    )?
-    .excess_of_peak()
+    let points = &runs.convergence.wall_speeds;
+    native(points, |point| point.wall_speed, speed)?.excess_of_peak()
 }
 
 fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
@@ -91,137 +180,9 @@ fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
     }))
 }
 
-fn converges_with_speed(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let speeds = [1e-4, 1e-5, paper.compression_speed];
-    let excesses = speeds.map(|speed| excess(runs, speed));
-    let [Some(fast), Some(middle), Some(slow)] = excesses else {
-        return Err(missing("the convergence study"));
-    };
-    let evidence = format!(
-        "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}",
-        percents(runs, &[1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
-    );
-    let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
-    Ok(Finding::statement(shrinks, evidence))
-}
-
-fn compression_speed(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let excess = excess(runs, paper.compression_speed).ok_or_else(|| missing("this wall speed"))?;
-    let evidence = format!(
-        "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}: it grows as v/epsilon",
-        percents(runs, &[1e-5, 1e-6, 1e-7])
-    );
-    Ok(Finding::new(excess.abs(), 1e-3, evidence))
-}
-
-fn time_step(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let points = &runs.convergence.time_steps;
-    let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
-    let (at, finer) = peak(paper.time_step)
-        .zip(peak(0.1 * paper.time_step))
-        .ok_or_else(|| missing("these time steps"))?;
-    let coarse = peak(0.1).map_or_else(String::new, |coarse| {
-        format!(
-            "; even at dt = 0.1 it is {:.1e} off",
-            relative(coarse, finer)
-        )
-    });
-    let change = relative(at, finer);
-    let evidence = format!(
-        "native DEM at mu = 0.2, k_n r/mg = 1e4, v = 1e-3: the peak changes by {change:.1e} between dt = {:e} and a tenth of it{coarse}",
-        paper.time_step
-    );
-    Ok(Finding::new(change, 1e-4, evidence))
-}
-
-fn leapfrog(paper: &PaperTheory) -> Finding {
-    let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
-    let evidence = format!(
-        "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
-        paper.time_step
-    );
-    Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
-}
-
 /// Friction, stiffness and yield force of the native rows that have one.
 fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
-    let rows = judgements.iter();
-    let native = rows.filter(|row| row.code == Code::NATIVE);
-    native
-        .filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)))
-        .collect()
-}
-
-fn agrees_with_perturbation(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let rows = forces(&runs.yield_curves);
-    let kappa = paper.stiffness_ratio;
-    let compared = rows.into_iter().map(|(mu, stiffness, force)| {
-        let printed = paper.perturbative_load(mu, kappa, 1.0 / stiffness);
-        (relative(printed, force + 3.0), mu, stiffness)
-    });
-    let compared: Vec<_> = compared.collect();
-    let farthest = compared
-        .iter()
-        .max_by(|left, right| left.0.total_cmp(&right.0));
-    let &(largest, mu, stiffness) = farthest.ok_or_else(|| missing("Fig. 2(a)"))?;
-    let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
-    let near = worst(near.map(|row| row.0));
-    let evidence = format!(
-        "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): f + 3mg differs by at most {:.1} % \
-         (mu = {mu}, k_n r/mg = {stiffness:.0}), {:.1} % up to mu_c. The distance does not vanish for stiff cylinders above mu_c",
-        compared.len(),
-        100.0 * largest,
-        100.0 * near
-    );
-    Ok(Finding::new(largest, 1e-3, evidence))
-}
-
-fn approaches_rigid_limit(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let mut below: Vec<(f64, f64)> = forces(&runs.scaling)
-        .into_iter()
-        .filter(|&(mu, ..)| mu < CRITICAL_FRICTION)
-        .map(|(mu, stiffness, force)| {
-            (
-                stiffness,
-                relative(force + 3.0, paper.rigid_yield_force(mu) + 3.0),
-            )
-        })
-        .collect();
-    below.sort_by(|left, right| left.0.total_cmp(&right.0));
-    let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
-    let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
-    let evidence = format!(
-        "native DEM at mu = 0.25: f + 3mg comes closer to f_0 + 3mg with every decade of k_n r/mg, to {closest:.1e} at {stiffness:.0e}; \
-         at mu_c and above it grows without bound (see the exponents)"
-    );
-    let deviation = worst([closest, violation(shrinks)]);
-    Ok(Finding::new(deviation, 1e-2, evidence))
-}
-
-fn scale(paper: &PaperTheory, runs: &Reproduction) -> Result<Finding, String> {
-    let mut listed = Vec::new();
-    let mut deviations = Vec::new();
-    let exponents = runs.exponents.iter();
-    for exponent in exponents.filter(|exponent| exponent.code == Code::NATIVE) {
-        let printed = match exponent.mu.total_cmp(&CRITICAL_FRICTION) {
-            std::cmp::Ordering::Less => 0.0,
-            std::cmp::Ordering::Equal => paper.scaling_at,
-            std::cmp::Ordering::Greater => paper.scaling_above,
-        };
-        deviations.push((exponent.exponent - printed).abs());
-        listed.push(format!(
-            "{:.4} +- {:.0e} at mu = {:.3}",
-            exponent.exponent, exponent.uncertainty, exponent.mu
-        ));
-    }
-    if deviations.len() < 3 {
-        return Err(missing("Fig. 2(b)"));
-    }
-    let evidence = format!(
-        "slopes of ln(f + 3mg) over ln(k_n r/mg), native DEM, fitted from {FITTED_FROM:.0e} on: {}; the paper's 0, {} and {} are their limits",
-        list(listed),
-        paper.scaling_at,
-        paper.scaling_above
-    );
-    Ok(Finding::new(worst(deviations), 2e-3, evidence))
+    let native = judgements.iter().filter(|row| row.code == Code::NATIVE);
+    let forces = native.filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)));
+    forces.collect()
 }

@@ -8,17 +8,149 @@ use crate::paper::claims::truth::elastic_displacement;
 use crate::theory::{floor_slip_force, rigid_yield};
 
 pub(crate) const CHECKS: &[Check] = &[
-    Check::theory("scaling", scaling),
-    Check::theory("scaling-of-naive", scaling_of_naive),
-    Check::theory("scaling-of-perturbation", scaling_of_perturbation),
-    Check::theory("naive-below", naive_below),
-    Check::theory("naive-at", naive_at),
-    Check::theory("naive-above", naive_above),
-    Check::theory("naive-validity", naive_validity),
-    Check::theory("naive-breaks-down", naive_breaks_down),
-    Check::theory("rigid-limit", rigid_limit),
-    Check::theory("smooth-transition", smooth_transition),
-    Check::theory("steepest-near-critical", steepest_near_critical),
+    Check::theory("scaling", |paper| {
+        let far = exponents(paper, 1e7, 1e8, exact_load);
+        let near = exponents(paper, 1e2, 1e4, exact_load);
+        let evidence = format!(
+            "exponents of the DEM's exact quasi-static limit between 1/epsilon = 1e7 and 1e8: {}; over the paper's own range \
+             1e2 to 1e4: {}",
+            listed(far),
+            listed(near)
+        );
+        Finding::new(off_printed(paper, far), EXPONENT, evidence)
+    }),
+    Check::theory("scaling-of-naive", |paper| {
+        let load = |mu: f64, epsilon: f64| {
+            let z = if mu < CRITICAL_FRICTION {
+                paper.displacement_below(mu, epsilon, 1.0)
+            } else if mu == CRITICAL_FRICTION {
+                paper.critical_displacement(paper.stiffness_ratio, epsilon, 1.0)
+            } else {
+                paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0)
+            };
+            paper.floor_load(z, epsilon, 1.0)
+        };
+        let rigid = relative(load(BELOW, 1e-6), rigid_load(BELOW));
+        let exponent = |mu| (load(mu, 1e-8) / load(mu, 1e-6)).log10() / 2.0;
+        let (at, above) = (exponent(CRITICAL_FRICTION), exponent(ABOVE));
+        let evidence = format!(
+            "2z/(epsilon r) of Eq. (13): (f_0 + 3mg)/mg at mu = 0.25 (relative difference {}), exponents {at:.3} at mu_c and \
+             {above:.3} at 0.3",
+            size(rigid, 1e-9)
+        );
+        let deviation = worst([
+            rigid,
+            (at - paper.scaling_at).abs(),
+            (above - paper.scaling_above).abs(),
+        ]);
+        Finding::new(deviation, 1e-9, evidence)
+    }),
+    Check::theory("scaling-of-perturbation", |paper| {
+        let far = exponents(paper, 1e7, 1e8, |stack| perturbative_load(paper, stack));
+        let evidence = format!(
+            "exponents of Eq. (17) between 1/epsilon = 1e7 and 1e8: {}",
+            listed(far)
+        );
+        Finding::new(off_printed(paper, far), EXPONENT, evidence)
+    }),
+    Check::theory("naive-below", |paper| {
+        naive(paper, &[0.1, 0.15, 0.2, 0.25], 1e-4, |mu, epsilon| {
+            paper.displacement_below(mu, epsilon, 1.0)
+        })
+    }),
+    Check::theory("naive-at", |paper| {
+        let kappa = paper.stiffness_ratio;
+        naive(paper, &[CRITICAL_FRICTION], 1e-3, |_, epsilon| {
+            paper.critical_displacement(kappa, epsilon, 1.0)
+        })
+    }),
+    Check::theory("naive-above", |paper| {
+        let kappa = paper.stiffness_ratio;
+        naive(paper, &[0.28, 0.3, 0.4, 0.5, 0.7], 1e-4, |mu, _| {
+            paper.stiff_displacement(mu, kappa, 1.0)
+        })
+    }),
+    // Eq. (13) below μ_c meets z ≥ 3 ε r/2 from μ_c/3 on.
+    Check::theory("naive-validity", |paper| {
+        let excess = |mu: f64| paper.displacement_below(mu, 1.0, 1.0) - paper.lowest_displacement;
+        let lowest = CRITICAL_FRICTION / 3.0;
+        let evidence = format!(
+            "z/(epsilon r) - 3/2 of Eq. (13) is {:+.1e} at 0.999 mu_c/3, {:+.1e} at 1.001 mu_c/3: below mu_c/3 there is no solution",
+            excess(0.999 * lowest),
+            excess(1.001 * lowest)
+        );
+        let right = excess(0.999 * lowest) < 0.0 && excess(1.001 * lowest) > 0.0;
+        Finding::statement(right, evidence)
+    }),
+    Check::theory("naive-breaks-down", |paper| {
+        let distances = [1e-2, 1e-3, 1e-4];
+        let root = |mu: f64| elastic_displacement(&paper.stack(mu, 1e4));
+        let ratios = distances.map(|distance| {
+            let mu = CRITICAL_FRICTION * (1.0 - distance);
+            paper.displacement_below(mu, 1e-4, 1.0) / root(mu)
+        });
+        let mu = CRITICAL_FRICTION * (1.0 + 1e-4);
+        let above = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / root(mu);
+        let evidence = format!(
+            "naive over true displacement at 1/epsilon = 1e4: {:.1}, {:.1}, {:.0} at 1 %, 0.1 %, 0.01 % below mu_c: it diverges there \
+             as mu_c/(mu_c - mu). From above it does not diverge but vanishes ({above:.4} at 0.01 %): it breaks down on both sides",
+            ratios[0], ratios[1], ratios[2]
+        );
+        let diverges = ratios[1] > 5.0 * ratios[0] && ratios[2] > 5.0 * ratios[1] && above < 0.1;
+        Finding::statement(diverges, evidence)
+    }),
+    Check::theory("rigid-limit", |paper| {
+        let loads = |mu: f64| {
+            let stack = paper.stack(mu, 1e8);
+            [exact_load(&stack), perturbative_load(paper, &stack)]
+        };
+        let below = worst([0.1, 0.15, 0.2, 0.25].map(|mu| {
+            let rigid = paper.rigid_yield_force(mu) + 3.0;
+            worst(loads(mu).map(|load| relative(load, rigid)))
+        }));
+        let above = [CRITICAL_FRICTION, 0.3, 0.5].into_iter().flat_map(loads);
+        let least = above.fold(f64::INFINITY, f64::min);
+        let evidence = format!(
+            "at 1/epsilon = 1e8 the DEM's exact quasi-static limit and Eq. (17) are within {below:.1e} of f_0 + 3mg for mu = 0.1 to \
+             0.25, and above {least:.0e} mg at mu_c, 0.3 and 0.5, where f_0 is infinite"
+        );
+        Finding::new(worst([below, violation(least > 1e3)]), 1e-4, evidence)
+    }),
+    Check::theory("smooth-transition", |paper| {
+        let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
+        let largest = worst(stiffnesses.map(|stiffness| {
+            // Slopes on both sides of μ_c: with a kink they would differ at any distance.
+            let load =
+                |offset: f64| exact_load(&paper.stack(CRITICAL_FRICTION + offset, stiffness));
+            let step = 1e-5;
+            let (left, right) = (load(0.0) - load(-step), load(step) - load(0.0));
+            relative(left, right)
+        }));
+        let evidence = format!(
+            "in the exact quasi-static limit F is finite at mu_c and its slopes on both sides of it agree to {largest:.1e} \
+             (1/epsilon = 1e2, 1e3, 1e4)"
+        );
+        Finding::new(largest, 1e-2, evidence)
+    }),
+    Check::theory("steepest-near-critical", |paper| {
+        const SPACING: f64 = 0.004;
+        let steepest = |stiffness: f64| {
+            let mu = |index: i32| CRITICAL_FRICTION + SPACING * f64::from(index);
+            let load = |index: i32| exact_load(&paper.stack(mu(index), stiffness)).ln();
+            let loads: Vec<f64> = (-18..=18).map(load).collect();
+            let slopes = loads.windows(3).map(|triple| triple[2] - triple[0]);
+            let numbered = slopes.enumerate();
+            let largest = numbered.max_by(|left, right| left.1.total_cmp(&right.1));
+            largest.map_or(f64::NAN, |(index, _)| mu(index as i32 - 17))
+        };
+        let found = [1e2, 1e3, 1e4].map(steepest);
+        let evidence = format!(
+            "d ln(F + 3)/d mu of the exact quasi-static limit is largest at mu = {:.3}, {:.3}, {:.3} for 1/epsilon = 1e2, 1e3, 1e4 \
+             (mu_c = 0.268)",
+            found[0], found[1], found[2]
+        );
+        Finding::new(relative(found[2], paper.critical_friction), 0.01, evidence)
+    }),
 ];
 
 /// Deviation of an exponent that the next order causes at 1/ε = 10⁷.
@@ -67,54 +199,6 @@ fn listed([below, at, above]: [f64; 3]) -> String {
     )
 }
 
-fn scaling(paper: &PaperTheory) -> Finding {
-    let far = exponents(paper, 1e7, 1e8, exact_load);
-    let near = exponents(paper, 1e2, 1e4, exact_load);
-    let evidence = format!(
-        "exponents of the DEM's exact quasi-static limit between 1/epsilon = 1e7 and 1e8: {}; over the paper's own range \
-         1e2 to 1e4: {}",
-        listed(far),
-        listed(near)
-    );
-    Finding::new(off_printed(paper, far), EXPONENT, evidence)
-}
-
-fn scaling_of_perturbation(paper: &PaperTheory) -> Finding {
-    let far = exponents(paper, 1e7, 1e8, |stack| perturbative_load(paper, stack));
-    let evidence = format!(
-        "exponents of Eq. (17) between 1/epsilon = 1e7 and 1e8: {}",
-        listed(far)
-    );
-    Finding::new(off_printed(paper, far), EXPONENT, evidence)
-}
-
-fn scaling_of_naive(paper: &PaperTheory) -> Finding {
-    let load = |mu: f64, epsilon: f64| {
-        let z = if mu < CRITICAL_FRICTION {
-            paper.displacement_below(mu, epsilon, 1.0)
-        } else if mu == CRITICAL_FRICTION {
-            paper.critical_displacement(paper.stiffness_ratio, epsilon, 1.0)
-        } else {
-            paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0)
-        };
-        paper.floor_load(z, epsilon, 1.0)
-    };
-    let rigid = relative(load(BELOW, 1e-6), rigid_load(BELOW));
-    let exponent = |mu| (load(mu, 1e-8) / load(mu, 1e-6)).log10() / 2.0;
-    let (at, above) = (exponent(CRITICAL_FRICTION), exponent(ABOVE));
-    let evidence = format!(
-        "2z/(epsilon r) of Eq. (13): (f_0 + 3mg)/mg at mu = 0.25 (relative difference {}), exponents {at:.3} at mu_c and \
-         {above:.3} at 0.3",
-        size(rigid, 1e-9)
-    );
-    let deviation = worst([
-        rigid,
-        (at - paper.scaling_at).abs(),
-        (above - paper.scaling_above).abs(),
-    ]);
-    Finding::new(deviation, 1e-9, evidence)
-}
-
 /// Ratio of a naive solution to the root of the elastic equation, at 1/ε = 10⁴, 10⁶ and 10⁸.
 fn naive(
     paper: &PaperTheory,
@@ -134,112 +218,4 @@ fn naive(
          {fine:.1e} at 1/epsilon = 1e4, 1e6, 1e8"
     );
     Finding::new(fine, bound, evidence)
-}
-
-fn naive_below(paper: &PaperTheory) -> Finding {
-    naive(paper, &[0.1, 0.15, 0.2, 0.25], 1e-4, |mu, epsilon| {
-        paper.displacement_below(mu, epsilon, 1.0)
-    })
-}
-
-fn naive_at(paper: &PaperTheory) -> Finding {
-    let kappa = paper.stiffness_ratio;
-    naive(paper, &[CRITICAL_FRICTION], 1e-3, |_, epsilon| {
-        paper.critical_displacement(kappa, epsilon, 1.0)
-    })
-}
-
-fn naive_above(paper: &PaperTheory) -> Finding {
-    let kappa = paper.stiffness_ratio;
-    naive(paper, &[0.28, 0.3, 0.4, 0.5, 0.7], 1e-4, |mu, _| {
-        paper.stiff_displacement(mu, kappa, 1.0)
-    })
-}
-
-/// Eq. (13) below μ_c meets z ≥ 3 ε r/2 from μ_c/3 on.
-fn naive_validity(paper: &PaperTheory) -> Finding {
-    let excess = |mu: f64| paper.displacement_below(mu, 1.0, 1.0) - paper.lowest_displacement;
-    let lowest = CRITICAL_FRICTION / 3.0;
-    let evidence = format!(
-        "z/(epsilon r) - 3/2 of Eq. (13) is {:+.1e} at 0.999 mu_c/3, {:+.1e} at 1.001 mu_c/3: below mu_c/3 there is no solution",
-        excess(0.999 * lowest),
-        excess(1.001 * lowest)
-    );
-    let right = excess(0.999 * lowest) < 0.0 && excess(1.001 * lowest) > 0.0;
-    Finding::statement(right, evidence)
-}
-
-fn naive_breaks_down(paper: &PaperTheory) -> Finding {
-    let distances = [1e-2, 1e-3, 1e-4];
-    let ratios = distances.map(|distance| {
-        let mu = CRITICAL_FRICTION * (1.0 - distance);
-        paper.displacement_below(mu, 1e-4, 1.0) / elastic_displacement(&paper.stack(mu, 1e4))
-    });
-    let above = {
-        let mu = CRITICAL_FRICTION * (1.0 + 1e-4);
-        let root = elastic_displacement(&paper.stack(mu, 1e4));
-        paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / root
-    };
-    let evidence = format!(
-        "naive over true displacement at 1/epsilon = 1e4: {:.1}, {:.1}, {:.0} at 1 %, 0.1 %, 0.01 % below mu_c: it diverges there \
-         as mu_c/(mu_c - mu). From above it does not diverge but vanishes ({above:.4} at 0.01 %): it breaks down on both sides",
-        ratios[0], ratios[1], ratios[2]
-    );
-    let diverges = ratios[1] > 5.0 * ratios[0] && ratios[2] > 5.0 * ratios[1] && above < 0.1;
-    Finding::statement(diverges, evidence)
-}
-
-fn rigid_limit(paper: &PaperTheory) -> Finding {
-    let loads = |mu: f64| {
-        let stack = paper.stack(mu, 1e8);
-        [exact_load(&stack), perturbative_load(paper, &stack)]
-    };
-    let below = worst([0.1, 0.15, 0.2, 0.25].map(|mu| {
-        let rigid = paper.rigid_yield_force(mu) + 3.0;
-        worst(loads(mu).map(|load| relative(load, rigid)))
-    }));
-    let above = [CRITICAL_FRICTION, 0.3, 0.5].into_iter().flat_map(loads);
-    let least = above.fold(f64::INFINITY, f64::min);
-    let evidence = format!(
-        "at 1/epsilon = 1e8 the DEM's exact quasi-static limit and Eq. (17) are within {below:.1e} of f_0 + 3mg for mu = 0.1 to \
-         0.25, and above {least:.0e} mg at mu_c, 0.3 and 0.5, where f_0 is infinite"
-    );
-    Finding::new(worst([below, violation(least > 1e3)]), 1e-4, evidence)
-}
-
-fn smooth_transition(paper: &PaperTheory) -> Finding {
-    let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
-    let largest = worst(stiffnesses.map(|stiffness| {
-        // Slopes on both sides of μ_c: with a kink they would differ at any distance.
-        let load = |offset: f64| exact_load(&paper.stack(CRITICAL_FRICTION + offset, stiffness));
-        let step = 1e-5;
-        let (left, right) = (load(0.0) - load(-step), load(step) - load(0.0));
-        relative(left, right)
-    }));
-    let evidence = format!(
-        "in the exact quasi-static limit F is finite at mu_c and its slopes on both sides of it agree to {largest:.1e} \
-         (1/epsilon = 1e2, 1e3, 1e4)"
-    );
-    Finding::new(largest, 1e-2, evidence)
-}
-
-fn steepest_near_critical(paper: &PaperTheory) -> Finding {
-    const SPACING: f64 = 0.004;
-    let steepest = |stiffness: f64| {
-        let mu = |index: i32| CRITICAL_FRICTION + SPACING * f64::from(index);
-        let load = |index: i32| exact_load(&paper.stack(mu(index), stiffness)).ln();
-        let loads: Vec<f64> = (-18..=18).map(load).collect();
-        let slopes = loads.windows(3).map(|triple| triple[2] - triple[0]);
-        let largest = slopes
-            .enumerate()
-            .max_by(|left, right| left.1.total_cmp(&right.1));
-        largest.map_or(f64::NAN, |(index, _)| mu(index as i32 - 17))
-    };
-    let found = [1e2, 1e3, 1e4].map(steepest);
-    let evidence = format!(
-        "d ln(F + 3)/d mu of the exact quasi-static limit is largest at mu = {:.3}, {:.3}, {:.3} for 1/epsilon = 1e2, 1e3, 1e4 \
-         (mu_c = 0.268)",
-        found[0], found[1], found[2]
-    );
-    Finding::new(relative(found[2], paper.critical_friction), 0.01, evidence)
 }

@@ -1,13 +1,12 @@
 //! The DEM's contact law, in the text of "Numerical results", and its damping, Eqs. (S1) and (S2).
 
 use super::PaperTheory;
+use crate::paper::claims::truth::{NORMAL_STIFFNESS, RADIUS};
 use nalgebra::Vector2;
 
 /// A tangential contact in motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sliding {
-    /// k_t.
-    pub(crate) stiffness: f64,
     /// η_t.
     pub(crate) damping: f64,
     /// u, stretch of the spring.
@@ -20,20 +19,14 @@ pub(crate) struct Sliding {
 
 impl PaperTheory {
     /// Δ = 2r − r_ij.
-    pub(crate) fn overlap(&self, distance: f64, radius: f64) -> f64 {
-        self.overlap_diameters * radius - distance
+    pub(crate) fn overlap(&self, distance: f64) -> f64 {
+        self.overlap_diameters * RADIUS - distance
     }
 
     /// h_n Θ(Δ) with h_n = k_n Δ − η_n v_n.
-    pub(crate) fn normal_force(
-        &self,
-        stiffness: f64,
-        damping: f64,
-        overlap: f64,
-        velocity: f64,
-    ) -> f64 {
+    pub(crate) fn normal_force(&self, damping: f64, overlap: f64, velocity: f64) -> f64 {
         if overlap >= 0.0 {
-            stiffness * overlap - self.normal_damping * damping * velocity
+            NORMAL_STIFFNESS * overlap - self.normal_damping * damping * velocity
         } else {
             0.0
         }
@@ -50,15 +43,14 @@ impl PaperTheory {
         separation: Vector2<f64>,
         velocity: Vector2<f64>,
         spins: [f64; 2],
-        radius: f64,
     ) -> f64 {
         let tangent = self.pair_tangent(separation);
-        velocity.dot(&tangent) - self.spin_arm * radius * (spins[0] + spins[1])
+        velocity.dot(&tangent) - self.spin_arm * RADIUS * (spins[0] + spins[1])
     }
 
-    /// h_t = −k_t u − η_t v.
+    /// h_t = −k_t u − η_t v, for a spring k_t of [`NORMAL_STIFFNESS`].
     pub(crate) fn sticking_force(&self, contact: &Sliding) -> f64 {
-        -contact.stiffness * contact.stretch
+        -NORMAL_STIFFNESS * contact.stretch
             - self.tangential_damping * contact.damping * contact.velocity
     }
 

@@ -2,7 +2,7 @@
 
 use super::PaperTheory;
 use crate::model::Stack;
-use crate::paper::claims::truth::Forces;
+use crate::paper::claims::truth::Balanced;
 use nalgebra::Vector2;
 
 impl PaperTheory {
@@ -20,42 +20,32 @@ impl PaperTheory {
     }
 
     /// Terms of Eqs. (1) and (S21), b − e = 0.
-    pub(crate) fn torque_terms(&self, forces: &Forces) -> [f64; 2] {
-        [forces.b, -self.torque_ratio * forces.e]
+    pub(crate) fn torque_terms(&self, state: &Balanced) -> [f64; 2] {
+        [state.forces.b, -self.torque_ratio * state.forces.e]
     }
 
     /// Terms of Eqs. (2) and (S22), a n_x + b (t_x + 1) = 0.
-    pub(crate) fn horizontal_terms(&self, forces: &Forces, normal: Vector2<f64>) -> [f64; 2] {
-        let tangent = self.tangent(normal);
-        [
-            forces.a * normal.x,
-            forces.b * (tangent.x + self.floor_share),
-        ]
+    pub(crate) fn horizontal_terms(&self, state: &Balanced) -> [f64; 2] {
+        let outward = self.tangent(state.normal).x + self.floor_share;
+        [state.forces.a * state.normal.x, state.forces.b * outward]
     }
 
     /// Terms of Eqs. (3) and (S23), 2 a n_y + 2 b t_y − f − m g = 0.
-    pub(crate) fn vertical_terms(
-        &self,
-        forces: &Forces,
-        normal: Vector2<f64>,
-        f: f64,
-        weight: f64,
-    ) -> [f64; 4] {
-        let tangent = self.tangent(normal);
+    pub(crate) fn vertical_terms(&self, state: &Balanced) -> [f64; 4] {
         [
-            self.pair_contacts * forces.a * normal.y,
-            self.pair_contacts * forces.b * tangent.y,
-            -f,
-            -self.upper_weights * weight,
+            self.pair_contacts * state.forces.a * state.normal.y,
+            self.pair_contacts * state.forces.b * self.tangent(state.normal).y,
+            -state.f,
+            -self.upper_weights * state.weight,
         ]
     }
 
     /// Terms of f + 3 m g = 2 d.
-    pub(crate) fn stack_terms(&self, forces: &Forces, f: f64, weight: f64) -> [f64; 3] {
+    pub(crate) fn stack_terms(&self, state: &Balanced) -> [f64; 3] {
         [
-            f,
-            self.stack_weights * weight,
-            -self.floor_contacts * forces.d,
+            state.f,
+            self.stack_weights * state.weight,
+            -self.floor_contacts * state.forces.d,
         ]
     }
 
@@ -70,13 +60,13 @@ impl PaperTheory {
     }
 
     /// d = (f + 3 m g)/2 of rigid cylinders.
-    pub(crate) fn rigid_floor_load(&self, f: f64, weight: f64) -> f64 {
-        (f + self.rigid_load_weights * weight) / 2.0
+    pub(crate) fn rigid_floor_load(&self, state: &Balanced) -> f64 {
+        (state.f + self.rigid_load_weights * state.weight) / 2.0
     }
 
     /// e = μ_c (f + m g)/2 of rigid cylinders.
-    pub(crate) fn rigid_floor_shear(&self, f: f64, weight: f64) -> f64 {
-        self.critical_friction * (f + self.rigid_shear_weights * weight) / 2.0
+    pub(crate) fn rigid_floor_shear(&self, state: &Balanced) -> f64 {
+        self.critical_friction * (state.f + self.rigid_shear_weights * state.weight) / 2.0
     }
 
     /// f₀(μ)/(m g), Eq. (4).

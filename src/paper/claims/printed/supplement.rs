@@ -1,7 +1,7 @@
 //! Section II of the supplement, Eqs. (S3) to (S20).
 
 use super::PaperTheory;
-use crate::paper::claims::truth::{Displacements, Forces};
+use crate::paper::claims::truth::{Displacements, Forces, NORMAL_STIFFNESS, RADIUS};
 use nalgebra::Vector2;
 
 impl PaperTheory {
@@ -14,38 +14,34 @@ impl PaperTheory {
     }
 
     /// r₁ and r₂, Eq. (S4).
-    pub(crate) fn positions(&self, moved: &Displacements, radius: f64) -> [Vector2<f64>; 2] {
+    pub(crate) fn positions(&self, moved: &Displacements) -> [Vector2<f64>; 2] {
         let [upper, lower] = self.displacement_vectors(moved);
-        let height = (self.upper_height + self.rise_factor) * radius;
-        [
-            Vector2::new(0.0, height) + upper,
-            Vector2::new(radius, radius) + lower,
-        ]
+        let height = (self.upper_height + self.rise_factor) * RADIUS;
+        let centres = [Vector2::new(0.0, height), Vector2::new(RADIUS, RADIUS)];
+        [centres[0] + upper, centres[1] + lower]
     }
 
     /// r₂₁ = (−r − δ₂₂, √3 r + δ₂₁ − δ₁₁), Eq. (S5).
-    pub(crate) fn separation(&self, moved: &Displacements, radius: f64) -> Vector2<f64> {
+    pub(crate) fn separation(&self, moved: &Displacements) -> Vector2<f64> {
         Vector2::new(
-            -radius - moved.delta_22,
-            self.rise_factor * radius + moved.delta_21 - moved.delta_11,
+            -RADIUS - moved.delta_22,
+            self.rise_factor * RADIUS + moved.delta_21 - moved.delta_11,
         )
     }
 
-    fn length(&self, moved: &Displacements, radius: f64) -> f64 {
-        let rise = self.rise_factor * radius + moved.delta_21 - moved.delta_11;
-        (radius + moved.delta_22).hypot(rise)
+    fn length(&self, moved: &Displacements) -> f64 {
+        let apart = self.separation(moved);
+        apart.x.hypot(apart.y)
     }
 
     /// n, Eq. (S6).
-    pub(crate) fn normal(&self, moved: &Displacements, radius: f64) -> Vector2<f64> {
-        self.separation(moved, radius) / self.length(moved, radius)
+    pub(crate) fn normal(&self, moved: &Displacements) -> Vector2<f64> {
+        self.separation(moved) / self.length(moved)
     }
 
     /// t, Eq. (S7), in its explicit form.
-    pub(crate) fn explicit_tangent(&self, moved: &Displacements, radius: f64) -> Vector2<f64> {
-        let rise = self.rise_factor * radius + moved.delta_21 - moved.delta_11;
-        Vector2::new(rise, -self.tangent_sign * (radius + moved.delta_22))
-            / self.length(moved, radius)
+    pub(crate) fn explicit_tangent(&self, moved: &Displacements) -> Vector2<f64> {
+        self.tangent(self.separation(moved)) / self.length(moved)
     }
 
     /// δ₁₂ = (δ₂₂, δ₁₁ − δ₂₁), Eq. (S8).
@@ -55,24 +51,23 @@ impl PaperTheory {
     }
 
     /// −(δ₁₂·n), Eq. (S9).
-    pub(crate) fn normal_component(&self, moved: &Displacements, radius: f64) -> f64 {
-        let along = self
-            .relative_displacement_vector(moved)
-            .dot(&self.normal(moved, radius));
+    pub(crate) fn normal_component(&self, moved: &Displacements) -> f64 {
+        let normal = self.normal(moved);
+        let along = self.relative_displacement_vector(moved).dot(&normal);
         -self.overlap_sign * along
     }
 
     /// −(δ₁₂·t) + rθ, Eq. (S10).
-    pub(crate) fn tangential_component(&self, moved: &Displacements, radius: f64) -> f64 {
-        let tangent = self.explicit_tangent(moved, radius);
+    pub(crate) fn tangential_component(&self, moved: &Displacements) -> f64 {
+        let tangent = self.explicit_tangent(moved);
         let along = self.relative_displacement_vector(moved).dot(&tangent);
-        -along - self.pair_rotation_sign * radius * moved.theta
+        -along - self.pair_rotation_sign * RADIUS * moved.theta
     }
 
     /// Horizontal displacement at the floor, Eq. (S13).
-    pub(crate) fn floor_shear(&self, moved: &Displacements, radius: f64) -> f64 {
+    pub(crate) fn floor_shear(&self, moved: &Displacements) -> f64 {
         let [_, lower] = self.displacement_vectors(moved);
-        lower.x + self.floor_rotation_sign * radius * moved.theta
+        lower.x + self.floor_rotation_sign * RADIUS * moved.theta
     }
 
     /// Vertical displacement at the floor, Eq. (S14).
@@ -82,47 +77,31 @@ impl PaperTheory {
     }
 
     /// a, b, d and e by Eqs. (S11), (S12), (S15) and (S16).
-    pub(crate) fn forces(
-        &self,
-        moved: &Displacements,
-        radius: f64,
-        stiffness: f64,
-        ratio: f64,
-    ) -> Forces {
-        let tangential = stiffness / ratio;
+    pub(crate) fn forces(&self, moved: &Displacements, ratio: f64) -> Forces {
+        let tangential = NORMAL_STIFFNESS / ratio;
         Forces {
-            a: -stiffness * self.normal_component(moved, radius),
-            b: -tangential * self.tangential_component(moved, radius),
-            d: -stiffness * self.floor_sinking(moved),
-            e: tangential * self.floor_shear(moved, radius),
+            a: -NORMAL_STIFFNESS * self.normal_component(moved),
+            b: -tangential * self.tangential_component(moved),
+            d: -NORMAL_STIFFNESS * self.floor_sinking(moved),
+            e: tangential * self.floor_shear(moved),
         }
     }
 
     /// a, b, d and e by the explicit Eqs. (S17) to (S20).
-    pub(crate) fn explicit_forces(
-        &self,
-        moved: &Displacements,
-        radius: f64,
-        stiffness: f64,
-        ratio: f64,
-    ) -> Forces {
-        let Displacements {
-            delta_11,
-            delta_21,
-            delta_22,
-            theta,
-        } = *moved;
-        let tangential = stiffness / ratio;
-        let length = self.length(moved, radius);
-        let rise = self.rise_factor * radius + delta_21 - delta_11;
-        let along = -delta_22 * (radius + delta_22) + (delta_11 - delta_21) * rise;
-        let across = radius.powf(self.explicit_radius_power)
+    pub(crate) fn explicit_forces(&self, moved: &Displacements, ratio: f64) -> Forces {
+        let (delta_11, delta_21) = (moved.delta_11, moved.delta_21);
+        let (delta_22, theta) = (moved.delta_22, moved.theta);
+        let tangential = NORMAL_STIFFNESS / ratio;
+        let length = self.length(moved);
+        let rise = self.separation(moved).y;
+        let along = -delta_22 * (RADIUS + delta_22) + (delta_11 - delta_21) * rise;
+        let across = RADIUS.powf(self.explicit_radius_power)
             * (self.shear_direction * delta_22 + delta_11 - delta_21);
         Forces {
-            a: self.overlap_sign * stiffness * along / length,
-            b: tangential * (across / length + self.pair_rotation_sign * radius * theta),
-            d: self.overlap_sign * stiffness * delta_21,
-            e: tangential * (delta_22 + self.floor_rotation_sign * radius * theta),
+            a: self.overlap_sign * NORMAL_STIFFNESS * along / length,
+            b: tangential * (across / length + self.pair_rotation_sign * RADIUS * theta),
+            d: self.overlap_sign * NORMAL_STIFFNESS * delta_21,
+            e: tangential * (delta_22 + self.floor_rotation_sign * RADIUS * theta),
         }
     }
 }

@@ -20,6 +20,9 @@ pub(crate) struct Schema {
     pub(crate) found_in: &'static str,
 }
 
+type ValueOf<'a, R> = Box<dyn Fn(&R) -> Value + 'a>;
+type CellOf<'a, R> = Box<dyn Fn(&R) -> String + 'a>;
+
 /// A column of a table with rows of type `R`.
 pub(super) struct Column<'a, R> {
     /// Name in CSV and JSON; empty for a column that is for people only.
@@ -29,11 +32,11 @@ pub(super) struct Column<'a, R> {
     pub meaning: &'static str,
     /// Name in tables for people; `None` for a column that they leave out.
     pub heading: Option<&'static str>,
-    value: Box<dyn Fn(&R) -> Value + 'a>,
+    value: ValueOf<'a, R>,
     /// Format of its numbers in tables for people.
     digits: fn(f64) -> String,
     /// Text for people in place of the value.
-    cell: Option<Box<dyn Fn(&R) -> String + 'a>>,
+    cell: Option<CellOf<'a, R>>,
 }
 
 impl<'a, R: 'a> Column<'a, R> {
@@ -55,7 +58,7 @@ impl<'a, R: 'a> Column<'a, R> {
         let of_value = rows.clone();
         Column {
             value: Box::new(move |&row| value(&of_value[row])),
-            cell: cell.map(|cell| Box::new(move |&row: &usize| cell(&rows[row])) as Box<_>),
+            cell: cell.map(|cell| Box::new(move |&row: &usize| cell(&rows[row])) as CellOf<_>),
             name: self.name,
             unit: self.unit,
             meaning: self.meaning,

@@ -1,24 +1,19 @@
 //! The parameters of tasks, under the same names for every code.
 
 use crate::model::{
-    Case, ContactConvention, ContactTest, InitialMotion, InvalidValue, PreparationSteps, Pyramid,
-    Stack,
+    Case, ContactConvention, ContactLaw, ContactTest, InitialMotion, InvalidValue,
+    PreparationSteps, Pyramid, Stack,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Parameters of the contacts. Stiffness and damping are those of the contact itself; units
-/// r = m = k_n = 1.
+/// Parameters of the contacts; units r = m = k_n = 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct ContactParameters {
     /// k_n.
     normal_stiffness: f64,
-    /// k_t.
-    tangential_stiffness: f64,
-    /// η_n.
-    damping_normal: f64,
-    /// η_t.
-    damping_tangential: f64,
+    #[serde(flatten)]
+    law: ContactLaw,
     /// μ.
     floor_friction: f64,
     /// μ_d.
@@ -26,25 +21,18 @@ struct ContactParameters {
 }
 
 impl ContactParameters {
-    fn new(
-        convention: &ContactConvention,
-        tangential_stiffness: f64,
-        floor_friction: f64,
-        cylinder_friction: f64,
-    ) -> Self {
+    fn new(law: ContactLaw, floor_friction: f64, cylinder_friction: f64) -> Self {
         Self {
             normal_stiffness: 1.0,
-            tangential_stiffness,
-            damping_normal: convention.damping(1.0),
-            damping_tangential: convention.damping(tangential_stiffness),
+            law,
             floor_friction,
             cylinder_friction,
         }
     }
 
     fn of_stack(convention: &ContactConvention, stack: &Stack) -> Self {
-        let (mu, mu_d) = (stack.floor_friction, stack.cylinder_friction);
-        Self::new(convention, stack.tangential_stiffness(), mu, mu_d)
+        let law = convention.law(stack.stiffness_ratio);
+        Self::new(law, stack.floor_friction, stack.cylinder_friction)
     }
 }
 
@@ -193,8 +181,7 @@ impl ProbeParameters {
         });
         Self {
             contact: ContactParameters::new(
-                &test.convention,
-                test.tangential_stiffness(),
+                test.convention.law(test.stiffness_ratio),
                 test.floor_friction,
                 test.cylinder_friction,
             ),

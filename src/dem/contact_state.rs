@@ -84,25 +84,25 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::{Spring, SpringDashpot};
+    use super::super::contact::{Counterpart, Spring, SpringDashpot};
     use super::*;
-    use crate::model::{ContactArms, ContactConvention};
+    use crate::model::ContactConvention;
 
     type State = ContactState<f64, Spring<f64>>;
 
     const CONTACT: Contact<f64> = Contact {
+        counterpart: Counterpart::Wall,
         normal: [0.0, 1.0],
         overlap: 0.5,
         separation_speed: 0.0,
         sliding_speed: 0.5,
         spin: 0.0,
         friction: 10.0,
-        arms: ContactArms::reciprocal(0.0),
         time_step: 0.1,
     };
 
     fn law() -> SpringDashpot<f64> {
-        SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
+        SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5)
     }
 
     fn after_one_step(touches: Touch<f64>) -> State {

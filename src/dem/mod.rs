@@ -21,7 +21,7 @@ mod stack_run;
 mod stack_scene;
 mod wall;
 
-pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
+pub use contact::{Contact, ContactForce, ContactModel, Counterpart, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use first_event::{EventRun, Loading, Observation, Until};
 pub use frames::compress_stack_into_frames;

@@ -1,10 +1,12 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
-use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along, tangential};
+use super::contact::{
+    Contact, ContactForce, ContactModel, Counterpart, SpringDashpot, along, tangential,
+};
 use super::contact_state::{ContactState, Touch};
 use super::real::{Composite, Real, composite, lane_wise};
 use super::wall::PlaneWall;
-use crate::model::{Arms, CYLINDER_INERTIA};
+use crate::model::CYLINDER_INERTIA;
 
 /// A loop over all indices below a count, the first three unrolled.
 macro_rules! unrolled {
@@ -81,8 +83,6 @@ pub struct Scene<
     pub model: Model,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: R,
-    /// Arm coefficients of the contacts.
-    pub arms: Arms<R>,
     /// Moment of inertia of a cylinder.
     pub moment_of_inertia: R,
     /// Gravity, downwards.
@@ -125,7 +125,6 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             wall_exists: [true; WALLS],
             model,
             cylinder_friction: zero,
-            arms: Arms::PAPER.map(|arm| zero.like(arm)),
             moment_of_inertia: zero.like(CYLINDER_INERTIA),
             gravity: zero,
             time_step,
@@ -238,13 +237,13 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         let normal = [apart[0] / distance, apart[1] / distance];
         let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
         let contact = Contact {
+            counterpart: Counterpart::Cylinder,
             normal,
             overlap: distance.like(2.0) - distance,
             separation_speed: along(normal, velocity),
             sliding_speed: tangential(normal, velocity),
             spin: i.spin + j.spin,
             friction: self.cylinder_friction,
-            arms: self.arms.pair,
             time_step: self.time_step,
         };
         let state = &mut self.pair_contacts[first][second];
@@ -288,13 +287,13 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         let plane = self.walls[wall];
         let body = self.cylinders[cylinder];
         let contact = Contact {
+            counterpart: Counterpart::Wall,
             normal: plane.facing.normal(overlap),
             overlap,
             separation_speed: plane.facing.along(body.velocity) - plane.speed,
             sliding_speed: plane.facing.tangential(body.velocity),
             spin: body.spin,
             friction: plane.friction,
-            arms: self.arms.floor,
             time_step: self.time_step,
         };
         let state = &mut self.wall_contacts[wall][cylinder];
@@ -333,8 +332,6 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         self.model.visit(&other.model, visit);
         self.cylinder_friction
             .visit(&other.cylinder_friction, visit);
-        self.arms.pair.visit(&other.arms.pair, visit);
-        self.arms.floor.visit(&other.arms.floor, visit);
         self.moment_of_inertia
             .visit(&other.moment_of_inertia, visit);
         self.gravity.visit(&other.gravity, visit);

@@ -58,11 +58,6 @@ impl Stack {
         1.0 / self.stiffness
     }
 
-    /// Tangential stiffness k_t = k_n/κ in units of k_n.
-    pub fn tangential_stiffness(&self) -> f64 {
-        1.0 / self.stiffness_ratio
-    }
-
     /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the
     /// stiffest mode. For the stack with all its contacts ω² ≤ 4 + 12/κ, in units of k_n/m (largest
     /// eigenvalue, computed for κ from 1e-3 to 100).

@@ -20,7 +20,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .version(|row| &row.version)
     .source(|row| row.source)
     .shown("source")
-    .arms(|row| row.study.convention.arms)
+    .convention(|row| row.study.convention)
     .number("yield_force", "m g", "yield force F at vanishing wall speed", |row| row.yield_force())
     .shown_as("yield force", digits::<9>)
     .number("uncertainty", "m g", "its numerical uncertainty (see `budget`)", |row| row.uncertainty())

@@ -60,7 +60,7 @@ pub(crate) fn inventory(codes: &[Inventory]) -> DataTable<'_> {
         own.package()
     })
     .shown("package")
-    .arms(|own| own.code.convention().arms)
+    .convention(|own| own.code.convention())
     .right("pair arm", |own| own.arms(own.code.convention().arms.pair))
     .right("floor arm", |own| {
         own.arms(own.code.convention().arms.floor)

@@ -87,7 +87,7 @@ fn subject<'a>() -> SimulationColumns<'a> {
         .version(|own| &own.run.provenance.identity.version)
         .shown("version")
         .stack(|own| own.run.case.stack)
-        .arms(|own| own.convention().arms)
+        .convention(|own| *own.convention())
 }
 
 /// The contact convention beyond the arms.

@@ -2,7 +2,6 @@
 
 use super::number::{digits, friction, optional};
 use super::table::{Columns, DataTable, Table};
-use crate::model::Stack;
 use crate::theory::Predictions;
 
 /// One row per stack.
@@ -12,13 +11,10 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "A row is one stack with its yield force F by every theory.",
         "`tristack theory`",
     )
-    .stack(|own| Stack {
-        floor_friction: own.mu,
-        cylinder_friction: own.mu_d,
-        stiffness: own.stiffness,
-        stiffness_ratio: own.kappa,
+    .stack(|own| own.stack)
+    .number("epsilon", "1", "ε = m g/(k_n r)", |own| {
+        own.stack.epsilon()
     })
-    .number("epsilon", "1", "ε = m g/(k_n r)", |own| own.epsilon)
     .number(
         "rigid",
         "m g",
@@ -77,7 +73,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "F at which the floor slips if other events are ignored",
         |own| own.quasistatic.floor_slip_force,
     )
-    .arms(|own| own.quasistatic.arms)
+    .convention(|own| own.convention)
     .number("T", "1", "T = tan(ψ/2) where the floor slips", |own| {
         own.quasistatic.tangent
     })
@@ -103,13 +99,12 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
 pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
         let heading = format!(
-            "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, arms {}, {}\n",
-            friction(case.mu),
-            case.stiffness,
-            case.kappa,
-            case.mu_d,
-            case.quasistatic.arms.pair,
-            case.quasistatic.arms.floor
+            "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
+            friction(case.stack.floor_friction),
+            case.stack.stiffness,
+            case.stack.stiffness_ratio,
+            case.stack.cylinder_friction,
+            case.convention
         );
         heading + &one_case(case).terminal()
     });

@@ -55,7 +55,7 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .version(|row| &row.judgement.version)
     .source(|row| row.judgement.source)
     .stack(|_| trajectory_stack())
-    .arms(|row| row.judgement.code.convention().arms)
+    .convention(|row| row.judgement.code.convention())
     .text("twin", "what the twin has of the convention of the code", |row| {
         row.comparison.map(|own| own.twin.as_str())
     })

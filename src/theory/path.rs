@@ -18,7 +18,7 @@
 use super::events::{Event, Path, PathPoint, half_angle_tangent, locate, outward_displacement};
 use super::limit::Limit;
 use super::root::bracketed_root;
-use crate::model::{Arms, Stack};
+use crate::model::{Arms, ContactConvention, ContactLaw, Stack};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_6;
@@ -122,12 +122,10 @@ pub enum BottomContact {
     Followed,
 }
 
-/// Constants of the contacts along a path. Their springs are the paper's, k_n = 1: a
-/// normal force is the overlap.
+/// Constants of the contacts along a path.
 #[derive(Debug, Clone, Copy)]
 struct Contacts {
-    /// k_t = 1/κ.
-    tangential_stiffness: f64,
+    law: ContactLaw,
     arms: Arms,
     epsilon: f64,
     bottom: BottomContact,
@@ -139,14 +137,15 @@ impl Contacts {
     fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
         let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
         let distance = 2.0 - state.pair_overlap;
-        let floor_overlap = leg.floor_force(state.load, self.epsilon);
-        let tangential = self.tangential_stiffness;
+        let floor_overlap = self.law.overlap(leg.floor_force(state.load, self.epsilon));
+        let tangential = self.law.tangential_stiffness;
         let Arms { pair, floor } = self.arms;
         let pair_lever = 1.0 + pair.torque * state.pair_overlap;
         let pair_radius = 1.0 + pair.kinematic * state.pair_overlap;
         let floor_lever = 1.0 + floor.torque * floor_overlap;
         let floor_radius = 1.0 + floor.kinematic * floor_overlap;
-        let (a, b, e) = (state.pair_overlap, state.pair_shear, state.floor_shear);
+        let a = self.law.force(state.pair_overlap);
+        let (b, e) = (state.pair_shear, state.floor_shear);
         // −dc/dx₂: the bottom cylinders overlap by −2y.
         let bottom_stiffness = if closed { 2.0 } else { 0.0 };
 
@@ -184,18 +183,26 @@ impl Contacts {
     }
 
     fn point(&self, state: &State, leg: Leg) -> PathPoint {
-        let floor_overlap = leg.floor_force(state.load, self.epsilon);
+        let (law, outward) = (&self.law, state.outward());
+        let floor_force = leg.floor_force(state.load, self.epsilon);
+        let wall_force = match leg {
+            Leg::GravityRamp => 0.0,
+            Leg::Wall => state.load - self.epsilon,
+        };
         PathPoint {
             tangent: half_angle_tangent(state.turned),
             pair_overlap: state.pair_overlap,
-            floor_overlap,
-            outward: state.outward(),
-            pair_ratio: state.pair_shear / state.pair_overlap,
-            floor_ratio: state.floor_shear / floor_overlap,
-            wall_force: match leg {
-                Leg::GravityRamp => 0.0,
-                Leg::Wall => state.load - self.epsilon,
+            floor_overlap: law.overlap(floor_force),
+            floor_force,
+            outward,
+            pair_ratio: state.pair_shear / law.force(state.pair_overlap),
+            floor_ratio: state.floor_shear / floor_force,
+            bottom_force: match self.bottom {
+                BottomContact::Ignored => 0.0,
+                BottomContact::Followed => law.force((-2.0 * outward).max(0.0)),
             },
+            wall_force,
+            wall_overlap: law.overlap(wall_force),
         }
     }
 }
@@ -404,18 +411,22 @@ impl Path for FollowedPath {
     }
 }
 
-/// The quasi-static limit of `stack` for any arms.
-pub fn followed_limit(stack: &Stack, arms: &Arms) -> Limit {
-    let path = followed_path(stack, arms, BottomContact::Ignored);
+/// The quasi-static limit of `stack` under any convention.
+pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
+    let path = followed_path(stack, convention, BottomContact::Ignored);
     let slip = locate(&path, Event::FloorSlip, stack);
-    Limit::of(&path, slip, stack, arms)
+    Limit::of(&path, slip, stack)
 }
 
 /// The path of equilibria of `stack`, which does not depend on its frictions.
-pub(super) fn followed_path(stack: &Stack, arms: &Arms, bottom: BottomContact) -> FollowedPath {
+pub(super) fn followed_path(
+    stack: &Stack,
+    convention: &ContactConvention,
+    bottom: BottomContact,
+) -> FollowedPath {
     FollowedPath::new(Contacts {
-        tangential_stiffness: stack.tangential_stiffness(),
-        arms: *arms,
+        law: convention.law(stack.stiffness_ratio),
+        arms: convention.arms,
         epsilon: stack.epsilon(),
         bottom,
     })

@@ -4,16 +4,14 @@ use super::{
     ElasticRoot, Limit, RigidYield, elastic_root, naive_load, perturbation_load, quasistatic_limit,
     rigid_yield,
 };
-use crate::model::{Arms, Stack};
-use serde::Serialize;
+use crate::model::{ContactConvention, Stack};
 
 /// The yield force according to one theory, or the reason why it has none.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// F = f/(m g).
     pub yield_force: Option<f64>,
     /// Why there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
 }
 
@@ -27,7 +25,7 @@ impl Prediction {
 }
 
 /// The elastic equation's answer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ElasticPrediction {
     /// F = f/(m g).
     pub yield_force: Option<f64>,
@@ -40,10 +38,8 @@ pub struct ElasticPrediction {
     /// θ in radians.
     pub theta: Option<f64>,
     /// Why there is no yield force.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
     /// An assumption that the number contradicts.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub caution: Option<&'static str>,
 }
 
@@ -66,18 +62,12 @@ impl ElasticPrediction {
 }
 
 /// The yield force of one stack by every theory.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Predictions {
-    /// Floor friction μ.
-    pub mu: f64,
-    /// Stiffness 1/ε.
-    pub stiffness: f64,
-    /// Stiffness ratio κ.
-    pub kappa: f64,
-    /// Cylinder friction μ_d.
-    pub mu_d: f64,
-    /// ε = m g/(k_n r).
-    pub epsilon: f64,
+    /// The stack.
+    pub stack: Stack,
+    /// Its contacts, which concern the quasi-static limit alone.
+    pub convention: ContactConvention,
     /// Rigid cylinders.
     pub rigid: RigidYield,
     /// Naive expansion.
@@ -91,14 +81,11 @@ pub struct Predictions {
 }
 
 impl Predictions {
-    /// Every theory for `stack`; the arms concern the quasi-static limit alone.
-    pub fn new(stack: &Stack, arms: &Arms) -> Self {
+    /// Every theory for `stack` under `convention`.
+    pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
-            mu: stack.floor_friction,
-            stiffness: stack.stiffness,
-            kappa: stack.stiffness_ratio,
-            mu_d: stack.cylinder_friction,
-            epsilon: stack.epsilon(),
+            stack: *stack,
+            convention: *convention,
             rigid: rigid_yield(stack.floor_friction),
             naive: Prediction::from_load(naive_load(stack), "the expansion gives F < 0"),
             perturbation: Prediction::from_load(
@@ -106,7 +93,7 @@ impl Predictions {
                 "the solution is not real or gives F < 0",
             ),
             elastic: ElasticPrediction::new(elastic_root(stack)),
-            quasistatic: quasistatic_limit(stack, arms),
+            quasistatic: quasistatic_limit(stack, convention),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::walls::{WallContact, beside_wall};
 use crate::dem::contact::{ContactForce, SpringDashpot};
 use crate::dem::scene::{Cylinder, Load};
 use crate::dem::wall::PlaneWall;
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{ContactConvention, Stack};
 
 /// Largest distance of two surfaces in a list.
 const SKIN: f64 = 0.5;
@@ -18,8 +18,6 @@ pub struct Material {
     pub law: SpringDashpot<f64>,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: f64,
-    /// Arm coefficients of the contacts.
-    pub arms: Arms,
     /// Moment of inertia of a cylinder in m r².
     pub moment_of_inertia: f64,
 }
@@ -28,9 +26,8 @@ impl Material {
     /// The material of `stack` under `convention`.
     pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
-            law: SpringDashpot::like(0.0, convention, stack.tangential_stiffness()),
+            law: SpringDashpot::like(0.0, convention, stack.stiffness_ratio),
             cylinder_friction: stack.cylinder_friction,
-            arms: convention.arms,
             moment_of_inertia: convention.moment_of_inertia,
         }
     }

@@ -3,7 +3,7 @@
 use super::bodies::{Packing, weight};
 use super::pairs::UNSTRETCHED;
 use super::walls::{NO_FORCE, overlap};
-use crate::dem::contact::{Contact, ContactModel, along, tangential};
+use crate::dem::contact::{Contact, ContactModel, Counterpart, along, tangential};
 use crate::dem::scene::Load;
 
 impl Packing {
@@ -43,13 +43,13 @@ impl Packing {
                 let normal = [dx / distance, dy / distance];
                 let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
                 let contact = Contact {
+                    counterpart: Counterpart::Cylinder,
                     normal,
                     overlap: 2.0 - distance,
                     separation_speed: along(normal, velocity),
                     sliding_speed: tangential(normal, velocity),
                     spin: i.spin + j.spin,
                     friction: material.cylinder_friction,
-                    arms: material.arms.pair,
                     time_step: self.time_step,
                 };
                 let force = material.law.evaluate(&contact, memory);
@@ -74,13 +74,13 @@ impl Packing {
                 continue;
             }
             let contact = Contact {
+                counterpart: Counterpart::Wall,
                 normal: plane.facing.normal(overlap),
                 overlap,
                 separation_speed: plane.facing.along(body.velocity) - plane.speed,
                 sliding_speed: plane.facing.tangential(body.velocity),
                 spin: body.spin,
                 friction: plane.friction,
-                arms: self.material.arms.floor,
                 time_step: self.time_step,
             };
             state.force = self.material.law.evaluate(&contact, &mut state.memory);

@@ -84,7 +84,7 @@ fn workload(code: Code) -> Workload {
 
 fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
     let (stack, convention) = (convergence_stack(), code.convention());
-    let limit = quasistatic_limit(&stack, &convention.arms);
+    let limit = quasistatic_limit(&stack, &convention);
     let protocol = protocol_at_speed(&limit, wall_speed, time_step)?;
     let sampling = Sampling {
         fine_interval: FINE_INTERVAL,
@@ -134,7 +134,7 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
 
 fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
     let convention = &case.convention;
-    let limit = quasistatic_limit(&case.stack, &convention.arms);
+    let limit = quasistatic_limit(&case.stack, convention);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     ConvergencePoint {
         code,

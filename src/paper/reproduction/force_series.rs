@@ -1,7 +1,7 @@
 //! Supplement, figure on the yield force: f(t) at μ = 0.2, 1/ε = 100, at the paper's literal settings.
 
 use crate::code::{Code, Identity, Run};
-use crate::model::{Arms, Case, Stack};
+use crate::model::{Case, ContactConvention, Stack};
 use crate::runs::{Reading, RunError, RunSummary, Workload};
 use crate::study::Campaign;
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED, protocol_at_speed};
@@ -64,7 +64,7 @@ impl Reading for ForceRows {
 /// If the run fails.
 pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), RunError> {
     let stack = force_series_stack();
-    let limit = quasistatic_limit(&stack, &Arms::PAPER);
+    let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
     let protocol = protocol_at_speed(&limit, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let cases = protocol.map(|protocol| Case {
         stack,

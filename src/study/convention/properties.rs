@@ -17,14 +17,14 @@ pub fn normal_properties(
     pull: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
-    let convention = &test.convention;
-    let pulls = match convention.tensile_force {
+    let declared = test.convention.law(test.stiffness_ratio);
+    let pulls = match test.convention.tensile_force {
         TensileForce::MayPull => 1.0,
         TensileForce::NeverPulls => 0.0,
     };
     vec![
         Property::at(kind, "normal_stiffness", law.stiffness, 1.0),
-        Property::at(kind, "normal_damping", law.damping, convention.damping(1.0)),
+        Property::at(kind, "normal_damping", law.damping, declared.damping_normal),
         Property::at(kind, "overlap_lead", law.overlap_lead, 0.0),
         Property::at(kind, "damping_velocity_lag", law.velocity_lag, 0.5),
         Property::at(kind, "pull", pull, pulls),
@@ -38,18 +38,23 @@ pub fn tangential_properties(
     test: &ContactTest,
 ) -> Vec<Property> {
     let convention = &test.convention;
-    let stiffness = test.tangential_stiffness();
+    let declared = convention.law(test.stiffness_ratio);
     let arms = match kind {
         ContactKind::Pair => convention.arms.pair,
         ContactKind::Floor | ContactKind::Wall => convention.arms.floor,
     };
     let mut properties = vec![
-        Property::at(kind, "tangential_stiffness", law.stiffness, stiffness),
+        Property::at(
+            kind,
+            "tangential_stiffness",
+            law.stiffness,
+            declared.tangential_stiffness,
+        ),
         Property::at(
             kind,
             "tangential_damping",
             law.damping,
-            convention.damping(stiffness),
+            declared.damping_tangential,
         ),
         Property::at(kind, "radius", law.radius, 1.0),
         Property::at(kind, "torque_arm", law.torque_arm, arms.torque),

@@ -8,7 +8,8 @@ fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> Followed
         stiffness_ratio,
         ..Stack::paper(0.3, stiffness)
     };
-    followed_path(&stack, &Arms::reciprocal(-0.5, -0.5), bottom)
+    let convention = ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5));
+    followed_path(&stack, &convention, bottom)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::output::DataTable;
 use crate::output::number::{digits, percent};
 use crate::output::table::Columns;
@@ -142,7 +142,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &Arms::PAPER)));
+    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &ContactConvention::PAPER)));
     let mut columns = Columns::<(Stack, Predictions)>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",

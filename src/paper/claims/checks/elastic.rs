@@ -1,7 +1,7 @@
 //! Eqs. (6) to (10) and (12), and the statements around them.
 
 use super::Check;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, list, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
@@ -160,7 +160,7 @@ fn stiff_limit_of_dem(paper: &PaperTheory) -> Finding {
 
 fn small_displacements(_: &PaperTheory) -> Finding {
     let displacements = [0.2, 0.3, 0.5].map(|mu| {
-        let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &Arms::PAPER);
+        let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &ContactConvention::PAPER);
         (mu, limit.z.unwrap_or(f64::NAN))
     });
     let listed = displacements.map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"));
@@ -174,8 +174,8 @@ fn small_displacements(_: &PaperTheory) -> Finding {
 
 fn slip_above_critical(_: &PaperTheory) -> Finding {
     let frictions = [0.27, 0.3, 0.4, 0.5];
-    let forces =
-        frictions.map(|mu| quasistatic_limit(&Stack::paper(mu, 1e2), &Arms::PAPER).yield_force);
+    let forces = frictions
+        .map(|mu| quasistatic_limit(&Stack::paper(mu, 1e2), &ContactConvention::PAPER).yield_force);
     let yields = forces.iter().flatten().count();
     let evidence = format!(
         "the exact quasi-static limit at 1/epsilon = 1e2 yields at the floor for {yields} of {} frictions above mu_c \
@@ -214,7 +214,7 @@ fn elastic_equation_of_dem(_: &PaperTheory) -> Finding {
     let (deviation, mu, stiffness) = over_figure(load);
     let at = |mu: f64| {
         let stack = Stack::paper(mu, 1e4);
-        let exact = quasistatic_limit(&stack, &Arms::PAPER)
+        let exact = quasistatic_limit(&stack, &ContactConvention::PAPER)
             .yield_force
             .unwrap_or(f64::NAN);
         100.0 * (load(&stack) / (exact + 3.0) - 1.0)
@@ -235,11 +235,11 @@ fn arm_of_dem(_: &PaperTheory) -> Finding {
     let change = |mu: f64, stiffness: f64| {
         let stack = Stack::paper(mu, stiffness);
         let force = |arms| {
-            quasistatic_limit(&stack, arms)
+            quasistatic_limit(&stack, &ContactConvention::with_arms(arms))
                 .floor_slip_force
                 .unwrap_or(f64::NAN)
         };
-        force(&half_way) / force(&Arms::PAPER) - 1.0
+        force(half_way) / force(Arms::PAPER) - 1.0
     };
     let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness));
     let below = change(0.2, 1e4);

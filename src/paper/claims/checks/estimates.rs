@@ -1,7 +1,7 @@
 //! Orders of magnitude of the concluding remarks, and the cylinders of the movies.
 
 use super::Check;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, list, violation, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::theory::{floor_slip_force, quasistatic_limit};
@@ -125,7 +125,7 @@ fn movie_density(paper: &PaperTheory) -> Finding {
 fn stiffness_range(paper: &PaperTheory) -> Finding {
     let decades = (paper.highest_stiffness / paper.lowest_stiffness).log10();
     let yields = [paper.lowest_stiffness, 1e3, paper.highest_stiffness].map(|stiffness| {
-        quasistatic_limit(&paper.stack(0.3, stiffness), &Arms::PAPER)
+        quasistatic_limit(&paper.stack(0.3, stiffness), &ContactConvention::PAPER)
             .yield_force
             .unwrap_or(f64::NAN)
     });

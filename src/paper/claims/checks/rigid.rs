@@ -1,7 +1,7 @@
 //! Setup and rigid cylinders: Eqs. (1) to (4), and the supplement's repetition of the first three.
 
 use super::Check;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{Forces, equilibrium, pairs, turned};
@@ -126,7 +126,7 @@ fn coulomb_slip(paper: &PaperTheory) -> Finding {
     let mut deviations = Vec::new();
     let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
     for (mu, stiffness) in pairs(frictions, [1e2, 1e3, 1e4]) {
-        let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &Arms::PAPER);
+        let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
         if let (Some(tangent), Some(z), Some(force)) =
             (limit.tangent, limit.z, limit.floor_slip_force)
         {
@@ -144,7 +144,7 @@ fn bottom_contact_open(paper: &PaperTheory) -> Finding {
     let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.53];
     let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
     let inward = pairs(frictions, stiffnesses).map(|(mu, stiffness)| {
-        let limit = quasistatic_limit(&paper.stack(mu, stiffness), &Arms::PAPER);
+        let limit = quasistatic_limit(&paper.stack(mu, stiffness), &ContactConvention::PAPER);
         -limit.y.unwrap_or(f64::NAN) * stiffness
     });
     let lowest = -worst(inward);

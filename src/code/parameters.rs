@@ -10,8 +10,6 @@ use std::collections::BTreeMap;
 /// Parameters of the contacts; units r = m = k_n = 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct ContactParameters {
-    /// k_n.
-    normal_stiffness: f64,
     #[serde(flatten)]
     law: ContactLaw,
     /// μ.
@@ -21,18 +19,12 @@ struct ContactParameters {
 }
 
 impl ContactParameters {
-    fn new(law: ContactLaw, floor_friction: f64, cylinder_friction: f64) -> Self {
-        Self {
-            normal_stiffness: 1.0,
-            law,
-            floor_friction,
-            cylinder_friction,
-        }
-    }
-
     fn of_stack(convention: &ContactConvention, stack: &Stack) -> Self {
-        let law = convention.law(stack.stiffness_ratio);
-        Self::new(law, stack.floor_friction, stack.cylinder_friction)
+        Self {
+            law: convention.law(stack.stiffness_ratio),
+            floor_friction: stack.floor_friction,
+            cylinder_friction: stack.cylinder_friction,
+        }
     }
 }
 
@@ -180,11 +172,11 @@ impl ProbeParameters {
             values.map(|(name, value)| (format!("{name}{body}"), value))
         });
         Self {
-            contact: ContactParameters::new(
-                test.convention.law(test.stiffness_ratio),
-                test.floor_friction,
-                test.cylinder_friction,
-            ),
+            contact: ContactParameters {
+                law: test.convention.law(test.stiffness_ratio),
+                floor_friction: test.floor_friction,
+                cylinder_friction: test.cylinder_friction,
+            },
             time_step: test.time_step,
             steps: test.steps,
             wall_height: test.wall_height,

@@ -114,6 +114,7 @@ composite!(
     Arms { pair, floor },
     ContactArms { torque, kinematic },
     ContactLaw {
+        normal_stiffness,
         tangential_stiffness,
         damping_normal,
         damping_tangential
@@ -146,7 +147,7 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n, with k_n = 1, of an overlap Δ and a normal velocity v_n, positive when separating
+    /// h_n = k_n Δ − η_n v_n of an overlap Δ and a normal velocity v_n, positive when separating
     /// (paper, "Numerical results").
     ///
     /// ```
@@ -158,7 +159,12 @@ impl<R: Real> SpringDashpot<R> {
     /// ```
     #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        let force = overlap - self.law.damping_normal * separation_speed;
+        let ContactLaw {
+            normal_stiffness: stiffness,
+            damping_normal: damping,
+            ..
+        } = self.law;
+        let force = stiffness * overlap - damping * separation_speed;
         match self.tensile_force {
             TensileForce::MayPull => force,
             TensileForce::NeverPulls => {
@@ -278,6 +284,7 @@ mod tests {
     fn law(coulomb_operand: CoulombOperand, sliding_spring: SlidingSpring) -> SpringDashpot<f64> {
         SpringDashpot {
             law: ContactLaw {
+                normal_stiffness: 1.0,
                 tangential_stiffness: 0.4,
                 damping_normal: 0.2,
                 damping_tangential: 0.1,

@@ -113,6 +113,11 @@ impl ContactConvention {
         ContactLaw::new(stiffness_ratio, self.restitution)
     }
 
+    /// Whether the quasi-static limit is known in closed form: all arms are 0.
+    pub(crate) fn has_closed_form(&self) -> bool {
+        self.arms == Arms::PAPER
+    }
+
     /// The first key in which this convention is not `other`, with both values.
     pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
         let arms = [

@@ -9,9 +9,11 @@
 
 use serde::Serialize;
 
-/// Coefficients of the law, k_n being 1, under the names by which decks read them.
+/// Coefficients of the law, under the names by which decks read them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactLaw<N = f64> {
+    /// k_n.
+    pub normal_stiffness: N,
     /// k_t.
     pub tangential_stiffness: N,
     /// η_n.
@@ -24,6 +26,7 @@ impl<N> ContactLaw<N> {
     /// The same coefficients as other numbers.
     pub(crate) fn map<M>(self, mut number: impl FnMut(N) -> M) -> ContactLaw<M> {
         ContactLaw {
+            normal_stiffness: number(self.normal_stiffness),
             tangential_stiffness: number(self.tangential_stiffness),
             damping_normal: number(self.damping_normal),
             damping_tangential: number(self.damping_tangential),
@@ -36,6 +39,7 @@ impl ContactLaw {
     pub(super) fn new(stiffness_ratio: f64, restitution: f64) -> Self {
         let tangential_stiffness = 1.0 / stiffness_ratio;
         Self {
+            normal_stiffness: 1.0,
             tangential_stiffness,
             damping_normal: damping(1.0, restitution),
             damping_tangential: damping(tangential_stiffness, restitution),
@@ -44,12 +48,12 @@ impl ContactLaw {
 
     /// The normal force at an overlap.
     pub(crate) fn force(&self, overlap: f64) -> f64 {
-        overlap
+        self.normal_stiffness * overlap
     }
 
     /// The overlap at a normal force.
     pub(crate) fn overlap(&self, force: f64) -> f64 {
-        force
+        force / self.normal_stiffness
     }
 }
 

@@ -28,6 +28,7 @@ pub use convention::{
 };
 pub use digest::sha256_hex;
 pub use law::ContactLaw;
+pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;
 pub use shortcuts::Shortcuts;

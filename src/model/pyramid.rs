@@ -1,5 +1,6 @@
 //! A pyramid: many cylinders in rows, each row one cylinder shorter than the one below.
 
+use super::protocol::smooth_step;
 use super::validity::{InvalidValue, positive, within};
 use super::{ContactConvention, Stack};
 use serde::{Deserialize, Serialize};
@@ -87,14 +88,9 @@ impl Pyramid {
         1.0 + 0.5 * self.spacing * f64::from(self.rows - 1)
     }
 
-    /// Gravity at a step, in k_n r/m: x³(10 − 15x + 6x²) of its value at the part x of the ramp.
+    /// Gravity at a step, in k_n r/m.
     pub fn gravity_at(&self, step: u64) -> f64 {
-        let gravity = self.groups.epsilon();
-        if step >= self.ramp_steps {
-            return gravity;
-        }
-        let x = step as f64 / self.ramp_steps as f64;
-        gravity * (x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x)))
+        self.groups.epsilon() * smooth_step(step, self.ramp_steps)
     }
 
     /// The longest time step of a stable integration, in √(m/k_n). A cylinder has at most six contacts; with

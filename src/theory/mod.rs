@@ -28,26 +28,22 @@ pub use side_walls::{critical_push, pushed_slip_force};
 pub(crate) use small_displacement::{ElasticRoot, elastic_root, naive_load, perturbation_load};
 pub use small_displacement::{RigidYield, rigid_yield};
 
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{ContactConvention, Stack};
 
 /// The exact quasi-static limit of `stack` under `convention`: by the closed form where there is one, by the
 /// path follower otherwise.
 pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    if has_closed_form(convention) {
+    if convention.has_closed_form() {
         closed_form_limit(stack)
     } else {
         followed_limit(stack, convention)
     }
 }
 
-/// Whether the closed forms hold under `convention`: all arms are 0.
-pub(crate) fn has_closed_form(convention: &ContactConvention) -> bool {
-    convention.arms == Arms::PAPER
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Arms;
 
     #[test]
     fn the_closed_form_is_taken_where_both_arms_are_0_and_only_there() {

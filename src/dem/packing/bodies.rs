@@ -66,7 +66,7 @@ impl Packing {
             gravity: 0.0,
             material,
             time_step,
-            loads: vec![weight(0.0); count],
+            loads: vec![Load::weight(0.0); count],
             pairs: PairList::empty(count),
             wall_contacts: vec![Vec::new(); walls.len()],
             skin: Skin::new(SKIN, &cylinders),
@@ -100,12 +100,7 @@ impl Packing {
         let dt = self.time_step;
         let mut fastest_square = 0.0;
         for (cylinder, load) in self.cylinders.iter_mut().zip(&self.loads) {
-            for axis in 0..2 {
-                cylinder.velocity[axis] += load.force[axis] * dt;
-                cylinder.position[axis] += cylinder.velocity[axis] * dt;
-            }
-            cylinder.spin += load.torque / self.material.moment_of_inertia * dt;
-            cylinder.angle += cylinder.spin * dt;
+            cylinder.advance(load, self.material.moment_of_inertia, dt);
             let [vx, vy] = cylinder.velocity;
             fastest_square = f64::max(fastest_square, vx * vx + vy * vy);
         }
@@ -125,12 +120,5 @@ impl Packing {
         for (wall, contacts) in self.walls.iter().zip(&mut self.wall_contacts) {
             *contacts = beside_wall(wall, &self.cylinders, SKIN, contacts);
         }
-    }
-}
-
-pub(super) fn weight(gravity: f64) -> Load {
-    Load {
-        force: [0.0, -gravity],
-        torque: 0.0,
     }
 }

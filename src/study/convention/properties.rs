@@ -23,7 +23,12 @@ pub fn normal_properties(
         TensileForce::NeverPulls => 0.0,
     };
     vec![
-        Property::at(kind, "normal_stiffness", law.stiffness, 1.0),
+        Property::at(
+            kind,
+            "normal_stiffness",
+            law.stiffness,
+            declared.normal_stiffness,
+        ),
         Property::at(kind, "normal_damping", law.damping, declared.damping_normal),
         Property::at(kind, "overlap_lead", law.overlap_lead, 0.0),
         Property::at(kind, "damping_velocity_lag", law.velocity_lag, 0.5),

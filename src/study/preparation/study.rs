@@ -8,7 +8,7 @@ use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, peak_allowance};
 use crate::study::{Campaign, Evaluation, Ground, Grounds, Judged, Study};
-use crate::theory::{critical_push, has_closed_form, pushed_slip_force, quasistatic_limit};
+use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use serde::Serialize;
 
 /// The quantity that a yield force is read off.
@@ -198,7 +198,7 @@ fn limit_force(plan: &PreparationPlan) -> Option<f64> {
     let convention = plan.convention_of.convention();
     match plan.push {
         None => plan.measurement.limit.yield_force,
-        Some(push) if has_closed_form(&convention) => {
+        Some(push) if convention.has_closed_form() => {
             pushed_slip_force(&plan.measurement.stack, push)
         }
         Some(_) => None,

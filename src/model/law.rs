@@ -46,6 +46,11 @@ impl ContactLaw {
         }
     }
 
+    /// The largest slope of the normal force.
+    pub(super) fn highest_stiffness(&self) -> f64 {
+        self.normal_stiffness
+    }
+
     /// The normal force at an overlap.
     pub(crate) fn force(&self, overlap: f64) -> f64 {
         self.normal_stiffness * overlap

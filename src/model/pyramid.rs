@@ -94,12 +94,14 @@ impl Pyramid {
     }
 
     /// The longest time step of a stable integration, in √(m/k_n). A cylinder has at most six contacts; with
-    /// a sixth of its mass and moment of inertia I in each, the normal spring oscillates with ω² = 12 and the
-    /// tangential one with 12 (1 + 1/I)/κ, in units of k_n/m, and no mode of the whole is faster.
+    /// a sixth of its mass and moment of inertia I in each, the normal spring oscillates with ω² = 12 k/m and the
+    /// tangential one with 12 (1 + 1/I)/κ k/m at a stiffness k, and no mode of the whole is faster.
     pub fn longest_time_step(&self) -> f64 {
         const SAFETY: f64 = 0.6;
         let turning = 1.0 + self.convention.moment_of_inertia.recip();
-        let fastest = (12.0 * f64::max(1.0, turning / self.groups.stiffness_ratio)).sqrt();
+        let ratio = self.groups.stiffness_ratio;
+        let stiffness = self.convention.law(ratio).highest_stiffness();
+        let fastest = (stiffness * (12.0 * f64::max(1.0, turning / ratio))).sqrt();
         SAFETY * 2.0 / fastest
     }
 

@@ -6,7 +6,7 @@ use tristack::code::{
 };
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
-    Composite, Contact, ContactForce, ContactModel, Counterpart, LaneWise, compress_stack,
+    Composite, Contact, ContactForce, ContactModel, Counterpart, compress_stack,
     compress_stack_with, run_contact_test_with,
 };
 use tristack::model::{Arms, Case, ContactConvention, ContactTest, Stack};
@@ -95,12 +95,6 @@ impl Composite<f64> for Memory {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut f64, &f64)) {
         self.length.visit(&other.length, visit);
         self.vector.visit(&other.vector, visit);
-    }
-}
-
-impl LaneWise<f64> for Memory {
-    fn choose(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
     }
 }
 

@@ -92,21 +92,13 @@ pub(super) struct Arguments {
 }
 
 /// The options whose values a case file holds.
-fn replaced_by_case() -> impl Iterator<Item = Id> {
-    let own = [
-        "mu",
-        "stiffness",
-        "preparation",
-        "push",
-        "speed",
-        "dt",
-        "shortcuts",
-    ];
-    let shared = options_of::<StackOptions>().into_iter();
-    own.into_iter()
-        .map(Id::from)
-        .chain(shared)
-        .chain(options_of::<ConventionOptions>())
+fn replaced_by_case() -> Vec<Id> {
+    let run = ["preparation", "push", "speed", "dt", "shortcuts"];
+    let mut options: Vec<Id> = run.map(Id::from).into();
+    options.extend(["mu", "stiffness"].map(Id::from));
+    options.extend(options_of::<StackOptions>());
+    options.extend(options_of::<ConventionOptions>());
+    options
 }
 
 /// Runs one case and prints both estimators.

@@ -1,6 +1,6 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
-use super::real::{LaneWise, Real, composite, lane_wise};
+use super::real::{Composite, Real, composite};
 use crate::model::{
     Arms, ContactArms, ContactConvention, ContactLaw, CoulombOperand, HistoryUpdate, SlidingSpring,
     TensileForce,
@@ -52,11 +52,6 @@ composite!(ContactForce {
     tangential,
     arm
 });
-lane_wise!(ContactForce {
-    normal,
-    tangential,
-    arm
-});
 
 impl<R: Real> ContactForce<R> {
     /// As a vector, the normal of the contact being `normal`.
@@ -83,7 +78,7 @@ impl<R: Real> ContactForce<R> {
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real>: Copy {
     /// State of a contact that lasts from one step to the next.
-    type Memory: Copy + LaneWise<R>;
+    type Memory: Copy + Composite<R>;
 
     /// Memory of an undeformed contact, in numbers like `number`.
     fn initial(&self, number: R) -> Self::Memory;
@@ -131,7 +126,6 @@ pub struct Spring<R> {
 }
 
 composite!(Spring { length, normal });
-lane_wise!(Spring { length, normal });
 
 impl<R: Real> SpringDashpot<R> {
     /// The law of `convention` at stiffness ratio κ, in numbers like `number`.

@@ -1,7 +1,7 @@
 //! A contact from one step to the next, in lanes of which perhaps only some touch.
 
 use super::contact::{Contact, ContactForce, ContactModel};
-use super::real::{Composite, LaneWise, Real};
+use super::real::{Composite, Real};
 
 /// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct ContactState<R, Memory> {
     loaded: bool,
 }
 
-impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
+impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
     #[inline(always)]
     pub(super) fn initial<Model: ContactModel<R, Memory = Memory>>(
         model: &Model,
@@ -65,10 +65,10 @@ pub(super) enum Touch<R: Real> {
 
 impl<R: Real> Touch<R> {
     #[inline(always)]
-    pub(super) fn choose<C: LaneWise<R>>(self, yes: C, no: C) -> C {
+    pub(super) fn choose<C: Composite<R>>(self, yes: C, no: C) -> C {
         match self {
             Self::Everywhere => yes,
-            Self::Where(mask) => C::choose(mask, yes, no),
+            Self::Where(mask) => yes.or_where_not(mask, &no),
         }
     }
 }

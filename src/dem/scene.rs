@@ -4,7 +4,7 @@ use super::contact::{
     Contact, ContactForce, ContactModel, Counterpart, SpringDashpot, along, tangential,
 };
 use super::contact_state::{ContactState, Touch};
-use super::real::{Composite, Real, composite, lane_wise};
+use super::real::{Composite, Real, composite};
 use super::wall::PlaneWall;
 use crate::model::CYLINDER_INERTIA;
 
@@ -49,7 +49,6 @@ composite!(
     },
     Load { force, torque },
 );
-lane_wise!(Load { force, torque });
 
 impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.

@@ -120,24 +120,14 @@ impl Pyramid {
             self.time_step,
             self.longest_time_step(),
         )?;
-        within(
-            "pyramid.ramp_steps",
-            self.ramp_steps as f64,
-            1.0,
-            MOST_STEPS,
-        )?;
-        within(
-            "pyramid.rest_steps",
-            self.rest_steps as f64,
-            0.0,
-            MOST_STEPS,
-        )?;
-        within(
-            "pyramid.timed_steps",
-            self.timed_steps as f64,
-            1.0,
-            MOST_STEPS,
-        )
+        for (name, steps, fewest) in [
+            ("ramp_steps", self.ramp_steps, 1.0),
+            ("rest_steps", self.rest_steps, 0.0),
+            ("timed_steps", self.timed_steps, 1.0),
+        ] {
+            within(&format!("pyramid.{name}"), steps as f64, fewest, MOST_STEPS)?;
+        }
+        Ok(())
     }
 }
 

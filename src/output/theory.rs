@@ -40,18 +40,24 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         own.elastic.yield_force
     })
     .number("elastic_x", "r", "its x = δ₁₁ − δ₂₁", |own| {
-        own.elastic.x
+        own.elastic_root.map(|root| root.x)
     })
-    .number("elastic_y", "r", "its y = δ₂₂", |own| own.elastic.y)
-    .number("elastic_z", "r", "its z = δ₂₁", |own| own.elastic.z)
-    .number("elastic_theta", "rad", "its θ", |own| own.elastic.theta)
+    .number("elastic_y", "r", "its y = δ₂₂", |own| {
+        own.elastic_root.map(|root| root.y)
+    })
+    .number("elastic_z", "r", "its z = δ₂₁", |own| {
+        own.elastic_root.map(|root| root.z)
+    })
+    .number("elastic_theta", "rad", "its θ", |own| {
+        own.elastic_root.map(|root| root.theta)
+    })
     .text("elastic_reason", "why it gives none", |own| {
         own.elastic.reason
     })
     .text(
         "elastic_caution",
         "an assumption that its root contradicts",
-        |own| own.elastic.caution,
+        |own| own.elastic_root.and_then(|root| root.caution()),
     )
     .number(
         "quasistatic",
@@ -118,6 +124,7 @@ fn one_case(case: &Predictions) -> Table {
     let text = |reason: Option<&str>| reason.unwrap_or_default().to_owned();
     let rigid_remark = case.rigid.diverges.then_some("infinite: mu >= mu_c");
     let (elastic, exact) = (&case.elastic, &case.quasistatic);
+    let elastic_caution = case.elastic_root.and_then(|root| root.caution());
     let exact_remark = exact.reason.clone().unwrap_or_else(|| "exact".to_owned());
     let mut lines: Vec<Line> = vec![
         ("rigid", case.rigid.yield_force, text(rigid_remark)),
@@ -130,7 +137,7 @@ fn one_case(case: &Predictions) -> Table {
         (
             "elastic equation",
             elastic.yield_force,
-            text(elastic.reason.or(elastic.caution)),
+            text(elastic.reason.or(elastic_caution)),
         ),
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];

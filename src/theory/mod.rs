@@ -25,8 +25,8 @@ pub use regimes::{
 };
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};
-pub(crate) use small_displacement::{ElasticRoot, elastic_root, naive_load, perturbation_load};
-pub use small_displacement::{RigidYield, rigid_yield};
+pub use small_displacement::{ElasticRoot, RigidYield, rigid_yield};
+pub(crate) use small_displacement::{elastic_root, naive_load, perturbation_load};
 
 use crate::model::{ContactConvention, Stack};
 

@@ -24,43 +24,6 @@ impl Prediction {
     }
 }
 
-/// The elastic equation's answer.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ElasticPrediction {
-    /// F = f/(m g).
-    pub yield_force: Option<f64>,
-    /// x = δ₁₁ − δ₂₁ in r.
-    pub x: Option<f64>,
-    /// y = δ₂₂ in r.
-    pub y: Option<f64>,
-    /// z = δ₂₁ in r.
-    pub z: Option<f64>,
-    /// θ in radians.
-    pub theta: Option<f64>,
-    /// Why there is no yield force.
-    pub reason: Option<&'static str>,
-    /// An assumption that the number contradicts.
-    pub caution: Option<&'static str>,
-}
-
-impl ElasticPrediction {
-    fn new(root: Option<ElasticRoot>) -> Self {
-        Self {
-            yield_force: root.map(|root| root.load - 3.0),
-            x: root.map(|root| root.x),
-            y: root.map(|root| root.y),
-            z: root.map(|root| root.z),
-            theta: root.map(|root| root.theta),
-            reason: root
-                .is_none()
-                .then_some("the equation has no root z >= 3 epsilon r/2"),
-            caution: root
-                .filter(|root| root.y < 0.0)
-                .map(|_| "y < 0: the root contradicts the assumption c = 0 behind the equation"),
-        }
-    }
-}
-
 /// The yield force of one stack by every theory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Predictions {
@@ -75,7 +38,9 @@ pub struct Predictions {
     /// Singular perturbation.
     pub perturbation: Prediction,
     /// Elastic equation.
-    pub elastic: ElasticPrediction,
+    pub elastic: Prediction,
+    /// The state at yield by the elastic equation.
+    pub elastic_root: Option<ElasticRoot>,
     /// Exact quasi-static limit of the DEM.
     pub quasistatic: Limit,
 }
@@ -83,6 +48,7 @@ pub struct Predictions {
 impl Predictions {
     /// Every theory for `stack` under `convention`.
     pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
+        let elastic_root = elastic_root(stack);
         Self {
             stack: *stack,
             convention: *convention,
@@ -92,7 +58,11 @@ impl Predictions {
                 perturbation_load(stack),
                 "the solution is not real or gives F < 0",
             ),
-            elastic: ElasticPrediction::new(elastic_root(stack)),
+            elastic: Prediction::from_load(
+                elastic_root.map(|root| root.load),
+                "the equation has no root z >= 3 epsilon r/2",
+            ),
+            elastic_root,
             quasistatic: quasistatic_limit(stack, convention),
         }
     }

@@ -302,7 +302,7 @@ fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(
             floor_friction,
             ..*stack
         };
-        let limit = quasistatic_limit(&stack, &convention);
+        let limit = quasistatic_limit(&stack, convention);
         limit.event == Event::FloorSlip && limit.yield_force.is_some()
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();

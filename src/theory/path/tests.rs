@@ -2,6 +2,7 @@
 
 use super::super::regimes::CLOSING_STIFFNESS_RATIO;
 use super::*;
+use crate::model::Arms;
 
 fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> FollowedPath {
     let stack = Stack {

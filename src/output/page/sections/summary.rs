@@ -142,30 +142,28 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &ContactConvention::PAPER)));
-    let mut columns = Columns::<(Stack, Predictions)>::new(
+    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::PAPER));
+    let mut columns = Columns::<Predictions>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",
         "`tristack report` (tables/points.csv)",
     )
-    .stack(|(stack, _)| *stack)
-    .number(
-        "perturbation",
-        "m g",
-        "singular perturbation",
-        |(_, theory)| theory.perturbation.yield_force,
-    )
+    .stack(|theory| theory.stack)
+    .number("perturbation", "m g", "singular perturbation", |theory| {
+        theory.perturbation.yield_force
+    })
     .shown_as("perturbation", digits::<7>)
     .number(
         "quasistatic",
         "m g",
         "exact quasi-static limit under the paper's convention",
-        |(_, theory)| theory.quasistatic.yield_force,
+        |theory| theory.quasistatic.yield_force,
     )
     .shown_as("exact limit", digits::<7>);
     for code in Code::all() {
         columns = columns
-            .number(code.as_str(), "m g", "F by this code", move |(stack, _)| {
+            .number(code.as_str(), "m g", "F by this code", move |theory| {
+                let stack = &theory.stack;
                 let mut rows = judgements.iter();
                 let own = rows.find(|row| {
                     let place = (row.mu(), row.stiffness());

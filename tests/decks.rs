@@ -113,7 +113,7 @@ fn cases() -> impl Strategy<Value = Case> {
                 },
                 protocol: Protocol {
                     preparation,
-                    time_step: step * stack.longest_time_step(),
+                    time_step: step * stack.longest_time_step(&code.convention()),
                     wall_speed,
                     wall_travel,
                     sampling: Sampling {

@@ -2,7 +2,7 @@
 //! `reference/golden/generate.py` (Newton on the unreduced equations, Taylor series, Richardson).
 
 use serde::Deserialize;
-use tristack::model::{Arms, ContactArms, Stack};
+use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
 use tristack::theory::{Event, Predictions, followed_limit};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
@@ -83,17 +83,17 @@ fn small_displacement_theories_match_to_1e_10() {
     for golden in rows::<SmallDisplacementRow>("small_displacement.csv") {
         let name = format!("{golden:?}");
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let predictions = Predictions::new(&stack, &Arms::PAPER);
-        let elastic = &predictions.elastic;
+        let predictions = Predictions::new(&stack, &ContactConvention::PAPER);
+        let root = predictions.elastic_root;
         let pairs = [
             (predictions.rigid.yield_force, golden.rigid),
             (predictions.naive.yield_force, golden.naive),
             (predictions.perturbation.yield_force, golden.perturbation),
-            (elastic.yield_force, golden.elastic),
-            (elastic.x, golden.elastic_x),
-            (elastic.y, golden.elastic_y),
-            (elastic.z, golden.elastic_z),
-            (elastic.theta, golden.elastic_theta),
+            (predictions.elastic.yield_force, golden.elastic),
+            (root.map(|root| root.x), golden.elastic_x),
+            (root.map(|root| root.y), golden.elastic_y),
+            (root.map(|root| root.z), golden.elastic_z),
+            (root.map(|root| root.theta), golden.elastic_theta),
         ];
         for (worst, (computed, golden)) in worst.iter_mut().zip(pairs) {
             worst.compare(computed, golden, &name);
@@ -136,7 +136,7 @@ fn closed_form_matches_to_1e_9_and_names_the_same_event() {
             cylinder_friction: golden.mu_d,
             ..stack(golden.mu, golden.stiffness, golden.kappa)
         };
-        let limit = Predictions::new(&stack, &Arms::PAPER).quasistatic;
+        let limit = Predictions::new(&stack, &ContactConvention::PAPER).quasistatic;
         force.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
         tangent.compare(limit.tangent, golden.tangent, &name);
         outward.compare(limit.y, golden.y, &name);
@@ -162,7 +162,7 @@ fn follower_equals_the_closed_form_to_1e_9_for_arms_0() {
         let name = format!("{golden:?}");
         let limit = followed_limit(
             &stack(golden.mu, golden.stiffness, golden.kappa),
-            &Arms::PAPER,
+            &ContactConvention::PAPER,
         );
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
@@ -185,7 +185,8 @@ fn follower_is_converged_to_1e_7_for_every_pair_of_arms() {
     for golden in rows::<ArmsRow>("arms.csv") {
         let name = format!("{golden:?}");
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let limit = followed_limit(&stack, &Arms::reciprocal(golden.pair_arm, golden.floor_arm));
+        let arms = Arms::reciprocal(golden.pair_arm, golden.floor_arm);
+        let limit = followed_limit(&stack, &ContactConvention::with_arms(arms));
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
     worst.must_stay_below(1e-7, "follower, all arms");
@@ -219,7 +220,7 @@ fn follower_equals_the_path_without_rotation_to_1e_9_where_torque_and_kinematic_
             },
         };
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let limit = followed_limit(&stack, &arms);
+        let limit = followed_limit(&stack, &ContactConvention::with_arms(arms));
         let name = format!("{golden:?}");
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }

@@ -4,8 +4,8 @@ use std::path::Path;
 use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
-    Composite, Contact, ContactForce, ContactModel, LaneWise, compress_stack, compress_stack_with,
-    run_contact_test_with,
+    Composite, Contact, ContactForce, ContactModel, Counterpart, compress_stack,
+    compress_stack_with, run_contact_test_with,
 };
 use tristack::model::{Arms, Case, ContactConvention, ContactTest, Pyramid, Stack};
 use tristack::runs::Store;
@@ -55,6 +55,7 @@ const MUTATIONS: [Mutation; 12] = [
 /// The paper's contact law, written a second time, with one line changed.
 #[derive(Debug, Clone, Copy)]
 struct Twin {
+    arms: Arms,
     stiffness: f64,
     normal_damping: f64,
     damping: f64,
@@ -69,20 +70,20 @@ struct Memory {
 }
 
 impl Twin {
-    fn new(convention: &ContactConvention, tangential_stiffness: f64, mutation: Mutation) -> Self {
-        let normal_damping = convention.damping(1.0);
-        let damping = convention.damping(tangential_stiffness);
+    fn new(convention: &ContactConvention, stiffness_ratio: f64, mutation: Mutation) -> Self {
+        let law = convention.law(stiffness_ratio);
         Self {
-            stiffness: tangential_stiffness,
+            arms: convention.arms,
+            stiffness: law.tangential_stiffness,
             normal_damping: match mutation {
-                Mutation::SignOfNormalDamping => -normal_damping,
-                Mutation::TwiceTheNormalDamping => 2.0 * normal_damping,
-                _ => normal_damping,
+                Mutation::SignOfNormalDamping => -law.damping_normal,
+                Mutation::TwiceTheNormalDamping => 2.0 * law.damping_normal,
+                _ => law.damping_normal,
             },
             damping: match mutation {
-                Mutation::SignOfTangentialDamping => -damping,
-                Mutation::TwiceTheTangentialDamping => 2.0 * damping,
-                _ => damping,
+                Mutation::SignOfTangentialDamping => -law.damping_tangential,
+                Mutation::TwiceTheTangentialDamping => 2.0 * law.damping_tangential,
+                _ => law.damping_tangential,
             },
             mutation,
         }
@@ -96,12 +97,6 @@ impl Composite<f64> for Memory {
     }
 }
 
-impl LaneWise<f64> for Memory {
-    fn choose(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-}
-
 impl ContactModel<f64> for Twin {
     type Memory = Memory;
 
@@ -111,12 +106,13 @@ impl ContactModel<f64> for Twin {
 
     fn evaluate(&self, contact: &Contact<f64>, memory: &mut Memory) -> ContactForce<f64> {
         let [nx, ny] = contact.normal;
-        let is_pair = nx != 0.0;
+        let is_pair = contact.counterpart == Counterpart::Cylinder;
         // The paper's law is reciprocal: one arm for torque and surface velocity.
         let coefficient = match self.mutation {
-            Mutation::PairArmOffBy001 if is_pair => contact.arms.torque + 0.01,
-            Mutation::FloorArmOffBy001 if !is_pair => contact.arms.torque + 0.01,
-            _ => contact.arms.torque,
+            Mutation::PairArmOffBy001 if is_pair => self.arms.pair.torque + 0.01,
+            Mutation::FloorArmOffBy001 if !is_pair => self.arms.floor.torque + 0.01,
+            _ if is_pair => self.arms.pair.torque,
+            _ => self.arms.floor.torque,
         };
         let arm = 1.0 + coefficient * contact.overlap;
         let rolling = match self.mutation {
@@ -185,8 +181,8 @@ impl TwinEngine {
     }
 
     fn compress(&self, case: &Case) -> Result<Series, Box<Failure>> {
-        let stiffness = case.stack.tangential_stiffness();
-        let twin = Twin::new(&case.convention, stiffness, self.mutation);
+        let ratio = case.stack.stiffness_ratio;
+        let twin = Twin::new(&case.convention, ratio, self.mutation);
         compress_stack_with(case, twin, || true).map_err(|error| {
             Box::new(Failure {
                 code: Code::NATIVE,
@@ -231,8 +227,7 @@ impl InstalledCode for TwinEngine {
 
     fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
         let motion = |test: &ContactTest| {
-            let stiffness = test.tangential_stiffness();
-            let twin = Twin::new(&test.convention, stiffness, self.mutation);
+            let twin = Twin::new(&test.convention, test.stiffness_ratio, self.mutation);
             run_contact_test_with(test, twin).expect("a finite motion")
         };
         Ok(tests.iter().map(motion).collect())
@@ -315,8 +310,8 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
 fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let stack = Stack::paper(0.3, 1e3);
     let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[0];
-    let stiffness = case.stack.tangential_stiffness();
-    let twin = Twin::new(&case.convention, stiffness, Mutation::None);
+    let ratio = case.stack.stiffness_ratio;
+    let twin = Twin::new(&case.convention, ratio, Mutation::None);
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
     assert_eq!(series, compress_stack(&case, || true).expect("a series"));
     assert_eq!(differing_properties(Mutation::None), Vec::<String>::new());

@@ -7,7 +7,7 @@ use tristack::model::{ContactConvention, PAPER_RESTITUTION, Stack, sha256_hex};
 use tristack::study::yield_force::plan;
 
 fn law() -> SpringDashpot<f64> {
-    SpringDashpot::like(0.0, &ContactConvention::PAPER, 0.4)
+    SpringDashpot::like(0.0, &ContactConvention::PAPER, 2.5)
 }
 
 fn floor(friction: f64) -> PlaneWall {

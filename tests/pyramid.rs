@@ -27,7 +27,6 @@ fn twins<const N: usize, const W: usize>(
     let material = Material::new(&stack, convention);
     let mut scene = Scene::new(cylinders, walls, material.law, time_step);
     scene.cylinder_friction = material.cylinder_friction;
-    scene.arms = material.arms;
     scene.moment_of_inertia = material.moment_of_inertia;
     let packing = Packing::new(cylinders.to_vec(), walls.to_vec(), material, time_step);
     (scene, packing)

@@ -2,7 +2,7 @@
 //! relations that must hold between them.
 
 use proptest::prelude::*;
-use tristack::model::{Arms, ContactArms, Stack};
+use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
 use tristack::theory::{Predictions, closed_form_limit, followed_limit};
 
 /// Values spread evenly over the logarithm.
@@ -47,7 +47,7 @@ proptest! {
         stack in any_stack(),
         arms in any_arms(),
     ) {
-        let predictions = Predictions::new(&stack, &arms);
+        let predictions = Predictions::new(&stack, &ContactConvention::with_arms(arms));
         let forces = [
             (predictions.naive.yield_force, predictions.naive.reason.is_some()),
             (predictions.perturbation.yield_force, predictions.perturbation.reason.is_some()),
@@ -63,7 +63,7 @@ proptest! {
     #[test]
     fn follower_and_closed_form_are_the_same_for_arms_0(stack in usual_stack()) {
         let closed = closed_form_limit(&stack);
-        let followed = followed_limit(&stack, &Arms::PAPER);
+        let followed = followed_limit(&stack, &ContactConvention::PAPER);
         prop_assert_eq!(closed.event, followed.event);
         match (closed.floor_slip_force, followed.floor_slip_force) {
             (Some(closed), Some(followed)) => {

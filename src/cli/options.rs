@@ -120,9 +120,9 @@ impl StackListOptions {
     }
 }
 
-/// Arm coefficients that replace those of the code.
+/// Parts of the contact convention that replace those of the code.
 #[derive(Debug, Clone, Args)]
-pub(super) struct ArmOptions {
+pub(super) struct ConventionOptions {
     /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap [default: that of the code]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub pair_arm: Option<f64>,
@@ -137,9 +137,9 @@ pub(super) struct ArmOptions {
     pub floor_kinematic_arm: Option<f64>,
 }
 
-impl ArmOptions {
-    /// The convention of `code` with the given arms in place of its own.
-    pub fn convention(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
+impl ConventionOptions {
+    /// The convention of `code` with the given parts in place of its own.
+    pub fn of(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();
         let convention = ContactConvention {
             arms: Arms {
@@ -161,6 +161,13 @@ fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> Co
         torque: torque.unwrap_or(own.torque) + 0.0,
         kinematic: kinematic.or(torque).unwrap_or(own.kinematic) + 0.0,
     }
+}
+
+/// The options of `T`, each by its name.
+pub(super) fn options_of<T: Args>() -> Vec<clap::Id> {
+    let command = T::augment_args(clap::Command::new(""));
+    let options = command.get_arguments();
+    options.map(|option| option.get_id().clone()).collect()
 }
 
 /// The store of runs, and how runs are carried out.

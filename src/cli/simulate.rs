@@ -1,7 +1,8 @@
 //! `tristack simulate`.
 
 use super::options::{
-    ArmOptions, CodeParser, Format, StackOptions, as_flag, friction, time_limit, writable,
+    CodeParser, ConventionOptions, Format, StackOptions, as_flag, friction, options_of, time_limit,
+    writable,
 };
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence};
@@ -13,7 +14,7 @@ use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
 use crate::theory::quasistatic_limit;
-use clap::{Args, ValueEnum};
+use clap::{Args, Id, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -41,7 +42,7 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["mu", "stiffness", "kappa", "mu_d", "pair_arm", "pair_kinematic_arm", "floor_arm", "floor_kinematic_arm", "preparation", "push", "speed", "dt", "shortcuts"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = replaced_by_case())]
     case: Option<PathBuf>,
     /// Floor friction; a number or the word `critical`
     #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
@@ -57,7 +58,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     stack: StackOptions,
     #[command(flatten)]
-    arms: ArmOptions,
+    convention: ConventionOptions,
     /// Preparation of the stack; a code without a deck for side walls refuses them
     #[arg(long, value_enum, default_value_t = PreparationKind::GravityRamp)]
     preparation: PreparationKind,
@@ -88,6 +89,16 @@ pub(super) struct Arguments {
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+}
+
+/// The options whose values a case file holds.
+fn replaced_by_case() -> Vec<Id> {
+    let run = ["preparation", "push", "speed", "dt", "shortcuts"];
+    let mut options: Vec<Id> = run.map(Id::from).into();
+    options.extend(["mu", "stiffness"].map(Id::from));
+    options.extend(options_of::<StackOptions>());
+    options.extend(options_of::<ConventionOptions>());
+    options
 }
 
 /// Runs one case and prints both estimators.
@@ -211,8 +222,8 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
     let stack = arguments.stack.stack(mu, stiffness)?;
-    let convention = arguments.arms.convention(arguments.code)?;
-    let limit = quasistatic_limit(&stack, &convention.arms);
+    let convention = arguments.convention.of(arguments.code)?;
+    let limit = quasistatic_limit(&stack, &convention);
     let protocol = match arguments.speed {
         Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
         None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),

@@ -2,7 +2,7 @@
 
 use super::crosscheck::conclude;
 use super::options::{
-    ArmOptions, CodeParser, Format, RunOptions, StackListOptions, as_flag, friction,
+    CodeParser, ConventionOptions, Format, RunOptions, StackListOptions, as_flag, friction,
     selected_codes, writable, write_all,
 };
 use super::progress::Reporter;
@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     stack: StackListOptions,
     #[command(flatten)]
-    arms: ArmOptions,
+    convention: ConventionOptions,
     /// Directory for sweep.csv and sweep.json
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -94,7 +94,7 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let convention = arguments.arms.convention(arguments.code)?;
+    let convention = arguments.convention.of(arguments.code)?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;

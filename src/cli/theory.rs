@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ArmOptions, Format, StackListOptions, friction};
+use super::options::{ConventionOptions, Format, StackListOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     stack: StackListOptions,
     #[command(flatten)]
-    arms: ArmOptions,
+    convention: ConventionOptions,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -27,11 +27,11 @@ pub(super) struct Arguments {
 
 /// Prints the predictions for every combination of friction and stiffness.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let convention = arguments.arms.convention(Code::NATIVE)?;
+    let convention = arguments.convention.of(Code::NATIVE)?;
     let stacks = arguments.stack.stacks(&arguments.mu)?;
     let predictions: Vec<Predictions> = stacks
         .iter()
-        .map(|stack| Predictions::new(stack, &convention.arms))
+        .map(|stack| Predictions::new(stack, &convention))
         .take_while(|_| !INTERRUPT.requested())
         .collect();
     let people = || theories_by_stack(&predictions);

@@ -2,7 +2,8 @@
 
 use super::definition::refused;
 use crate::model::{
-    Case, ContactConvention, ContactTest, InvalidValue, PreparationSteps, Pyramid, Stack,
+    Case, ContactConvention, ContactLaw, ContactTest, InvalidValue, PreparationSteps, Pyramid,
+    Stack,
 };
 use serde_json::{Map, Value, json};
 
@@ -37,24 +38,14 @@ pub(super) fn of_case(case: &Case) -> Value {
 
 fn of_stack(convention: &ContactConvention, stack: &Stack) -> Value {
     let (mu, mu_d) = (stack.floor_friction, stack.cylinder_friction);
-    of_contacts(convention, stack.tangential_stiffness(), mu, mu_d)
+    of_contacts(convention.law(stack.stiffness_ratio), mu, mu_d)
 }
 
-/// Stiffness and damping are those of the contact itself.
-fn of_contacts(
-    convention: &ContactConvention,
-    tangential_stiffness: f64,
-    mu: f64,
-    mu_d: f64,
-) -> Value {
-    json!({
-        "normal_stiffness": 1.0,
-        "tangential_stiffness": tangential_stiffness,
-        "damping_normal": convention.damping(1.0),
-        "damping_tangential": convention.damping(tangential_stiffness),
-        "floor_friction": mu,
-        "cylinder_friction": mu_d,
-    })
+fn of_contacts(law: ContactLaw, mu: f64, mu_d: f64) -> Value {
+    merged([
+        json!(law),
+        json!({ "floor_friction": mu, "cylinder_friction": mu_d }),
+    ])
 }
 
 /// The parameters of a preparation, each kind for a deck of its own.
@@ -87,7 +78,7 @@ pub(super) fn of_contact_test(test: &ContactTest) -> Value {
     let (mu, mu_d) = (test.floor_friction, test.cylinder_friction);
     let [one, two] = &test.initial_motions;
     merged([
-        of_contacts(&test.convention, test.tangential_stiffness(), mu, mu_d),
+        of_contacts(test.convention.law(test.stiffness_ratio), mu, mu_d),
         json!({
             "time_step": test.time_step,
             "steps": test.steps,

@@ -1,13 +1,25 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
-use super::real::{LaneWise, Real, composite, lane_wise};
+use super::real::{Composite, Real, composite};
 use crate::model::{
-    ContactArms, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
+    Arms, ContactArms, ContactConvention, ContactLaw, CoulombOperand, HistoryUpdate, SlidingSpring,
+    TensileForce,
 };
+
+/// The second body of a contact; the first is a cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counterpart {
+    /// Another cylinder.
+    Cylinder,
+    /// A plane wall.
+    Wall,
+}
 
 /// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact<R> {
+    /// The second body.
+    pub counterpart: Counterpart,
     /// Unit normal, towards the first body.
     pub normal: [R; 2],
     /// Overlap δ.
@@ -20,8 +32,6 @@ pub struct Contact<R> {
     pub spin: R,
     /// Friction coefficient.
     pub friction: R,
-    /// Arm coefficients.
-    pub arms: ContactArms<R>,
     /// Time step.
     pub time_step: R,
 }
@@ -38,12 +48,6 @@ pub struct ContactForce<R> {
 }
 
 composite!(ContactForce {
-    normal,
-    tangential,
-    arm
-});
-composite!(ContactArms { torque, kinematic });
-lane_wise!(ContactForce {
     normal,
     tangential,
     arm
@@ -74,7 +78,7 @@ impl<R: Real> ContactForce<R> {
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real>: Copy {
     /// State of a contact that lasts from one step to the next.
-    type Memory: Copy + LaneWise<R>;
+    type Memory: Copy + Composite<R>;
 
     /// Memory of an undeformed contact, in numbers like `number`.
     fn initial(&self, number: R) -> Self::Memory;
@@ -86,12 +90,10 @@ pub trait ContactModel<R: Real>: Copy {
 /// The paper's contact law, with the conventions by which other codes differ from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDashpot<R> {
-    /// k_t in units of k_n, which is 1 like mass and radius.
-    pub tangential_stiffness: R,
-    /// η_n.
-    pub normal_damping: R,
-    /// η_t.
-    pub tangential_damping: R,
+    /// Arm coefficients.
+    pub arms: Arms<R>,
+    /// Stiffness and damping.
+    pub law: ContactLaw<R>,
     /// The force that Coulomb's limit is compared with.
     pub coulomb_operand: CoulombOperand,
     /// The spring of a sliding contact.
@@ -102,11 +104,17 @@ pub struct SpringDashpot<R> {
     pub tensile_force: TensileForce,
 }
 
-composite!(SpringDashpot {
-    tangential_stiffness,
-    normal_damping,
-    tangential_damping
-});
+composite!(
+    SpringDashpot { arms, law },
+    Arms { pair, floor },
+    ContactArms { torque, kinematic },
+    ContactLaw {
+        normal_stiffness,
+        tangential_stiffness,
+        damping_normal,
+        damping_tangential
+    },
+);
 
 /// Memory of a [`SpringDashpot`] contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,15 +126,14 @@ pub struct Spring<R> {
 }
 
 composite!(Spring { length, normal });
-lane_wise!(Spring { length, normal });
 
 impl<R: Real> SpringDashpot<R> {
-    /// The law of `convention` with k_n = 1 and the given k_t, in numbers like `number`.
-    pub fn like(number: R, convention: &ContactConvention, tangential_stiffness: f64) -> Self {
+    /// The law of `convention` at stiffness ratio κ, in numbers like `number`.
+    pub fn like(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self {
+        let law = convention.law(stiffness_ratio);
         Self {
-            tangential_stiffness: number.like(tangential_stiffness),
-            normal_damping: number.like(convention.damping(1.0)),
-            tangential_damping: number.like(convention.damping(tangential_stiffness)),
+            arms: convention.arms.map(|arm| number.like(arm)),
+            law: law.map(|coefficient| number.like(coefficient)),
             coulomb_operand: convention.coulomb_operand,
             sliding_spring: convention.sliding_spring,
             history_update: convention.history_update,
@@ -134,21 +141,24 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n, with k_n = 1, of an overlap Δ and a normal velocity v_n, positive when separating
+    /// h_n = k_n Δ − η_n v_n of an overlap Δ and a normal velocity v_n, positive when separating
     /// (paper, "Numerical results").
     ///
     /// ```
     /// use tristack::dem::SpringDashpot;
     /// use tristack::model::ContactConvention;
-    /// let law = SpringDashpot {
-    ///     normal_damping: 0.25,
-    ///     ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
-    /// };
-    /// assert_eq!(law.normal_force(0.5, -1.0), 0.75);
+    /// let mut model = SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5);
+    /// model.law.damping_normal = 0.25;
+    /// assert_eq!(model.normal_force(0.5, -1.0), 0.75);
     /// ```
     #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        let force = overlap - self.normal_damping * separation_speed;
+        let ContactLaw {
+            normal_stiffness: stiffness,
+            damping_normal: damping,
+            ..
+        } = self.law;
+        let force = stiffness * overlap - damping * separation_speed;
         match self.tensile_force {
             TensileForce::MayPull => force,
             TensileForce::NeverPulls => {
@@ -164,8 +174,8 @@ impl<R: Real> SpringDashpot<R> {
     fn tangential_force(&self, spring: &mut R, limit: R, velocity: R, time_step: R) -> R {
         let zero = limit.like(0.0);
         let stretched = *spring + velocity * time_step;
-        let elastic = -(self.tangential_stiffness * stretched);
-        let damping = self.tangential_damping * velocity;
+        let elastic = -(self.law.tangential_stiffness * stretched);
+        let damping = self.law.damping_tangential * velocity;
         let sticking = elastic - damping;
         let (operand, damping_in_operand) = match self.coulomb_operand {
             CoulombOperand::SpringAndDamping => (sticking, damping),
@@ -180,7 +190,7 @@ impl<R: Real> SpringDashpot<R> {
         let length = match self.sliding_spring {
             SlidingSpring::Frozen => *spring,
             SlidingSpring::FollowsLimit => {
-                -(sliding + damping_in_operand) / self.tangential_stiffness
+                -(sliding + damping_in_operand) / self.law.tangential_stiffness
             }
         };
         *spring = R::select(sticks, stretched, length);
@@ -217,7 +227,11 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
     #[inline(always)]
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
         let one = contact.overlap.like(1.0);
-        let kinematic_arm = one + contact.arms.kinematic * contact.overlap;
+        let arms = match contact.counterpart {
+            Counterpart::Cylinder => self.arms.pair,
+            Counterpart::Wall => self.arms.floor,
+        };
+        let kinematic_arm = one + arms.kinematic * contact.overlap;
         let velocity = contact.sliding_speed - kinematic_arm * contact.spin;
         let normal = self.normal_force(contact.overlap, contact.separation_speed);
         let limit = contact.friction * normal.abs();
@@ -229,7 +243,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
         ContactForce {
             normal,
             tangential: self.tangential_force(&mut memory.length, limit, velocity, time_step),
-            arm: one + contact.arms.torque * contact.overlap,
+            arm: one + arms.torque * contact.overlap,
         }
     }
 }
@@ -251,23 +265,27 @@ mod tests {
     use super::*;
 
     const CONTACT: Contact<f64> = Contact {
+        counterpart: Counterpart::Wall,
         normal: [0.0, 1.0],
         overlap: 1.0,
         separation_speed: 0.0,
         sliding_speed: 0.5,
         spin: 0.0,
         friction: 0.5,
-        arms: ContactArms::reciprocal(0.0),
         time_step: 0.1,
     };
 
     fn law(coulomb_operand: CoulombOperand, sliding_spring: SlidingSpring) -> SpringDashpot<f64> {
         SpringDashpot {
-            normal_damping: 0.2,
-            tangential_damping: 0.1,
+            law: ContactLaw {
+                normal_stiffness: 1.0,
+                tangential_stiffness: 0.4,
+                damping_normal: 0.2,
+                damping_tangential: 0.1,
+            },
             coulomb_operand,
             sliding_spring,
-            ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
+            ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5)
         }
     }
 
@@ -376,22 +394,26 @@ mod tests {
 
     #[test]
     fn the_torque_has_one_arm_and_the_surface_velocity_the_other() {
-        let contact = Contact {
-            arms: ContactArms {
-                torque: -1.0,
-                kinematic: -0.5,
-            },
+        let mut law = paper();
+        law.arms.floor = ContactArms {
+            torque: -1.0,
+            kinematic: -0.5,
+        };
+        law.arms.pair.torque = -0.5;
+        let mut contact = Contact {
             spin: 0.25,
             overlap: 0.5,
             friction: 10.0,
             ..CONTACT
         };
-        let mut memory = paper().initial(0.0);
-        let force = paper().evaluate(&contact, &mut memory);
+        let mut memory = law.initial(0.0);
+        let force = law.evaluate(&contact, &mut memory);
         assert_eq!(force.arm, 0.5);
         // v_t = 0.5 - 0.75 * 0.25 for a time of 0.1.
         assert!((memory.length - 0.031_25).abs() < 1e-17);
         assert_eq!(force.normal, 0.5);
+        contact.counterpart = Counterpart::Cylinder;
+        assert_eq!(law.evaluate(&contact, &mut memory).arm, 0.75);
     }
 
     #[test]

@@ -14,7 +14,7 @@ const TOP_WALL: usize = 1;
 /// # Errors
 /// If the motion leaves the finite numbers.
 pub fn run_contact_test(test: &ContactTest) -> Result<Motion, SeriesError> {
-    let model = SpringDashpot::like(0.0, &test.convention, test.tangential_stiffness());
+    let model = SpringDashpot::like(0.0, &test.convention, test.stiffness_ratio);
     run_contact_test_with(test, model)
 }
 
@@ -39,7 +39,6 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     let cylinders = BODIES.map(|body| launched(&test.initial_motions[body]));
     let mut scene = Scene::new(cylinders, walls, model, test.time_step);
     scene.cylinder_friction = test.cylinder_friction;
-    scene.arms = test.convention.arms;
     scene.moment_of_inertia = test.convention.moment_of_inertia;
     let rows = (0..=test.steps).map(|step| {
         scene.evaluate_forces();

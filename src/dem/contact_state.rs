@@ -1,7 +1,7 @@
 //! A contact from one step to the next, in lanes of which perhaps only some touch.
 
 use super::contact::{Contact, ContactForce, ContactModel};
-use super::real::{Composite, LaneWise, Real};
+use super::real::{Composite, Real};
 
 /// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct ContactState<R, Memory> {
     loaded: bool,
 }
 
-impl<R: Real, Memory: Copy + LaneWise<R>> ContactState<R, Memory> {
+impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
     #[inline(always)]
     pub(super) fn initial<Model: ContactModel<R, Memory = Memory>>(
         model: &Model,
@@ -65,10 +65,10 @@ pub(super) enum Touch<R: Real> {
 
 impl<R: Real> Touch<R> {
     #[inline(always)]
-    pub(super) fn choose<C: LaneWise<R>>(self, yes: C, no: C) -> C {
+    pub(super) fn choose<C: Composite<R>>(self, yes: C, no: C) -> C {
         match self {
             Self::Everywhere => yes,
-            Self::Where(mask) => C::choose(mask, yes, no),
+            Self::Where(mask) => yes.or_where_not(mask, &no),
         }
     }
 }
@@ -84,25 +84,25 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::{Spring, SpringDashpot};
+    use super::super::contact::{Counterpart, Spring, SpringDashpot};
     use super::*;
-    use crate::model::{ContactArms, ContactConvention};
+    use crate::model::ContactConvention;
 
     type State = ContactState<f64, Spring<f64>>;
 
     const CONTACT: Contact<f64> = Contact {
+        counterpart: Counterpart::Wall,
         normal: [0.0, 1.0],
         overlap: 0.5,
         separation_speed: 0.0,
         sliding_speed: 0.5,
         spin: 0.0,
         friction: 10.0,
-        arms: ContactArms::reciprocal(0.0),
         time_step: 0.1,
     };
 
     fn law() -> SpringDashpot<f64> {
-        SpringDashpot::like(1.0, &ContactConvention::PAPER, 0.4)
+        SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5)
     }
 
     fn after_one_step(touches: Touch<f64>) -> State {

@@ -116,7 +116,7 @@ impl EventRun {
             loading,
             until,
         } = self;
-        let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.tangential_stiffness());
+        let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.stiffness_ratio);
         let mut run = Run {
             scene: StackScene::of(&case(stack, loading), law, 0.0),
             stack: *stack,

@@ -1,6 +1,6 @@
 //! The actions on a stack during preparation and compression, and their steps.
 
-use crate::model::{Case, PreparationSteps, Schedule, SideWallSteps};
+use crate::model::{Case, PreparationSteps, Schedule, SideWallSteps, smooth_step};
 use crate::series::DropWatch;
 
 /// An action before the forces of a step are evaluated.
@@ -114,15 +114,6 @@ impl LoadingProgram {
             }
         }
     }
-}
-
-/// x³(10 − 15x + 6x²) at x = step/steps, 1 beyond.
-fn smooth_step(step: u64, steps: u64) -> f64 {
-    if step >= steps {
-        return 1.0;
-    }
-    let x = step as f64 / steps as f64;
-    x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x))
 }
 
 /// First steps of the phases of the preparation between side walls (see [`crate::model::SideWalls`]).

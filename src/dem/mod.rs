@@ -21,13 +21,13 @@ mod stack_run;
 mod stack_scene;
 mod wall;
 
-pub use contact::{Contact, ContactForce, ContactModel, Spring, SpringDashpot};
+pub use contact::{Contact, ContactForce, ContactModel, Counterpart, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_with};
 pub use first_event::{EventRun, Loading, Observation, Until};
 pub use frames::compress_stack_into_frames;
 pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue};
 pub use packing::{Material, PYRAMID_FLOOR, Packing, run_pyramid};
-pub use real::{Composite, LaneWise, Real, Work};
+pub use real::{Composite, Real, Work};
 pub use scene::{Cylinder, Load, Scene};
 pub(crate) use source_digest::SOURCE_DIGEST;
 pub(crate) use stack_run::compress_stack_precisely;

@@ -115,6 +115,15 @@ pub trait Composite<R: Real>: Clone {
     fn take_lane(&mut self, lane: usize, other: &Self) {
         self.visit(other, &mut |number, other| number.set_lane(lane, *other));
     }
+
+    /// Itself where `mask` holds, `other` elsewhere.
+    #[inline(always)]
+    fn or_where_not(mut self, mask: R::Mask, other: &Self) -> Self {
+        self.visit(other, &mut |number, other| {
+            *number = R::select(mask, *number, *other)
+        });
+        self
+    }
 }
 
 impl<R: Real> Composite<R> for R {
@@ -129,39 +138,6 @@ impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
         for (own, other) in self.iter_mut().zip(other) {
             own.visit(other, visit);
         }
-    }
-}
-
-/// A value that can differ from lane to lane.
-pub trait LaneWise<R: Real>: Composite<R> {
-    /// `yes` where `mask` holds, `no` elsewhere.
-    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self;
-}
-
-/// Implements [`LaneWise`] for a struct which consists of the named fields.
-macro_rules! lane_wise {
-    ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
-        impl<R: $crate::dem::Real> $crate::dem::LaneWise<R> for $name<R> {
-            #[inline(always)]
-            fn choose(mask: R::Mask, yes: Self, no: Self) -> Self {
-                Self { $($field: $crate::dem::LaneWise::choose(mask, yes.$field, no.$field),)* }
-            }
-        }
-    )*};
-}
-pub(super) use lane_wise;
-
-impl<R: Real> LaneWise<R> for R {
-    #[inline(always)]
-    fn choose(mask: R::Mask, yes: Self, no: Self) -> Self {
-        R::select(mask, yes, no)
-    }
-}
-
-impl<R: Real> LaneWise<R> for [R; 2] {
-    #[inline(always)]
-    fn choose(mask: R::Mask, [x, y]: Self, [other_x, other_y]: Self) -> Self {
-        [R::select(mask, x, other_x), R::select(mask, y, other_y)]
     }
 }
 

@@ -1,10 +1,12 @@
 //! Cylinders between plane walls, and one leapfrog step of them all.
 
-use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot, along, tangential};
+use super::contact::{
+    Contact, ContactForce, ContactModel, Counterpart, SpringDashpot, along, tangential,
+};
 use super::contact_state::{ContactState, Touch};
-use super::real::{Composite, Real, composite, lane_wise};
+use super::real::{Composite, Real, composite};
 use super::wall::PlaneWall;
-use crate::model::{Arms, CYLINDER_INERTIA};
+use crate::model::CYLINDER_INERTIA;
 
 /// A loop over all indices below a count, the first three unrolled.
 macro_rules! unrolled {
@@ -47,7 +49,6 @@ composite!(
     },
     Load { force, torque },
 );
-lane_wise!(Load { force, torque });
 
 impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.
@@ -58,6 +59,62 @@ impl<R: Real> Cylinder<R> {
             angle: zero,
             velocity: [zero; 2],
             spin: zero,
+        }
+    }
+
+    /// Kicks the velocities over a whole step, then drifts the positions.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, load: &Load<R>, moment_of_inertia: R, time_step: R) {
+        for axis in 0..2 {
+            self.velocity[axis] += load.force[axis] * time_step;
+            self.position[axis] += self.velocity[axis] * time_step;
+        }
+        self.spin += load.torque / moment_of_inertia * time_step;
+        self.angle += self.spin * time_step;
+    }
+}
+
+impl<R: Real> Contact<R> {
+    /// The contact of two cylinders, from the difference of their positions and its square.
+    #[inline(always)]
+    pub(super) fn of_pair(
+        [i, j]: [&Cylinder<R>; 2],
+        (apart, square): ([R; 2], R),
+        friction: R,
+        time_step: R,
+    ) -> Self {
+        let distance = square.sqrt();
+        let normal = [apart[0] / distance, apart[1] / distance];
+        let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
+        Self {
+            counterpart: Counterpart::Cylinder,
+            normal,
+            overlap: distance.like(2.0) - distance,
+            separation_speed: along(normal, velocity),
+            sliding_speed: tangential(normal, velocity),
+            spin: i.spin + j.spin,
+            friction,
+            time_step,
+        }
+    }
+
+    /// The contact of a cylinder with a wall.
+    #[inline(always)]
+    pub(super) fn with_wall(
+        body: &Cylinder<R>,
+        plane: &PlaneWall<R>,
+        overlap: R,
+        time_step: R,
+    ) -> Self {
+        Self {
+            counterpart: Counterpart::Wall,
+            normal: plane.facing.normal(overlap),
+            overlap,
+            separation_speed: plane.facing.along(body.velocity) - plane.speed,
+            sliding_speed: plane.facing.tangential(body.velocity),
+            spin: body.spin,
+            friction: plane.friction,
+            time_step,
         }
     }
 }
@@ -81,8 +138,6 @@ pub struct Scene<
     pub model: Model,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: R,
-    /// Arm coefficients of the contacts.
-    pub arms: Arms<R>,
     /// Moment of inertia of a cylinder.
     pub moment_of_inertia: R,
     /// Gravity, downwards.
@@ -125,7 +180,6 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             wall_exists: [true; WALLS],
             model,
             cylinder_friction: zero,
-            arms: Arms::PAPER.map(|arm| zero.like(arm)),
             moment_of_inertia: zero.like(CYLINDER_INERTIA),
             gravity: zero,
             time_step,
@@ -190,12 +244,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
     fn accelerate(&mut self, loads: &[Load<R>; CYLINDERS]) {
         let dt = self.time_step;
         for (cylinder, load) in self.cylinders.iter_mut().zip(loads) {
-            for axis in 0..2 {
-                cylinder.velocity[axis] += load.force[axis] * dt;
-                cylinder.position[axis] += cylinder.velocity[axis] * dt;
-            }
-            cylinder.spin += load.torque / self.moment_of_inertia * dt;
-            cylinder.angle += cylinder.spin * dt;
+            cylinder.advance(load, self.moment_of_inertia, dt);
         }
         for (wall, exists) in self.walls.iter_mut().zip(self.wall_exists) {
             if exists {
@@ -233,23 +282,16 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         touches: Touch<R>,
         loads: &mut [Load<R>; CYLINDERS],
     ) {
-        let [i, j] = [first, second].map(|index| self.cylinders[index]);
-        let distance = square.sqrt();
-        let normal = [apart[0] / distance, apart[1] / distance];
-        let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
-        let contact = Contact {
-            normal,
-            overlap: distance.like(2.0) - distance,
-            separation_speed: along(normal, velocity),
-            sliding_speed: tangential(normal, velocity),
-            spin: i.spin + j.spin,
-            friction: self.cylinder_friction,
-            arms: self.arms.pair,
-            time_step: self.time_step,
-        };
+        let pair = [first, second].map(|index| &self.cylinders[index]);
+        let contact = Contact::of_pair(
+            pair,
+            (apart, square),
+            self.cylinder_friction,
+            self.time_step,
+        );
         let state = &mut self.pair_contacts[first][second];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
-        let force = exerted.in_the_plane(normal);
+        let force = exerted.in_the_plane(contact.normal);
         let torque = exerted.arm * exerted.tangential;
         loads[first].add(touches, force, -torque);
         loads[second].add(touches, [-force[0], -force[1]], -torque);
@@ -263,9 +305,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         loads: &mut [Load<R>; CYLINDERS],
     ) {
         let plane = &self.walls[wall];
-        let position = self.cylinders[cylinder].position;
-        let distance = plane.facing.along(position) - plane.offset;
-        let overlap = distance.like(1.0) - distance;
+        let overlap = plane.overlap(self.cylinders[cylinder].position);
         let touches = overlap.like(0.0).less(overlap);
         if !overlap.any(touches) {
             self.wall_contacts[wall][cylinder].separate::<KEEP, _>(&self.model, overlap);
@@ -286,17 +326,8 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         loads: &mut [Load<R>; CYLINDERS],
     ) {
         let plane = self.walls[wall];
-        let body = self.cylinders[cylinder];
-        let contact = Contact {
-            normal: plane.facing.normal(overlap),
-            overlap,
-            separation_speed: plane.facing.along(body.velocity) - plane.speed,
-            sliding_speed: plane.facing.tangential(body.velocity),
-            spin: body.spin,
-            friction: plane.friction,
-            arms: self.arms.floor,
-            time_step: self.time_step,
-        };
+        let contact =
+            Contact::with_wall(&self.cylinders[cylinder], &plane, overlap, self.time_step);
         let state = &mut self.wall_contacts[wall][cylinder];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
         let force = plane.facing.in_the_plane(&exerted);
@@ -307,7 +338,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
 
 impl<R: Real> Load<R> {
     #[inline(always)]
-    fn weight(gravity: R) -> Self {
+    pub(super) fn weight(gravity: R) -> Self {
         Self {
             force: [gravity.like(0.0), -gravity],
             torque: gravity.like(0.0),
@@ -315,7 +346,7 @@ impl<R: Real> Load<R> {
     }
 
     #[inline(always)]
-    fn add(&mut self, touches: Touch<R>, force: [R; 2], torque: R) {
+    pub(super) fn add(&mut self, touches: Touch<R>, force: [R; 2], torque: R) {
         let sum = Self {
             force: [self.force[0] + force[0], self.force[1] + force[1]],
             torque: self.torque + torque,
@@ -333,8 +364,6 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         self.model.visit(&other.model, visit);
         self.cylinder_friction
             .visit(&other.cylinder_friction, visit);
-        self.arms.pair.visit(&other.arms.pair, visit);
-        self.arms.floor.visit(&other.arms.floor, visit);
         self.moment_of_inertia
             .visit(&other.moment_of_inertia, visit);
         self.gravity.visit(&other.gravity, visit);

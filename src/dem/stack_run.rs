@@ -32,7 +32,7 @@ pub fn compress_stack_precisely(
 
 /// The contact law of `case`, in numbers like `number`.
 pub(super) fn law<R: Real>(case: &Case, number: R) -> SpringDashpot<R> {
-    SpringDashpot::like(number, &case.convention, case.stack.tangential_stiffness())
+    SpringDashpot::like(number, &case.convention, case.stack.stiffness_ratio)
 }
 
 /// Like [`compress_stack`], with any contact law.

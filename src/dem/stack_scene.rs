@@ -50,7 +50,6 @@ impl<R: Real, Model: ContactModel<R>> StackScene<R, Model> {
             number.like(case.protocol.time_step),
         );
         scene.cylinder_friction = number.like(case.stack.cylinder_friction);
-        scene.arms = case.convention.arms.map(|arm| number.like(arm));
         scene.moment_of_inertia = number.like(case.convention.moment_of_inertia);
         match case.protocol.preparation {
             Preparation::GravityRamp { .. } => {

@@ -77,6 +77,15 @@ pub struct PlaneWall<R = f64> {
     pub friction: R,
 }
 
+impl<R: Real> PlaneWall<R> {
+    /// Overlap with a cylinder at `position`; negative where it does not touch.
+    #[inline(always)]
+    pub(super) fn overlap(&self, position: [R; 2]) -> R {
+        let distance = self.facing.along(position) - self.offset;
+        distance.like(1.0) - distance
+    }
+}
+
 composite!(PlaneWall {
     offset,
     speed,

@@ -1,7 +1,7 @@
 //! Forecasts of an experiment, one for every estimate of the contact.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
-use crate::model::{Arms, CRITICAL_FRICTION, InvalidValue, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, InvalidValue, Stack};
 use crate::theory::{
     Event, FailureMode, Limit, LoadingOutcome, pair_overlap, perturbation_load, quasistatic_limit,
 };
@@ -179,7 +179,7 @@ fn forecasted(
         let normal_stiffness = contact.normal_stiffness(&experiment.cylinder, overlap);
         let stack = experiment.stack(mu, normal_stiffness);
         check_stiffness(contact, stack.stiffness)?;
-        let limit = quasistatic_limit(&stack, &Arms::PAPER);
+        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
         let next = overlap_at_the_event(&limit, &stack);
         let settled = (next - overlap).abs() <= 1e-14 * overlap;
         overlap = next;
@@ -315,7 +315,7 @@ mod tests {
         for stiffness in [1e8, 1e10, 1e12] {
             let force = |mu| {
                 let stack = Stack::paper(mu, stiffness);
-                let limit = quasistatic_limit(&stack, &Arms::PAPER);
+                let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
                 assert_eq!(limit.event, Event::FloorSlip, "{stiffness} {mu}");
                 limit.yield_force.expect("the floor slips")
             };

@@ -1,7 +1,7 @@
 //! Arms of a contact: the lever of its torque, and the radius at which its surfaces move.
 
 use super::validity::{InvalidValue, within};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Arm coefficients r₁ of one kind of contact: an arm is R = r + r₁ δ at the overlap δ.
@@ -106,26 +106,6 @@ impl Arms {
         self.pair.validate("convention.pair")?;
         self.floor.validate("convention.floor")
     }
-
-    /// As four numbers with the names that rows of tables use.
-    pub(crate) fn serialize_flat<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { pair, floor } = *self;
-        FlatArms {
-            pair_torque_arm: pair.torque,
-            pair_kinematic_arm: pair.kinematic,
-            floor_torque_arm: floor.torque,
-            floor_kinematic_arm: floor.kinematic,
-        }
-        .serialize(serializer)
-    }
-}
-
-#[derive(Serialize)]
-struct FlatArms {
-    pair_torque_arm: f64,
-    pair_kinematic_arm: f64,
-    floor_torque_arm: f64,
-    floor_kinematic_arm: f64,
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl Case {
     }
 
     fn validate_stability(&self) -> Result<(), InvalidValue> {
-        let largest = self.stack.longest_time_step();
+        let largest = self.stack.longest_time_step(&self.convention);
         if self.protocol.time_step <= largest {
             return Ok(());
         }

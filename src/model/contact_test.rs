@@ -45,11 +45,6 @@ pub struct ContactTest {
 }
 
 impl ContactTest {
-    /// k_t in units of k_n.
-    pub fn tangential_stiffness(&self) -> f64 {
-        1.0 / self.stiffness_ratio
-    }
-
     /// Height of the top wall at a step.
     pub(crate) fn wall_height_at(&self, step: u64) -> f64 {
         self.wall_height - self.wall_speed * (step as f64 * self.time_step)

@@ -1,8 +1,10 @@
 //! Contact convention of a code: arms, Coulomb limit, damping, and the treatment of the tangential spring.
 
 use super::Arms;
+use super::law::ContactLaw;
 use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Restitution coefficient e_r of the paper (supplement I.A).
 pub const PAPER_RESTITUTION: f64 = 0.7;
@@ -98,12 +100,22 @@ impl ContactConvention {
         moment_of_inertia: CYLINDER_INERTIA,
     };
 
-    /// Damping coefficient η = −2 ln e_r √(m k/(π² + ln² e_r)) of a spring with stiffness k, in
-    /// √(m k_n) (paper, Eqs. S1 and S2).
-    pub fn damping(&self, stiffness: f64) -> f64 {
-        let log = libm::log(self.restitution);
-        let pi = std::f64::consts::PI;
-        2.0 * log.abs() * (stiffness / (pi * pi + log * log)).sqrt()
+    /// The paper's convention but for the arms.
+    pub const fn with_arms(arms: Arms) -> Self {
+        Self {
+            arms,
+            ..Self::PAPER
+        }
+    }
+
+    /// The contact law at stiffness ratio κ.
+    pub fn law(&self, stiffness_ratio: f64) -> ContactLaw {
+        ContactLaw::new(stiffness_ratio, self.restitution)
+    }
+
+    /// Whether the quasi-static limit is known in closed form: all arms are 0.
+    pub(crate) fn has_closed_form(&self) -> bool {
+        self.arms == Arms::PAPER
     }
 
     /// The first key in which this convention is not `other`, with both values.
@@ -139,6 +151,14 @@ impl ContactConvention {
     }
 }
 
+/// The part of the convention that moves the quasi-static limit.
+impl fmt::Display for ContactConvention {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Arms { pair, floor } = self.arms;
+        write!(formatter, "arms {pair}, {floor}")
+    }
+}
+
 /// A value as it is written in a case file, without quotation marks.
 fn plain(value: &serde_json::Value) -> String {
     let text = value.as_str().map(str::to_owned);
@@ -148,24 +168,6 @@ fn plain(value: &serde_json::Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn damping_gives_the_restitution_it_is_named_after() {
-        // Half an oscillation of a unit mass on a unit spring with damping η keeps the fraction
-        // exp(−π ζ/√(1 − ζ²)) of its speed, ζ = η/2.
-        let ratio = ContactConvention::PAPER.damping(1.0) / 2.0;
-        let kept = libm::exp(-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt());
-        assert!((kept - PAPER_RESTITUTION).abs() < 1e-15);
-    }
-
-    #[test]
-    fn an_elastic_collision_is_not_damped() {
-        let elastic = ContactConvention {
-            restitution: 1.0,
-            ..ContactConvention::PAPER
-        };
-        assert_eq!(elastic.damping(1.0).to_bits(), 0);
-    }
 
     /// Serde promises nothing about `flatten` beside `deny_unknown_fields`.
     #[test]

@@ -9,6 +9,7 @@ mod case;
 mod contact_test;
 mod convention;
 mod digest;
+mod law;
 mod protocol;
 mod pyramid;
 mod shortcuts;
@@ -26,6 +27,8 @@ pub use convention::{
     TensileForce,
 };
 pub use digest::sha256_hex;
+pub use law::ContactLaw;
+pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;
 pub use shortcuts::Shortcuts;

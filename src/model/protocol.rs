@@ -93,6 +93,15 @@ impl Preparation {
     }
 }
 
+/// x³(10 − 15x + 6x²) at x = step/steps, 1 beyond.
+pub(crate) fn smooth_step(step: u64, steps: u64) -> f64 {
+    if step >= steps {
+        return 1.0;
+    }
+    let x = step as f64 / steps as f64;
+    x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x))
+}
+
 /// Times at which rows of the time series are taken: coarsely at first, finely around the yield.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,5 +1,6 @@
 //! A pyramid: many cylinders in rows, each row one cylinder shorter than the one below.
 
+use super::protocol::smooth_step;
 use super::validity::{InvalidValue, positive, within};
 use super::{ContactConvention, Stack};
 use serde::{Deserialize, Serialize};
@@ -87,23 +88,20 @@ impl Pyramid {
         1.0 + 0.5 * self.spacing * f64::from(self.rows - 1)
     }
 
-    /// Gravity at a step, in k_n r/m: x³(10 − 15x + 6x²) of its value at the part x of the ramp.
+    /// Gravity at a step, in k_n r/m.
     pub fn gravity_at(&self, step: u64) -> f64 {
-        let gravity = self.groups.epsilon();
-        if step >= self.ramp_steps {
-            return gravity;
-        }
-        let x = step as f64 / self.ramp_steps as f64;
-        gravity * (x * x * x * (10.0 - 15.0 * x + 6.0 * (x * x)))
+        self.groups.epsilon() * smooth_step(step, self.ramp_steps)
     }
 
     /// The longest time step of a stable integration, in √(m/k_n). A cylinder has at most six contacts; with
-    /// a sixth of its mass and moment of inertia I in each, the normal spring oscillates with ω² = 12 and the
-    /// tangential one with 12 (1 + 1/I)/κ, in units of k_n/m, and no mode of the whole is faster.
+    /// a sixth of its mass and moment of inertia I in each, the normal spring oscillates with ω² = 12 k/m and the
+    /// tangential one with 12 (1 + 1/I)/κ k/m at a stiffness k, and no mode of the whole is faster.
     pub fn longest_time_step(&self) -> f64 {
         const SAFETY: f64 = 0.6;
         let turning = 1.0 + self.convention.moment_of_inertia.recip();
-        let fastest = (12.0 * f64::max(1.0, turning / self.groups.stiffness_ratio)).sqrt();
+        let ratio = self.groups.stiffness_ratio;
+        let stiffness = self.convention.law(ratio).highest_stiffness();
+        let fastest = (stiffness * (12.0 * f64::max(1.0, turning / ratio))).sqrt();
         SAFETY * 2.0 / fastest
     }
 
@@ -122,24 +120,14 @@ impl Pyramid {
             self.time_step,
             self.longest_time_step(),
         )?;
-        within(
-            "pyramid.ramp_steps",
-            self.ramp_steps as f64,
-            1.0,
-            MOST_STEPS,
-        )?;
-        within(
-            "pyramid.rest_steps",
-            self.rest_steps as f64,
-            0.0,
-            MOST_STEPS,
-        )?;
-        within(
-            "pyramid.timed_steps",
-            self.timed_steps as f64,
-            1.0,
-            MOST_STEPS,
-        )
+        for (name, steps, fewest) in [
+            ("ramp_steps", self.ramp_steps, 1.0),
+            ("rest_steps", self.rest_steps, 0.0),
+            ("timed_steps", self.timed_steps, 1.0),
+        ] {
+            within(&format!("pyramid.{name}"), steps as f64, fewest, MOST_STEPS)?;
+        }
+        Ok(())
     }
 }
 

@@ -1,5 +1,6 @@
 //! The dimensionless groups of the problem.
 
+use super::ContactConvention;
 use super::validity::{InvalidValue, positive, within};
 use serde::{Deserialize, Serialize};
 
@@ -58,17 +59,13 @@ impl Stack {
         1.0 / self.stiffness
     }
 
-    /// Tangential stiffness k_t = k_n/κ in units of k_n.
-    pub fn tangential_stiffness(&self) -> f64 {
-        1.0 / self.stiffness_ratio
-    }
-
     /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the
-    /// stiffest mode. For the stack with all its contacts ω² ≤ 4 + 12/κ, in units of k_n/m (largest
+    /// stiffest mode. For the stack with all its contacts ω² ≤ (4 + 12/κ) k/m at a stiffness k (largest
     /// eigenvalue, computed for κ from 1e-3 to 100).
-    pub fn longest_time_step(&self) -> f64 {
+    pub fn longest_time_step(&self, convention: &ContactConvention) -> f64 {
         const SAFETY: f64 = 0.6;
-        let fastest = (4.0 + 12.0 / self.stiffness_ratio).sqrt();
+        let stiffness = convention.law(self.stiffness_ratio).highest_stiffness();
+        let fastest = (stiffness * (4.0 + 12.0 / self.stiffness_ratio)).sqrt();
         SAFETY * 2.0 / fastest
     }
 

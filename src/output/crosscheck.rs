@@ -23,7 +23,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .version(|row| &row.version)
     .source(|row| row.source)
     .shown("source")
-    .arms(|row| row.study.convention.arms)
+    .convention(|row| row.study.convention)
     .number("yield_force", "m g", |row| row.yield_force())
     .means("yield force F at vanishing wall speed")
     .shown_as("yield force", digits::<9>)

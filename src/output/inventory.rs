@@ -33,7 +33,7 @@ pub(crate) fn inventory(codes: &[Code]) -> DataTable<'static> {
     })
     .means("distribution package and its version")
     .shown("package")
-    .arms(|(code, _)| code.convention().arms)
+    .convention(|(code, _)| code.convention())
     .right("pair arm", |(code, _)| {
         arms(*code, code.convention().arms.pair)
     })

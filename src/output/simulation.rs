@@ -42,7 +42,7 @@ fn subject<'a>() -> Columns<'a, Row<'a>> {
         .version(|(run, _)| &run.provenance.identity.version)
         .shown("version")
         .stack(|(run, _)| run.case.stack)
-        .arms(|(run, _)| run.case.convention.arms)
+        .convention(|(run, _)| run.case.convention)
 }
 
 /// The contact convention beyond the arms.

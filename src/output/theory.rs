@@ -2,7 +2,6 @@
 
 use super::number::{digits, friction, optional};
 use super::table::{Columns, DataTable, Table};
-use crate::model::Stack;
 use crate::theory::Predictions;
 
 /// One row per stack.
@@ -12,13 +11,8 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "A row is one stack with its yield force F by every theory.",
         "`tristack theory`",
     )
-    .stack(|own| Stack {
-        floor_friction: own.mu,
-        cylinder_friction: own.mu_d,
-        stiffness: own.stiffness,
-        stiffness_ratio: own.kappa,
-    })
-    .number("epsilon", "1", |own| own.epsilon)
+    .stack(|own| own.stack)
+    .number("epsilon", "1", |own| own.stack.epsilon())
     .means("ε = m g/(k_n r)")
     .number("rigid", "m g", |own| own.rigid.yield_force)
     .means("rigid cylinders; absent where infinite")
@@ -34,17 +28,21 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .means("why it gives none")
     .number("elastic", "m g", |own| own.elastic.yield_force)
     .means("elastic equation")
-    .number("elastic_x", "r", |own| own.elastic.x)
+    .number("elastic_x", "r", |own| own.elastic_root.map(|root| root.x))
     .means("its x = δ₁₁ − δ₂₁")
-    .number("elastic_y", "r", |own| own.elastic.y)
+    .number("elastic_y", "r", |own| own.elastic_root.map(|root| root.y))
     .means("its y = δ₂₂")
-    .number("elastic_z", "r", |own| own.elastic.z)
+    .number("elastic_z", "r", |own| own.elastic_root.map(|root| root.z))
     .means("its z = δ₂₁")
-    .number("elastic_theta", "rad", |own| own.elastic.theta)
+    .number("elastic_theta", "rad", |own| {
+        own.elastic_root.map(|root| root.theta)
+    })
     .means("its θ")
     .text("elastic_reason", |own| own.elastic.reason)
     .means("why it gives none")
-    .text("elastic_caution", |own| own.elastic.caution)
+    .text("elastic_caution", |own| {
+        own.elastic_root.and_then(|root| root.caution())
+    })
     .means("an assumption that its root contradicts")
     .number("quasistatic", "m g", |own| own.quasistatic.yield_force)
     .means("exact quasi-static limit of a DEM with these arms")
@@ -56,7 +54,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         own.quasistatic.floor_slip_force
     })
     .means("F at which the floor slips if other events are ignored")
-    .arms(|own| own.quasistatic.arms)
+    .convention(|own| own.convention)
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
     .number("y", "r", |own| own.quasistatic.y)
@@ -72,13 +70,12 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
 pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
         let heading = format!(
-            "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, arms {}, {}\n",
-            friction(case.mu),
-            case.stiffness,
-            case.kappa,
-            case.mu_d,
-            case.quasistatic.arms.pair,
-            case.quasistatic.arms.floor
+            "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
+            friction(case.stack.floor_friction),
+            case.stack.stiffness,
+            case.stack.stiffness_ratio,
+            case.stack.cylinder_friction,
+            case.convention
         );
         heading + &one_case(case).terminal()
     });
@@ -92,6 +89,7 @@ fn one_case(case: &Predictions) -> Table {
     let text = |reason: Option<&str>| reason.unwrap_or_default().to_owned();
     let rigid_remark = case.rigid.diverges.then_some("infinite: mu >= mu_c");
     let (elastic, exact) = (&case.elastic, &case.quasistatic);
+    let elastic_caution = case.elastic_root.and_then(|root| root.caution());
     let exact_remark = exact.reason.clone().unwrap_or_else(|| "exact".to_owned());
     let mut lines: Vec<Line> = vec![
         ("rigid", case.rigid.yield_force, text(rigid_remark)),
@@ -104,7 +102,7 @@ fn one_case(case: &Predictions) -> Table {
         (
             "elastic equation",
             elastic.yield_force,
-            text(elastic.reason.or(elastic.caution)),
+            text(elastic.reason.or(elastic_caution)),
         ),
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];

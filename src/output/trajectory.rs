@@ -40,7 +40,7 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .version(|(judgement, _)| &judgement.version)
     .source(|(judgement, _)| judgement.source)
     .stack(|_| trajectory_stack())
-    .arms(|(judgement, _)| judgement.code.convention().arms)
+    .convention(|(judgement, _)| judgement.code.convention())
     .text("twin", |row| Some(compared(row)?.twin.as_str()))
     .means("what the twin has of the convention of the code")
     .text("quantity", |row| Some(compared(row)?.quantity.as_str()))

@@ -41,14 +41,20 @@ pub struct PathPoint {
     pub pair_overlap: f64,
     /// z, overlap of the floor contacts.
     pub floor_overlap: f64,
+    /// d, normal force of the floor contacts.
+    pub floor_force: f64,
     /// y = x₂ − r, how far cylinder 2 has moved outwards.
     pub outward: f64,
     /// b/a, tangential over normal force of the contact 1–2.
     pub pair_ratio: f64,
     /// e/d, tangential over normal force of the floor contacts.
     pub floor_ratio: f64,
+    /// c, force between the bottom cylinders.
+    pub bottom_force: f64,
     /// Force of the top wall, ε F.
     pub wall_force: f64,
+    /// Overlap of cylinder 1 and the top wall.
+    pub wall_overlap: f64,
 }
 
 impl PathPoint {
@@ -58,9 +64,9 @@ impl PathPoint {
         (2.0 - self.pair_overlap) * (1.0 - square) / (1.0 + square)
     }
 
-    /// Height of the top wall, y₁ + r − f/k_n, with the floor at 0 (docs/theory.md, Eq. 32).
+    /// Height of the top wall, y₁ + r less its overlap, with the floor at 0 (docs/theory.md, Eq. 32).
     pub fn wall_height(&self) -> f64 {
-        2.0 - self.floor_overlap + self.rise() - self.wall_force
+        2.0 - self.floor_overlap + self.rise() - self.wall_overlap
     }
 
     /// Distance to `event`, in its own units; negative once it has happened.
@@ -69,7 +75,7 @@ impl PathPoint {
             Event::FloorSlip => stack.floor_friction - self.floor_ratio,
             Event::CylinderSlip => stack.cylinder_friction - self.pair_ratio,
             Event::ContactCloses => self.outward,
-            Event::WallContact => self.rise() - self.wall_force,
+            Event::WallContact => self.rise() - self.wall_overlap,
             Event::None => f64::INFINITY,
         }
     }
@@ -157,10 +163,13 @@ mod tests {
         tangent: 0.3,
         pair_overlap: 0.02,
         floor_overlap: 0.03,
+        floor_force: 0.03,
         outward: 0.04,
         pair_ratio: 0.5,
         floor_ratio: 0.25,
+        bottom_force: 0.0,
         wall_force: 0.01,
+        wall_overlap: 0.01,
     };
 
     #[test]

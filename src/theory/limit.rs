@@ -1,11 +1,10 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
 use super::events::{Event, Path, PathPoint, locate};
-use crate::model::{Arms, Stack};
-use serde::Serialize;
+use crate::model::Stack;
 
-/// The quasi-static limit of a DEM whose contacts have the given arms.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The quasi-static limit of a stack.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
     /// F = f/(m g) at which the floor slips; absent when something else comes first.
     pub yield_force: Option<f64>,
@@ -13,11 +12,7 @@ pub struct Limit {
     pub event: Event,
     /// F at which the floor slips if the other events are ignored.
     pub floor_slip_force: Option<f64>,
-    /// Arm coefficients of the contacts.
-    #[serde(flatten, serialize_with = "Arms::serialize_flat")]
-    pub arms: Arms,
     /// T = tan(ψ/2) where the floor slips.
-    #[serde(rename = "T")]
     pub tangent: Option<f64>,
     /// y = x₂ − r, in r, where the floor slips.
     pub y: Option<f64>,
@@ -26,17 +21,16 @@ pub struct Limit {
     /// Wall travel, in r, when the floor slips (docs/theory.md, Eq. 34).
     pub wall_travel: Option<f64>,
     /// Why there is no yield force.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
 impl Limit {
     /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`: under its own
-    /// weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 z/ε − 3 (Eq. 23).
-    pub(super) fn of(path: &impl Path, slip: Option<f64>, stack: &Stack, arms: &Arms) -> Self {
+    /// weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 d/ε − 3 (Eq. 23).
+    pub(super) fn of(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Self {
         let settled = path.settled();
         let own_weight = slip.is_some_and(|slip| slip < settled);
-        let force_at = |point: PathPoint| 2.0 * point.floor_overlap * stack.stiffness - 3.0;
+        let force_at = |point: PathPoint| 2.0 * point.floor_force * stack.stiffness - 3.0;
         // A wall cannot pull: where its force has fallen below 0 it has left the stack.
         let slip = slip.filter(|&slip| own_weight || force_at(path.point(slip)) >= 0.0);
         let under_the_wall = slip.filter(|_| !own_weight);
@@ -48,7 +42,6 @@ impl Limit {
             yield_force: force.filter(|_| yields),
             event,
             floor_slip_force: force,
-            arms: *arms,
             tangent: point.map(|point| point.tangent),
             y: point.map(|point| point.outward),
             z: point.map(|point| point.floor_overlap),
@@ -95,7 +88,7 @@ mod tests {
     use super::super::root::bracketed_root;
     use super::super::{closed_form_limit, followed_limit, pair_overlap};
     use super::*;
-    use crate::model::CRITICAL_FRICTION;
+    use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention};
 
     #[test]
     fn a_limit_without_a_yield_force_says_why() {
@@ -127,7 +120,8 @@ mod tests {
             cylinder_friction: 127.0,
             ..Stack::paper(0.315, 230.0)
         };
-        let limit = followed_limit(&stack, &Arms::reciprocal(0.496, 0.824));
+        let convention = ContactConvention::with_arms(Arms::reciprocal(0.496, 0.824));
+        let limit = followed_limit(&stack, &convention);
         assert_eq!(limit.event, Event::None);
         assert_eq!([limit.yield_force, limit.floor_slip_force], [None; 2]);
         assert!(

@@ -25,34 +25,37 @@ pub use regimes::{
 };
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};
-pub(crate) use small_displacement::{ElasticRoot, elastic_root, naive_load, perturbation_load};
-pub use small_displacement::{RigidYield, rigid_yield};
+pub use small_displacement::{ElasticRoot, RigidYield, rigid_yield};
+pub(crate) use small_displacement::{elastic_root, naive_load, perturbation_load};
 
-use crate::model::{Arms, Stack};
+use crate::model::{ContactConvention, Stack};
 
-/// The exact quasi-static limit of `stack` for the given arms: the closed form where all are 0,
-/// the path follower otherwise.
-pub fn quasistatic_limit(stack: &Stack, arms: &Arms) -> Limit {
-    if *arms == Arms::PAPER {
+/// The exact quasi-static limit of `stack` under `convention`: by the closed form where there is one, by the
+/// path follower otherwise.
+pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
+    if convention.has_closed_form() {
         closed_form_limit(stack)
     } else {
-        followed_limit(stack, arms)
+        followed_limit(stack, convention)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Arms;
 
     #[test]
     fn the_closed_form_is_taken_where_both_arms_are_0_and_only_there() {
         let stack = Stack::paper(0.3, 1e2);
-        let limit = |arms| quasistatic_limit(&stack, &arms);
-        assert_eq!(limit(Arms::PAPER), closed_form_limit(&stack));
+        let closed = closed_form_limit(&stack);
+        assert_eq!(quasistatic_limit(&stack, &ContactConvention::PAPER), closed);
         // The two agree to nine digits, not to the last.
-        assert_ne!(limit(Arms::PAPER), followed_limit(&stack, &Arms::PAPER));
+        assert_ne!(followed_limit(&stack, &ContactConvention::PAPER), closed);
         for arms in [Arms::reciprocal(-0.5, 0.0), Arms::reciprocal(0.0, -0.5)] {
-            assert_eq!(limit(arms), followed_limit(&stack, &arms));
+            let convention = ContactConvention::with_arms(arms);
+            let followed = followed_limit(&stack, &convention);
+            assert_eq!(quasistatic_limit(&stack, &convention), followed);
         }
     }
 }

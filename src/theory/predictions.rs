@@ -4,16 +4,14 @@ use super::{
     ElasticRoot, Limit, RigidYield, elastic_root, naive_load, perturbation_load, quasistatic_limit,
     rigid_yield,
 };
-use crate::model::{Arms, Stack};
-use serde::Serialize;
+use crate::model::{ContactConvention, Stack};
 
 /// The yield force according to one theory, or the reason why it has none.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// F = f/(m g).
     pub yield_force: Option<f64>,
     /// Why there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
 }
 
@@ -26,58 +24,13 @@ impl Prediction {
     }
 }
 
-/// The elastic equation's answer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ElasticPrediction {
-    /// F = f/(m g).
-    pub yield_force: Option<f64>,
-    /// x = δ₁₁ − δ₂₁ in r.
-    pub x: Option<f64>,
-    /// y = δ₂₂ in r.
-    pub y: Option<f64>,
-    /// z = δ₂₁ in r.
-    pub z: Option<f64>,
-    /// θ in radians.
-    pub theta: Option<f64>,
-    /// Why there is no yield force.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<&'static str>,
-    /// An assumption that the number contradicts.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub caution: Option<&'static str>,
-}
-
-impl ElasticPrediction {
-    fn new(root: Option<ElasticRoot>) -> Self {
-        Self {
-            yield_force: root.map(|root| root.load - 3.0),
-            x: root.map(|root| root.x),
-            y: root.map(|root| root.y),
-            z: root.map(|root| root.z),
-            theta: root.map(|root| root.theta),
-            reason: root
-                .is_none()
-                .then_some("the equation has no root z >= 3 epsilon r/2"),
-            caution: root
-                .filter(|root| root.y < 0.0)
-                .map(|_| "y < 0: the root contradicts the assumption c = 0 behind the equation"),
-        }
-    }
-}
-
 /// The yield force of one stack by every theory.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Predictions {
-    /// Floor friction μ.
-    pub mu: f64,
-    /// Stiffness 1/ε.
-    pub stiffness: f64,
-    /// Stiffness ratio κ.
-    pub kappa: f64,
-    /// Cylinder friction μ_d.
-    pub mu_d: f64,
-    /// ε = m g/(k_n r).
-    pub epsilon: f64,
+    /// The stack.
+    pub stack: Stack,
+    /// Its contacts, which concern the quasi-static limit alone.
+    pub convention: ContactConvention,
     /// Rigid cylinders.
     pub rigid: RigidYield,
     /// Naive expansion.
@@ -85,28 +38,32 @@ pub struct Predictions {
     /// Singular perturbation.
     pub perturbation: Prediction,
     /// Elastic equation.
-    pub elastic: ElasticPrediction,
+    pub elastic: Prediction,
+    /// The state at yield by the elastic equation.
+    pub elastic_root: Option<ElasticRoot>,
     /// Exact quasi-static limit of the DEM.
     pub quasistatic: Limit,
 }
 
 impl Predictions {
-    /// Every theory for `stack`; the arms concern the quasi-static limit alone.
-    pub fn new(stack: &Stack, arms: &Arms) -> Self {
+    /// Every theory for `stack` under `convention`.
+    pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
+        let elastic_root = elastic_root(stack);
         Self {
-            mu: stack.floor_friction,
-            stiffness: stack.stiffness,
-            kappa: stack.stiffness_ratio,
-            mu_d: stack.cylinder_friction,
-            epsilon: stack.epsilon(),
+            stack: *stack,
+            convention: *convention,
             rigid: rigid_yield(stack.floor_friction),
             naive: Prediction::from_load(naive_load(stack), "the expansion gives F < 0"),
             perturbation: Prediction::from_load(
                 perturbation_load(stack),
                 "the solution is not real or gives F < 0",
             ),
-            elastic: ElasticPrediction::new(elastic_root(stack)),
-            quasistatic: quasistatic_limit(stack, arms),
+            elastic: Prediction::from_load(
+                elastic_root.map(|root| root.load),
+                "the equation has no root z >= 3 epsilon r/2",
+            ),
+            elastic_root,
+            quasistatic: quasistatic_limit(stack, convention),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::floor_slip::FloorSlip;
 use super::limit::Limit;
 use super::overlap::{HIGHEST_TANGENT, OverlapCurve, pair_overlap};
 use super::root::bracketed_root;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, Stack};
 
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 const STATIONS: usize = 256;
@@ -61,10 +61,13 @@ impl Path for ClosedForm {
             tangent,
             pair_overlap: overlap,
             floor_overlap,
+            floor_force: floor_overlap,
             outward: (geometric - 2.0 * overlap * tangent) / (1.0 + tangent * tangent),
             pair_ratio: tangent,
             floor_ratio: overlap * tangent / floor_overlap,
+            bottom_force: 0.0,
             wall_force,
+            wall_overlap: wall_force,
         }
     }
 }
@@ -75,7 +78,7 @@ pub fn closed_form_limit(stack: &Stack) -> Limit {
     let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon());
     let slip = slip.map(|slip| slip.beyond);
     let path = ClosedForm::new(stack, slip.unwrap_or(WIDEST));
-    Limit::of(&path, slip, stack, &Arms::PAPER)
+    Limit::of(&path, slip, stack)
 }
 
 #[cfg(test)]

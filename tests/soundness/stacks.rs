@@ -36,10 +36,7 @@ pub fn check(data: &[u8]) {
         stiffness,
         stiffness_ratio,
     };
-    let convention = ContactConvention {
-        arms,
-        ..ContactConvention::PAPER
-    };
+    let convention = ContactConvention::with_arms(arms);
     // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.
     if stiffness_ratio < SMALLEST_RATIO {
         return;
@@ -47,8 +44,8 @@ pub fn check(data: &[u8]) {
     if stack.validate().is_err() || convention.validate().is_err() {
         return;
     }
-    Predictions::new(&stack, &arms);
-    let limit = quasistatic_limit(&stack, &arms);
+    Predictions::new(&stack, &convention);
+    let limit = quasistatic_limit(&stack, &convention);
     assert!(limit.yield_force.is_none_or(f64::is_finite));
     let Some(protocol) = protocol_at_speed(&limit, speed, step) else {
         return;

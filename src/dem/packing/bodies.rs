@@ -6,7 +6,7 @@ use super::walls::{WallContact, beside_wall};
 use crate::dem::contact::{ContactForce, SpringDashpot};
 use crate::dem::scene::{Cylinder, Load};
 use crate::dem::wall::PlaneWall;
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{ContactConvention, Stack};
 
 /// Largest distance of two surfaces in a list.
 const SKIN: f64 = 0.5;
@@ -18,8 +18,6 @@ pub struct Material {
     pub law: SpringDashpot<f64>,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: f64,
-    /// Arm coefficients of the contacts.
-    pub arms: Arms,
     /// Moment of inertia of a cylinder in m r².
     pub moment_of_inertia: f64,
 }
@@ -28,9 +26,8 @@ impl Material {
     /// The material of `stack` under `convention`.
     pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
-            law: SpringDashpot::like(0.0, convention, stack.tangential_stiffness()),
+            law: SpringDashpot::like(0.0, convention, stack.stiffness_ratio),
             cylinder_friction: stack.cylinder_friction,
-            arms: convention.arms,
             moment_of_inertia: convention.moment_of_inertia,
         }
     }
@@ -69,7 +66,7 @@ impl Packing {
             gravity: 0.0,
             material,
             time_step,
-            loads: vec![weight(0.0); count],
+            loads: vec![Load::weight(0.0); count],
             pairs: PairList::empty(count),
             wall_contacts: vec![Vec::new(); walls.len()],
             skin: Skin::new(SKIN, &cylinders),
@@ -103,12 +100,7 @@ impl Packing {
         let dt = self.time_step;
         let mut fastest_square = 0.0;
         for (cylinder, load) in self.cylinders.iter_mut().zip(&self.loads) {
-            for axis in 0..2 {
-                cylinder.velocity[axis] += load.force[axis] * dt;
-                cylinder.position[axis] += cylinder.velocity[axis] * dt;
-            }
-            cylinder.spin += load.torque / self.material.moment_of_inertia * dt;
-            cylinder.angle += cylinder.spin * dt;
+            cylinder.advance(load, self.material.moment_of_inertia, dt);
             let [vx, vy] = cylinder.velocity;
             fastest_square = f64::max(fastest_square, vx * vx + vy * vy);
         }
@@ -128,12 +120,5 @@ impl Packing {
         for (wall, contacts) in self.walls.iter().zip(&mut self.wall_contacts) {
             *contacts = beside_wall(wall, &self.cylinders, SKIN, contacts);
         }
-    }
-}
-
-pub(super) fn weight(gravity: f64) -> Load {
-    Load {
-        force: [0.0, -gravity],
-        torque: 0.0,
     }
 }

@@ -1,9 +1,9 @@
 //! Forces of all contacts.
 
-use super::bodies::{Packing, weight};
+use super::bodies::Packing;
 use super::pairs::UNSTRETCHED;
-use super::walls::{NO_FORCE, overlap};
-use crate::dem::contact::{Contact, ContactModel, along, tangential};
+use crate::dem::contact::{Contact, ContactForce, ContactModel};
+use crate::dem::contact_state::Touch;
 use crate::dem::scene::Load;
 
 impl Packing {
@@ -23,7 +23,7 @@ impl Packing {
             pairs,
             ..
         } = self;
-        let weight = weight(self.gravity);
+        let weight = Load::weight(self.gravity);
         let mut start = 0;
         for (first, &end) in pairs.ends.iter().enumerate() {
             let end = end as usize;
@@ -32,31 +32,19 @@ impl Packing {
             let seconds = pairs.seconds[start..end].iter();
             for (&second, memory) in seconds.zip(&mut pairs.memories[start..end]) {
                 let j = &cylinders[second as usize];
-                let dx = i.position[0] - j.position[0];
-                let dy = i.position[1] - j.position[1];
-                let square = dx * dx + dy * dy;
+                let apart = [i.position[0] - j.position[0], i.position[1] - j.position[1]];
+                let square = apart[0] * apart[0] + apart[1] * apart[1];
                 if square >= 4.0 {
                     *memory = UNSTRETCHED;
                     continue;
                 }
-                let distance = square.sqrt();
-                let normal = [dx / distance, dy / distance];
-                let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
-                let contact = Contact {
-                    normal,
-                    overlap: 2.0 - distance,
-                    separation_speed: along(normal, velocity),
-                    sliding_speed: tangential(normal, velocity),
-                    spin: i.spin + j.spin,
-                    friction: material.cylinder_friction,
-                    arms: material.arms.pair,
-                    time_step: self.time_step,
-                };
-                let force = material.law.evaluate(&contact, memory);
-                let [fx, fy] = force.in_the_plane(normal);
-                let torque = -(force.arm * force.tangential);
-                add(&mut load, [fx, fy], torque);
-                add(&mut loads[second as usize], [-fx, -fy], torque);
+                let friction = material.cylinder_friction;
+                let contact = Contact::of_pair([i, j], (apart, square), friction, self.time_step);
+                let exerted = material.law.evaluate(&contact, memory);
+                let force = exerted.in_the_plane(contact.normal);
+                let torque = -(exerted.arm * exerted.tangential);
+                load.add(Touch::Everywhere, force, torque);
+                loads[second as usize].add(Touch::Everywhere, force.map(|part| -part), torque);
             }
             loads[first] = load;
             start = end;
@@ -67,32 +55,17 @@ impl Packing {
         let plane = &self.walls[wall];
         for state in &mut self.wall_contacts[wall] {
             let body = &self.cylinders[state.cylinder as usize];
-            let overlap = overlap(plane, body);
+            let overlap = plane.overlap(body.position);
             if overlap <= 0.0 {
                 state.memory = UNSTRETCHED;
-                state.force = NO_FORCE;
+                state.force = ContactForce::none(0.0);
                 continue;
             }
-            let contact = Contact {
-                normal: plane.facing.normal(overlap),
-                overlap,
-                separation_speed: plane.facing.along(body.velocity) - plane.speed,
-                sliding_speed: plane.facing.tangential(body.velocity),
-                spin: body.spin,
-                friction: plane.friction,
-                arms: self.material.arms.floor,
-                time_step: self.time_step,
-            };
+            let contact = Contact::with_wall(body, plane, overlap, self.time_step);
             state.force = self.material.law.evaluate(&contact, &mut state.memory);
             let force = plane.facing.in_the_plane(&state.force);
             let torque = -(state.force.arm * state.force.tangential);
-            add(&mut self.loads[state.cylinder as usize], force, torque);
+            self.loads[state.cylinder as usize].add(Touch::Everywhere, force, torque);
         }
     }
-}
-
-fn add(load: &mut Load, force: [f64; 2], torque: f64) {
-    load.force[0] += force[0];
-    load.force[1] += force[1];
-    load.torque += torque;
 }

@@ -13,12 +13,6 @@ pub(super) struct WallContact {
     pub force: ContactForce<f64>,
 }
 
-pub(super) const NO_FORCE: ContactForce<f64> = ContactForce {
-    normal: 0.0,
-    tangential: 0.0,
-    arm: 0.0,
-};
-
 /// The cylinders whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
 /// keep spring and force.
 pub(super) fn beside_wall(
@@ -31,18 +25,13 @@ pub(super) fn beside_wall(
     let mut contacts = Vec::new();
     for (cylinder, body) in (0..).zip(cylinders) {
         let old = known.next_if(|contact| contact.cylinder == cylinder);
-        if -overlap(wall, body) < gap {
+        if -wall.overlap(body.position) < gap {
             contacts.push(old.unwrap_or(WallContact {
                 cylinder,
                 memory: UNSTRETCHED,
-                force: NO_FORCE,
+                force: ContactForce::none(0.0),
             }));
         }
     }
     contacts
-}
-
-/// Overlap of `body` with `wall`.
-pub(super) fn overlap(wall: &PlaneWall, body: &Cylinder) -> f64 {
-    1.0 - (wall.facing.along(body.position) - wall.offset)
 }

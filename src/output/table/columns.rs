@@ -2,7 +2,7 @@
 
 use super::{DataTable, Value};
 use crate::code::Code;
-use crate::model::{Arms, Stack};
+use crate::model::{ContactConvention, Stack};
 use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 use serde::Serialize;
@@ -201,8 +201,12 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means("stiffness ratio κ = k_n/k_t")
     }
 
-    /// The arms of a contact convention.
-    pub(crate) fn arms(self, arms: impl Fn(&R) -> Arms + Copy + 'a) -> Self {
+    /// The part of a contact convention that moves the quasi-static limit.
+    pub(crate) fn convention(
+        self,
+        convention: impl Fn(&R) -> ContactConvention + Copy + 'a,
+    ) -> Self {
+        let arms = move |row: &R| convention(row).arms;
         let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
         let floor = "the same of cylinder–wall contacts";
         let kinematic = "the same of the surface velocity";

@@ -120,7 +120,7 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
 }
 
 fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
-    let limit = quasistatic_limit(&case.stack, &case.convention.arms);
+    let limit = quasistatic_limit(&case.stack, &case.convention);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     ConvergencePoint {
         code,

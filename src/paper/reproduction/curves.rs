@@ -1,7 +1,7 @@
 //! Curves of theory over the whole range of the figures.
 
 use crate::code::Code;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 
@@ -33,7 +33,7 @@ pub struct TheoryPoint {
 
 impl TheoryPoint {
     fn new(mu: f64, stiffness: f64) -> Self {
-        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &Arms::PAPER);
+        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
         Self {
             mu,
             stiffness,
@@ -129,8 +129,8 @@ fn model_form() -> Vec<ModelFormPoint> {
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {
                 let stack = Stack::paper(mu, stiffness);
-                let own = quasistatic_limit(&stack, &convention.arms);
-                let paper = quasistatic_limit(&stack, &Arms::PAPER);
+                let own = quasistatic_limit(&stack, &convention);
+                let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
                     code,

@@ -198,7 +198,7 @@ impl Measured {
 /// The run of `stack` with a given wall speed; `None` where nothing yields.
 fn case_at_speed(code: Code, stack: Stack, wall_speed: f64, time_step: f64) -> Option<Case> {
     let convention = code.convention();
-    let limit = quasistatic_limit(&stack, &convention.arms);
+    let limit = quasistatic_limit(&stack, &convention);
     Some(Case {
         stack,
         convention,

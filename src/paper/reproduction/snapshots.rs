@@ -3,7 +3,7 @@
 use super::SCALING_FRICTIONS;
 use crate::code::{Code, Interrupt};
 use crate::dem::compress_stack_into_frames;
-use crate::model::{Arms, Case, Stack};
+use crate::model::{Case, ContactConvention, Stack};
 use crate::series::{Frames, SeriesError};
 use crate::study::yield_force::planned_protocol;
 use crate::theory::quasistatic_limit;
@@ -28,7 +28,7 @@ pub struct Snapshots {
 /// If the series is invalid, which would be an error of the native DEM.
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
-    let limit = quasistatic_limit(&stack, &Arms::PAPER);
+    let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
     let convention = Code::NATIVE.convention();
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
     let protocol = protocol.expect("a stack that yields is planned");

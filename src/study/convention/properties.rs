@@ -24,14 +24,14 @@ pub fn normal_properties(
     pull: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
-    let convention = &test.convention;
-    let pulls = match convention.tensile_force {
+    let declared = test.convention.law(test.stiffness_ratio);
+    let pulls = match test.convention.tensile_force {
         TensileForce::MayPull => 1.0,
         TensileForce::NeverPulls => 0.0,
     };
     let rows = [
-        ("normal_stiffness", law.stiffness, 1.0),
-        ("normal_damping", law.damping, convention.damping(1.0)),
+        ("normal_stiffness", law.stiffness, declared.normal_stiffness),
+        ("normal_damping", law.damping, declared.damping_normal),
         ("overlap_lead", law.overlap_lead, 0.0),
         ("damping_velocity_lag", law.velocity_lag, 0.5),
         ("pull", pull, pulls),
@@ -46,8 +46,8 @@ pub fn tangential_properties(
     test: &ContactTest,
 ) -> Vec<Property> {
     let convention = &test.convention;
-    let stiffness = test.tangential_stiffness();
-    let damping = convention.damping(stiffness);
+    let declared = convention.law(test.stiffness_ratio);
+    let (stiffness, damping) = (declared.tangential_stiffness, declared.damping_tangential);
     let arms = match kind {
         ContactKind::Pair => convention.arms.pair,
         ContactKind::Floor | ContactKind::Wall => convention.arms.floor,

@@ -3,7 +3,7 @@
 use super::loading::loading;
 use crate::code::Code;
 use crate::dem::{EventRun, Loading, Observation, Until};
-use crate::model::Stack;
+use crate::model::{ContactConvention, Stack};
 use crate::runs::Workload;
 use crate::series::{Estimate, YieldEstimates};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
@@ -141,7 +141,8 @@ fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
     let middle = at_speed(SPEEDS[MIDDLE_RUN]);
     std::array::from_fn(|run| match run {
         COARSE_TIME_STEP_RUN => Loading {
-            time_step: (2.0 * middle.time_step).min(stack.longest_time_step()),
+            time_step: (2.0 * middle.time_step)
+                .min(stack.longest_time_step(&ContactConvention::PAPER)),
             ..middle
         },
         SHORT_RAMP_RUN => Loading {

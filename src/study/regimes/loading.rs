@@ -1,7 +1,7 @@
 //! How slowly stacks are loaded.
 
 use crate::dem::Loading;
-use crate::model::Stack;
+use crate::model::{ContactConvention, Stack};
 use crate::theory::CriticalState;
 
 /// Relative growth of gravity per unit time. Inertia shifts the ratios of forces by about its square.
@@ -28,6 +28,6 @@ pub(super) fn loading(
         gravity_rate: GRAVITY_RATE,
         wall_speed: speed * travel.min(overlap),
         wall_travel: further * travel + (further - 1.0) * overlap,
-        time_step: TIME_STEP.min(stack.longest_time_step()),
+        time_step: TIME_STEP.min(stack.longest_time_step(&ContactConvention::PAPER)),
     }
 }

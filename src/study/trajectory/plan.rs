@@ -129,7 +129,7 @@ fn twin_runs(twin: Twin, cases: Vec<Case>) -> Option<TwinRuns> {
 
 /// One protocol per time step; none where nothing yields.
 fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
-    let limit = quasistatic_limit(stack, &convention.arms);
+    let limit = quasistatic_limit(stack, convention);
     let Some(travel) = limit.yield_force.and(limit.wall_travel) else {
         return Vec::new();
     };

@@ -4,9 +4,7 @@ use super::extrapolate::{Extrapolation, extrapolate};
 use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
-use crate::model::{
-    Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack,
-};
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use thiserror::Error;
@@ -152,8 +150,8 @@ fn planned(
     convention: ContactConvention,
     method: Method,
 ) -> Measurement {
-    let limit = quasistatic_limit(stack, &convention.arms);
-    let paper = quasistatic_limit(stack, &Arms::PAPER);
+    let limit = quasistatic_limit(stack, &convention);
+    let paper = quasistatic_limit(stack, &ContactConvention::PAPER);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
@@ -304,7 +302,7 @@ fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(
             floor_friction,
             ..*stack
         };
-        let limit = quasistatic_limit(&stack, &convention.arms);
+        let limit = quasistatic_limit(&stack, convention);
         limit.event == Event::FloorSlip && limit.yield_force.is_some()
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();

@@ -2,13 +2,15 @@
 
 use super::super::regimes::CLOSING_STIFFNESS_RATIO;
 use super::*;
+use crate::model::Arms;
 
 fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> FollowedPath {
     let stack = Stack {
         stiffness_ratio,
         ..Stack::paper(0.3, stiffness)
     };
-    followed_path(&stack, &Arms::reciprocal(-0.5, -0.5), bottom)
+    let convention = ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5));
+    followed_path(&stack, &convention, bottom)
 }
 
 #[test]

@@ -24,7 +24,7 @@ impl fmt::Display for LoadingPhase {
 }
 
 /// An event on the path, and the state in which it happens.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CriticalState {
     /// The event.
     pub event: Event,
@@ -33,7 +33,6 @@ pub struct CriticalState {
     /// F = f/(m g); 0 under own weight.
     pub force: f64,
     /// T = tan(ψ/2).
-    #[serde(rename = "T")]
     pub tangent: f64,
     /// z, overlap of the floor contacts, in r.
     pub floor_overlap: f64,

@@ -4,13 +4,12 @@ use super::super::events::{Event, Path, PathPoint, locate};
 use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
 use super::critical_state::{CriticalState, LoadingPhase};
-use crate::model::{Arms, Stack};
+use crate::model::{ContactConvention, Stack};
 
 /// The path of equilibria, with c > 0 where the bottom cylinders touch. Floor friction and cylinder
 /// friction decide how far a stack gets on it, and nothing else.
 pub struct EquilibriumPath {
     path: PathKind,
-    closes: bool,
     epsilon: f64,
     /// The parameter at which the top wall reaches the bottom cylinders.
     wall_contact: Option<f64>,
@@ -27,17 +26,15 @@ impl EquilibriumPath {
     /// The path that `stack` takes, whatever its frictions.
     pub fn new(stack: &Stack) -> Self {
         let open = ClosedForm::whole(stack);
-        let closes = locate(&open, Event::ContactCloses, stack).is_some();
-        let path = if closes {
-            let followed = followed_path(stack, &Arms::PAPER, BottomContact::Followed);
-            PathKind::Closing(followed)
+        let path = if locate(&open, Event::ContactCloses, stack).is_some() {
+            let convention = ContactConvention::PAPER;
+            PathKind::Closing(followed_path(stack, &convention, BottomContact::Followed))
         } else {
             PathKind::Open(open)
         };
         let wall_contact = locate(path.as_path(), Event::WallContact, stack);
         Self {
             path,
-            closes,
             epsilon: stack.epsilon(),
             wall_contact,
         }
@@ -45,7 +42,7 @@ impl EquilibriumPath {
 
     /// Whether contact 2–3 closes on the way.
     pub fn closes(&self) -> bool {
-        self.closes
+        matches!(self.path, PathKind::Closing(_))
     }
 
     /// b/a when the stack rests under its own weight: the cylinder friction that this takes.
@@ -131,11 +128,7 @@ impl EquilibriumPath {
             force: point.wall_force / self.epsilon,
             tangent: point.tangent,
             floor_overlap: point.floor_overlap,
-            bottom_force: if self.closes {
-                (-2.0 * point.outward).max(0.0)
-            } else {
-                0.0
-            },
+            bottom_force: point.bottom_force,
             wall_travel: match stage {
                 LoadingPhase::OwnWeight => 0.0,
                 LoadingPhase::Wall => self.settled_height() - point.wall_height(),
@@ -182,10 +175,6 @@ mod tests {
             stiffness_ratio,
             ..Stack::paper(0.3, 1e2)
         })
-    }
-
-    fn bottom_force(point: &PathPoint) -> f64 {
-        (-2.0 * point.outward).max(0.0)
     }
 
     /// The state of `path` at T.
@@ -238,7 +227,7 @@ mod tests {
         for parameter in stations.into_iter().skip(1) {
             let point = path.point(parameter);
             let angle = 2.0 * point.tangent.atan();
-            let c = bottom_force(&point);
+            let c = (-2.0 * point.outward).max(0.0);
             let shear = point.pair_overlap * point.tangent + c / (1.0 + angle.cos());
             let scale = point.pair_overlap;
             assert!((point.pair_ratio * point.pair_overlap - shear).abs() < 1e-10 * scale);

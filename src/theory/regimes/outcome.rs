@@ -73,7 +73,7 @@ impl fmt::Display for Regime {
 }
 
 /// Outcome of loading a stack until equilibrium ends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadingOutcome {
     /// The first event.
     pub first: CriticalState,

@@ -23,6 +23,14 @@ pub struct ElasticRoot {
     pub theta: f64,
 }
 
+impl ElasticRoot {
+    /// The assumption behind the equation that the root contradicts.
+    pub(crate) fn caution(&self) -> Option<&'static str> {
+        let caution = "y < 0: the root contradicts the assumption c = 0 behind the equation";
+        (self.y < 0.0).then_some(caution)
+    }
+}
+
 /// Largest root z ≥ 3 ε r/2 of the elastic equation, with x, y and θ recovered from it; `None` if there
 /// is none.
 ///

@@ -1,10 +1,9 @@
 //! Rigid cylinders (paper, Eq. 4).
 
 use crate::model::CRITICAL_FRICTION;
-use serde::Serialize;
 
 /// Yield force of rigid cylinders.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidYield {
     /// f₀/(m g); absent where no force makes the stack slide.
     pub yield_force: Option<f64>,

@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::output::DataTable;
 use crate::output::number::{digits, percent};
 use crate::output::table::Columns;
@@ -147,26 +147,27 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| (stack, Predictions::new(&stack, &Arms::PAPER)));
-    let mut columns = Columns::<(Stack, Predictions)>::new(
+    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::PAPER));
+    let mut columns = Columns::<Predictions>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",
         "`tristack report` (tables/points.csv)",
     )
-    .stack(|(stack, _)| *stack)
-    .number("perturbation", "m g", |(_, theory)| {
+    .stack(|theory| theory.stack)
+    .number("perturbation", "m g", |theory| {
         theory.perturbation.yield_force
     })
     .means("singular perturbation")
     .shown_as("perturbation", digits::<7>)
-    .number("quasistatic", "m g", |(_, theory)| {
+    .number("quasistatic", "m g", |theory| {
         theory.quasistatic.yield_force
     })
     .means("exact quasi-static limit under the paper's convention")
     .shown_as("exact limit", digits::<7>);
     for code in Code::all() {
         columns = columns
-            .number(code.as_str(), "m g", move |(stack, _)| {
+            .number(code.as_str(), "m g", move |theory| {
+                let stack = &theory.stack;
                 let mut rows = judgements.iter();
                 let own = rows.find(|row| {
                     let place = (row.mu(), row.stiffness());

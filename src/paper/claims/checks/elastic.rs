@@ -1,7 +1,7 @@
 //! Eqs. (6) to (10) and (12), and the statements around them.
 
 use super::Check;
-use crate::model::{Arms, CRITICAL_FRICTION, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, list, relative, worst};
 use crate::paper::claims::truth::{
     NORMAL_STIFFNESS, RADIUS, RATIOS, YieldState, elastic_displacement, figure_loads, pairs,
@@ -111,7 +111,7 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("small-displacements", |_| {
         let displacements = [0.2, 0.3, 0.5].map(|mu| {
-            let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &Arms::PAPER);
+            let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &ContactConvention::PAPER);
             (mu, limit.z.unwrap_or(f64::NAN))
         });
         let listed = displacements.map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"));
@@ -166,9 +166,9 @@ pub(crate) const CHECKS: &[Check] = &[
         let half_way = Arms::reciprocal(-0.5, -1.0);
         let change = |mu: f64, stiffness: f64| {
             let stack = Stack::paper(mu, stiffness);
-            let limit = |arms| quasistatic_limit(&stack, arms).floor_slip_force;
-            let force = |arms| limit(arms).unwrap_or(f64::NAN);
-            force(&half_way) / force(&Arms::PAPER) - 1.0
+            let limit = |arms| quasistatic_limit(&stack, &ContactConvention::with_arms(arms));
+            let force = |arms| limit(arms).floor_slip_force.unwrap_or(f64::NAN);
+            force(half_way) / force(Arms::PAPER) - 1.0
         };
         let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness));
         let [soft, middle, stiff] = changes.map(|change| 100.0 * change);

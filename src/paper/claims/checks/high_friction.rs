@@ -1,7 +1,7 @@
 //! Appendix C: the limits of the analysis, by the elastic equation, the exact limit and its events.
 
 use super::Check;
-use crate::model::{Arms, Stack};
+use crate::model::{ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, list, worst};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::pairs;
@@ -51,8 +51,13 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("wall-contact", |paper| {
         let closed = wall_contact_friction(paper, paper.lowest_stiffness);
-        let side =
-            |mu: f64| followed_limit(&stack(paper, mu, paper.lowest_stiffness), &Arms::PAPER).event;
+        let side = |mu: f64| {
+            followed_limit(
+                &stack(paper, mu, paper.lowest_stiffness),
+                &ContactConvention::PAPER,
+            )
+            .event
+        };
         let confirmed =
             side(closed - 1e-4) == Event::FloorSlip && side(closed + 1e-4) == Event::WallContact;
         let evidence = format!(

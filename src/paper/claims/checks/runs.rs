@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::code::Code;
-use crate::model::CRITICAL_FRICTION;
+use crate::model::{CRITICAL_FRICTION, ContactConvention};
 use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
 use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction, exponent_at};
 use crate::study::yield_force::Judgement;
@@ -80,7 +80,10 @@ pub(crate) const CHECKS: &[Check] = &[
         Ok(Finding::new(change, 1e-4, evidence))
     }),
     Check::theory("leapfrog", |paper| {
-        let ratio = paper.time_step / paper.stack(0.2, 1e4).longest_time_step();
+        let ratio = paper.time_step
+            / paper
+                .stack(0.2, 1e4)
+                .longest_time_step(&ContactConvention::PAPER);
         let evidence = format!(
             "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
             paper.time_step

@@ -94,15 +94,36 @@ pub trait Path {
 
 /// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
 pub(crate) fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
-    let margin = |parameter: f64| path.point(parameter).margin(event, stack);
+    let [located] = locate_each(path, [event], stack);
+    located
+}
+
+/// The same for several events, with one search of the stations, which takes most of the time.
+pub(super) fn locate_each<const N: usize>(
+    path: &(impl Path + ?Sized),
+    events: [Event; N],
+    stack: &Stack,
+) -> [Option<f64>; N] {
     let stations = path.stations();
-    let index = stations
-        .iter()
-        .position(|&parameter| margin(parameter) < 0.0)?;
-    if index == 0 {
-        return Some(0.0);
+    let mut passed = [None; N];
+    for (index, &parameter) in stations.iter().enumerate() {
+        let point = path.point(parameter);
+        for (passed, event) in passed.iter_mut().zip(events) {
+            if passed.is_none() && point.margin(event, stack) < 0.0 {
+                *passed = Some(index);
+            }
+        }
+        if passed.iter().all(Option::is_some) {
+            break;
+        }
     }
-    bracketed_root(margin, stations[index - 1], stations[index])
+    std::array::from_fn(|event| match passed[event]? {
+        0 => Some(0.0),
+        index => {
+            let margin = |parameter: f64| path.point(parameter).margin(events[event], stack);
+            bracketed_root(margin, stations[index - 1], stations[index])
+        }
+    })
 }
 
 /// y = ρ sin ψ − 1 at an angle `turned` beyond 30°, free of cancellation for small angles (docs/theory.md,

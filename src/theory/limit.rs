@@ -1,6 +1,6 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
-use super::events::{Event, Path, PathPoint, locate};
+use super::events::{Event, Path, PathPoint, locate_each};
 use crate::model::Stack;
 
 /// The quasi-static limit of a stack.
@@ -57,8 +57,8 @@ fn first_event(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Event {
         Event::ContactCloses,
         Event::WallContact,
     ];
-    let located = others.map(|event| (locate(path, event, stack), event));
-    let candidates = located.into_iter().chain([(slip, Event::FloorSlip)]);
+    let located = locate_each(path, others, stack).into_iter().zip(others);
+    let candidates = located.chain([(slip, Event::FloorSlip)]);
     candidates
         .filter_map(|(parameter, event)| parameter.map(|parameter| (parameter, event)))
         .min_by(|left, right| left.0.total_cmp(&right.0))

@@ -7,6 +7,8 @@ use crate::code::Code;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Event, Limit, quasistatic_limit};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 /// Time step of all runs but one.
@@ -150,8 +152,8 @@ fn planned(
     convention: ContactConvention,
     method: Method,
 ) -> Measurement {
-    let limit = quasistatic_limit(stack, &convention);
-    let paper = quasistatic_limit(stack, &ContactConvention::PAPER);
+    let limit = known_limit(stack, &convention);
+    let paper = known_limit(stack, &ContactConvention::PAPER);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
@@ -179,6 +181,20 @@ fn planned(
         limit,
         model_form,
     }
+}
+
+/// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and
+/// preparations share it.
+fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
+    static KNOWN: Mutex<BTreeMap<String, Limit>> = Mutex::new(BTreeMap::new());
+    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = format!("{stack:?} {convention:?}");
+    if let Some(limit) = known().get(&key) {
+        return limit.clone();
+    }
+    let limit = quasistatic_limit(stack, convention);
+    known().insert(key, limit.clone());
+    limit
 }
 
 fn planned_protocols(

@@ -8,6 +8,7 @@ use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use tristack::model::sha256_hex;
 
 const SWEEP: &str = "sweep --code native --mu 0.3 --stiffness 100 --format csv";
 
@@ -64,6 +65,38 @@ fn a_damaged_entry_is_put_aside_and_kept() {
     let kept = fs::read(aside.join("series.csv")).expect("a series");
     assert_eq!(kept, right[1..]);
     assert_eq!(fs::read(path).expect("a series"), right);
+}
+
+fn summary_file(entry: &Path) -> PathBuf {
+    let files = fs::read_dir(entry).expect("an entry");
+    let mut files = files.map(|file| file.expect("a file").path());
+    let is_summary = |path: &PathBuf| path.to_string_lossy().contains("/summary-");
+    files.find(is_summary).expect("a summary")
+}
+
+#[test]
+fn a_summary_stands_in_for_the_series_that_it_was_made_of_and_for_no_other() {
+    let bench = Bench::without_codes();
+    let first = standard_output(&mut bench.tristack(SWEEP));
+    let entries = entries(&bench);
+    let [file, other] = [0, 1].map(|entry| summary_file(&entries[entry]));
+    let right = fs::read_to_string(&file).expect("a summary");
+    let other = fs::read_to_string(other).expect("a summary");
+    let flipped = right.replacen("force\":1", "force\":2", 1);
+    assert_ne!(flipped, right);
+    for wrong in [&flipped, &other, &String::new()] {
+        fs::write(&file, wrong).expect("it can be written");
+        assert_eq!(standard_output(&mut bench.tristack(SWEEP)), first);
+        assert_eq!(fs::read_to_string(&file).expect("a summary"), right);
+    }
+    fs::remove_file(&file).expect("it is there");
+    assert_eq!(standard_output(&mut bench.tristack(SWEEP)), first);
+    assert_eq!(fs::read_to_string(&file).expect("a summary"), right);
+    // One that is sealed is believed: the series is not read.
+    let (_, content) = flipped.split_once('\n').expect("a digest");
+    let sealed = format!("{}\n{content}", sha256_hex(content.as_bytes()));
+    fs::write(&file, sealed).expect("it can be written");
+    assert_ne!(standard_output(&mut bench.tristack(SWEEP)), first);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use crate::files::{
 use crate::model::Case;
 use crate::series::Series;
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 
@@ -47,17 +48,31 @@ pub(super) fn read_summary(
 ) -> Result<Option<RunSummary>, FileError> {
     let path = directory.join(summary_file());
     if let Ok(Some(kept)) = read_sealed(&path)
-        && let Ok(summary) = parse_json(&kept, &path)
+        && let Ok(kept) = parse_json::<KeptSummary>(&kept, &path)
+        && read(&directory.join(CHECKSUMS))? == kept.checksums.as_bytes()
     {
-        checked_files(directory)?(SERIES)?;
-        return Ok(Some(summary));
+        let checked = checked_files(directory)?;
+        for file in [CASE, SERIES, PROVENANCE] {
+            checked(file)?;
+        }
+        return Ok(Some(kept.summary));
     }
-    let summary = read_entry(directory)?.map(RunSummary::new);
-    if let Some(summary) = &summary {
-        // Without it the next reader is slower.
-        let _ = write_sealed(drafts, &path, &summary_json(summary));
-    }
-    Ok(summary)
+    let Some(run) = read_entry(directory)? else {
+        return Ok(None);
+    };
+    let checksums = read(&directory.join(CHECKSUMS))?;
+    let summary = RunSummary::new(run);
+    // Without it the next reader is slower.
+    let _ = write_sealed(drafts, &path, &summary_json(&summary, &checksums));
+    Ok(Some(summary))
+}
+
+/// A summary as it is kept.
+#[derive(Serialize, Deserialize)]
+struct KeptSummary {
+    /// The digests of the files that it was made of.
+    checksums: String,
+    summary: RunSummary,
 }
 
 /// The file with the summary. It belongs to the sources that made it.
@@ -65,8 +80,12 @@ fn summary_file() -> String {
     format!("summary-{}.json", &ESTIMATOR[..16])
 }
 
-fn summary_json(summary: &RunSummary) -> Vec<u8> {
-    serde_json::to_vec(summary).expect("plain data has a JSON form")
+fn summary_json(summary: &RunSummary, checksums: &[u8]) -> Vec<u8> {
+    let kept = KeptSummary {
+        checksums: String::from_utf8_lossy(checksums).into_owned(),
+        summary: summary.clone(),
+    };
+    serde_json::to_vec(&kept).expect("plain data has a JSON form")
 }
 
 /// Reads files of the entry in `directory` by their names, and refuses those that do not have the digest with which
@@ -105,13 +124,13 @@ fn write_files(directory: &Path, run: &Run) -> Result<(), FileError> {
         (SERIES, run.series.to_csv()),
         (PROVENANCE, run.provenance.to_json().into_bytes()),
     ];
-    let summary = summary_json(&RunSummary::new(run.clone()));
-    write_synced(&directory.join(summary_file()), &seal(&summary))?;
     for (name, content) in &files {
         write_synced(&directory.join(name), content)?;
     }
     let sums = checksums(files.iter().map(|(name, content)| (name, content)));
     write_synced(&directory.join(CHECKSUMS), sums.as_bytes())?;
+    let summary = summary_json(&RunSummary::new(run.clone()), sums.as_bytes());
+    write_synced(&directory.join(summary_file()), &seal(&summary))?;
     sync_directory(directory)
 }
 

@@ -82,8 +82,8 @@ fn a_summary_stands_in_for_the_series_that_it_was_made_of_and_for_no_other() {
     let [file, other] = [0, 1].map(|entry| summary_file(&entries[entry]));
     let right = fs::read_to_string(&file).expect("a summary");
     let other = fs::read_to_string(other).expect("a summary");
-    let flipped = right.replacen("force\":1", "force\":2", 1);
-    assert_ne!(flipped, right);
+    let (before, after) = right.split_once("\"force\":").expect("a force");
+    let flipped = format!("{before}\"force\":1{after}");
     for wrong in [&flipped, &other, &String::new()] {
         fs::write(&file, wrong).expect("it can be written");
         assert_eq!(standard_output(&mut bench.tristack(SWEEP)), first);

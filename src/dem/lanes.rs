@@ -14,11 +14,6 @@ pub trait InstructionSet: Simd {
     type Alignment: Copy + Debug;
 }
 
-/// A type aligned like two doubles.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(16))]
-pub struct AlignedLikeTwo;
-
 /// A type aligned like four doubles.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
@@ -28,11 +23,6 @@ pub struct AlignedLikeFour;
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub struct AlignedLikeEight;
-
-/// Two doubles, for machines without a known instruction set.
-impl InstructionSet for pulp::Scalar128b {
-    type Alignment = AlignedLikeTwo;
-}
 
 #[cfg(target_arch = "x86_64")]
 impl InstructionSet for pulp::x86::V3 {
@@ -176,5 +166,115 @@ impl<W: Work> WithSimd for Vectorized<W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         self.0.carry_out();
+    }
+}
+
+/// Two doubles, for machines without a known instruction set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair([f64; 2]);
+
+macro_rules! pair_operators {
+    ($($operator:ident, $method:ident, $sign:tt;)*) => {$(
+        impl $operator for Pair {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self([self.0[0] $sign other.0[0], self.0[1] $sign other.0[1]])
+            }
+        }
+    )*};
+}
+
+pair_operators! {
+    Add, add, +;
+    Sub, sub, -;
+    Mul, mul, *;
+    Div, div, /;
+}
+
+impl Neg for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self([-self.0[0], -self.0[1]])
+    }
+}
+
+impl AddAssign for Pair {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl MulAssign for Pair {
+    #[inline(always)]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl Pair {
+    /// `value` in both lanes.
+    #[inline(always)]
+    pub fn splat(value: f64) -> Self {
+        Self([value; 2])
+    }
+}
+
+impl Real for Pair {
+    type Mask = [bool; 2];
+
+    const LANES: usize = 2;
+
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::splat(value)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self([self.0[0].sqrt(), self.0[1].sqrt()])
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self([self.0[0].abs(), self.0[1].abs()])
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> [bool; 2] {
+        [self.0[0] < other.0[0], self.0[1] < other.0[1]]
+    }
+
+    #[inline(always)]
+    fn select(mask: [bool; 2], yes: Self, no: Self) -> Self {
+        let pick = |lane: usize| if mask[lane] { yes.0[lane] } else { no.0[lane] };
+        Self([pick(0), pick(1)])
+    }
+
+    #[inline(always)]
+    fn any(self, mask: [bool; 2]) -> bool {
+        mask[0] | mask[1]
+    }
+
+    #[inline(always)]
+    fn all(self, mask: [bool; 2]) -> bool {
+        mask[0] & mask[1]
+    }
+
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    fn set_lane(&mut self, lane: usize, other: Self) {
+        self.0[lane] = other.0[lane];
+    }
+
+    #[inline(always)]
+    fn vectorize(self, work: impl Work) {
+        work.carry_out();
     }
 }

@@ -2,13 +2,13 @@
 
 use super::contact::SpringDashpot;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Pair};
 use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
 use crate::model::{Arms, Case, ContactConvention, Preparation};
 use crate::series::{DropWatch, Sample, Series, SeriesError};
-use pulp::{Scalar128b, Simd};
+use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
 /// A run that is not complete yet.
@@ -137,7 +137,7 @@ impl LaneWidth {
     pub fn lanes(self) -> usize {
         match self.0 {
             Instructions::One => f64::LANES,
-            Instructions::Two => Scalar128b::F64_LANES,
+            Instructions::Two => Pair::LANES,
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(_) => pulp::x86::V3::F64_LANES,
             #[cfg(target_arch = "x86_64")]
@@ -152,7 +152,7 @@ impl LaneWidth {
     pub fn compress_stacks(self, queue: &mut impl RunQueue) {
         match self.0 {
             Instructions::One => compress(0.0, queue),
-            Instructions::Two => compress(Lanes::splat(Scalar128b, 0.0), queue),
+            Instructions::Two => compress(Pair::splat(0.0), queue),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(simd) => compress(Lanes::splat(simd, 0.0), queue),
             #[cfg(target_arch = "x86_64")]

@@ -311,7 +311,8 @@ fn told(output: &Output) -> String {
 /// Number of runs that a program said it has finished, less those that it could not keep.
 pub fn finished_runs(output: &Output) -> usize {
     let message = String::from_utf8_lossy(&output.stderr);
-    let finished = message.lines().filter(|line| line.starts_with('['));
+    let is_run = |line: &&str| line.starts_with('[') && !line.contains(": micro-tests");
+    let finished = message.lines().filter(is_run);
     let lost = message.matches("a finished run could not be kept");
     finished.count().saturating_sub(lost.count())
 }

@@ -25,7 +25,8 @@ impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
         }
     }
 
-    /// The force of `contact` where it `touches`; elsewhere it is without force and past.
+    /// The force of `contact` in the lanes where it `touches`; in the others the force is zero and the memory that of a
+    /// new contact.
     #[inline(always)]
     pub(super) fn evaluate<const KEEP: bool, Model: ContactModel<R, Memory = Memory>>(
         &mut self,
@@ -77,7 +78,7 @@ impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.memory.visit(&other.memory, visit);
         self.force.visit(&other.force, visit);
-        // Perhaps; what does not touch is reset in the next step.
+        // The copied lane may be loaded; if it is not, the next step resets it.
         self.loaded = true;
     }
 }

@@ -165,7 +165,7 @@ fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> Co
 
 /// The options of `T`, each by its name.
 pub(super) fn options_of<T: Args>() -> Vec<clap::Id> {
-    let command = T::augment_args(clap::Command::new(""));
+    let command = T::augment_args(clap::Command::default());
     let options = command.get_arguments();
     options.map(|option| option.get_id().clone()).collect()
 }

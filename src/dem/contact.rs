@@ -141,7 +141,7 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n of an overlap Δ and a normal velocity v_n, positive when separating
+    /// h_n = k_n Δ − η_n v_n, with k_n = 1, of an overlap Δ and a normal velocity v_n, positive when separating
     /// (paper, "Numerical results").
     ///
     /// ```
@@ -153,12 +153,7 @@ impl<R: Real> SpringDashpot<R> {
     /// ```
     #[inline(always)]
     pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        let ContactLaw {
-            normal_stiffness: stiffness,
-            damping_normal: damping,
-            ..
-        } = self.law;
-        let force = stiffness * overlap - damping * separation_speed;
+        let force = overlap - self.law.damping_normal * separation_speed;
         match self.tensile_force {
             TensileForce::MayPull => force,
             TensileForce::NeverPulls => {

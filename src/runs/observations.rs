@@ -72,7 +72,7 @@ impl ScheduledTask for EventRun {
         finished: Finished<Observation>,
     ) {
         for (index, run) in runs.iter().enumerate() {
-            finished(index, observe(run, context));
+            finished(index, observe(run, context).map_err(|failure| *failure));
         }
     }
 

@@ -90,14 +90,14 @@ fn while_wanted<T>(
 }
 
 /// The observation of `run`, unless it was stopped.
-pub(crate) fn observe(run: &EventRun, context: &RunContext) -> Result<Observation, Failure> {
+pub(crate) fn observe(run: &EventRun, context: &RunContext) -> Result<Observation, Box<Failure>> {
     let observation = while_wanted(context, |wanted| {
         let observation = run.observe(wanted);
         let message = || "the run did not reach its end within the finite numbers".to_owned();
         let usable = observation.is_usable().then_some(observation);
         usable.ok_or_else(|| SeriesError::Absent { message: message() })
     });
-    observation.map_err(|kind| failure(run, kind))
+    observation.map_err(|kind| Box::new(failure(run, kind)))
 }
 
 /// The cause of an unusable series; `late` is the time limit, if that was exceeded.

@@ -1,6 +1,6 @@
 //! Faults of a code that was to deliver a series.
 
-use super::fault::EngineFault as E;
+use super::fault::CodeFault as E;
 use super::round::{Aftermath, Round};
 use super::workload::address;
 use std::fs;

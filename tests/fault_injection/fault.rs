@@ -7,7 +7,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
     Process(ProcessFault),
-    InstalledCode(EngineFault),
+    Code(CodeFault),
     Store(StoreFault),
     Disk(DiskFault),
 }
@@ -17,15 +17,15 @@ pub enum Fault {
 pub enum ProcessFault {
     Killed,
     KilledTwice,
-    KilledWhileEngineHangs,
+    KilledWhileCodeHangs,
     Interrupted,
     InterruptedTwice,
     Terminated,
     StoppedForAWhile,
-    EngineKilled,
-    EngineStopped,
+    CodeKilled,
+    CodeStopped,
     GuardKilled,
-    EngineReplaced,
+    CodeReplaced,
     ClockJumps,
     TwoAtOnce,
     TwoAtOnceOneKilled,
@@ -33,7 +33,7 @@ pub enum ProcessFault {
 
 /// A fault of a code in place of one of its series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum EngineFault {
+pub enum CodeFault {
     Crashes,
     IsKilledForItsMemory,
     TakesTooMuchMemory,
@@ -79,20 +79,20 @@ pub enum DiskFault {
 impl Fault {
     /// Every fault, the kinds taking turns.
     pub fn all() -> impl Iterator<Item = Self> {
-        use {DiskFault as D, EngineFault as E, ProcessFault as P, StoreFault as S};
+        use {CodeFault as E, DiskFault as D, ProcessFault as P, StoreFault as S};
         let process = [
             P::Killed,
             P::Interrupted,
-            P::EngineKilled,
+            P::CodeKilled,
             P::TwoAtOnce,
             P::KilledTwice,
-            P::KilledWhileEngineHangs,
+            P::KilledWhileCodeHangs,
             P::Terminated,
             P::StoppedForAWhile,
             P::GuardKilled,
             P::InterruptedTwice,
-            P::EngineStopped,
-            P::EngineReplaced,
+            P::CodeStopped,
+            P::CodeReplaced,
             P::TwoAtOnceOneKilled,
             P::ClockJumps,
         ];
@@ -129,7 +129,7 @@ impl Fault {
         ];
         let disk = [D::Full, D::ReadOnly, D::RunsReadOnly];
         let process = process.into_iter().map(Self::Process);
-        let code = code.into_iter().map(Self::InstalledCode);
+        let code = code.into_iter().map(Self::Code);
         let store = store.into_iter().map(Self::Store);
         process
             .chain(code)

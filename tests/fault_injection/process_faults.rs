@@ -21,19 +21,15 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
     match fault {
         ProcessFault::Killed => Ok(kill_times(1, round)),
         ProcessFault::KilledTwice => Ok(kill_times(2, round)),
-        ProcessFault::KilledWhileEngineHangs => kill_while_code_hangs(round),
+        ProcessFault::KilledWhileCodeHangs => kill_while_code_hangs(round),
         ProcessFault::Interrupted => interrupt(Signal::SIGINT, round),
         ProcessFault::Terminated => interrupt(Signal::SIGTERM, round),
         ProcessFault::InterruptedTwice => interrupt_twice(round),
         ProcessFault::StoppedForAWhile => Ok(stop_for_a_while(round)),
-        ProcessFault::EngineKilled => {
-            Ok(signal_others(Process::is_foreign, Signal::SIGKILL, round))
-        }
-        ProcessFault::EngineStopped => {
-            Ok(signal_others(Process::is_foreign, Signal::SIGSTOP, round))
-        }
+        ProcessFault::CodeKilled => Ok(signal_others(Process::is_foreign, Signal::SIGKILL, round)),
+        ProcessFault::CodeStopped => Ok(signal_others(Process::is_foreign, Signal::SIGSTOP, round)),
         ProcessFault::GuardKilled => Ok(signal_others(Process::is_guard, Signal::SIGKILL, round)),
-        ProcessFault::EngineReplaced => Ok(replace_code(round)),
+        ProcessFault::CodeReplaced => Ok(replace_code(round)),
         ProcessFault::ClockJumps => Ok(let_clock_jump(round)),
         ProcessFault::TwoAtOnce => run_two(round, false),
         ProcessFault::TwoAtOnceOneKilled => run_two(round, true),

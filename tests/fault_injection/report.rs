@@ -63,7 +63,7 @@ pub fn commit() -> String {
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 
-/// `InstalledCode(SeriesEmpty)` as "code" and "series empty".
+/// `Code(SeriesEmpty)` as "code" and "series empty".
 fn names(fault: Fault) -> (String, String) {
     let text = format!("{fault:?}");
     let (kind, name) = text.trim_end_matches(')').split_once('(').expect("a kind");

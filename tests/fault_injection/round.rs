@@ -82,7 +82,7 @@ impl<'a> Round<'a> {
         }
         let aftermath = match fault {
             Fault::Process(fault) => process_faults::strike(fault, &mut round),
-            Fault::InstalledCode(fault) => code_faults::strike(fault, &mut round),
+            Fault::Code(fault) => code_faults::strike(fault, &mut round),
             Fault::Store(fault) => store_faults::strike(fault, &mut round),
             Fault::Disk(fault) => disk::strike(fault, &mut round),
         };
@@ -327,12 +327,12 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
     let native = &all.real[0];
     let often_real = random.f64() < 0.4;
     match fault {
-        Fault::InstalledCode(_) | Fault::Process(P::EngineReplaced) => &all.replayed,
+        Fault::Code(_) | Fault::Process(P::CodeReplaced) => &all.replayed,
         // A code that hangs without a time limit must not be waited for.
-        Fault::Process(P::EngineStopped | P::KilledWhileEngineHangs | P::InterruptedTwice) => {
+        Fault::Process(P::CodeStopped | P::KilledWhileCodeHangs | P::InterruptedTwice) => {
             &all.replayed
         }
-        Fault::Process(P::EngineKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
+        Fault::Process(P::CodeKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
             &all.replayed
         }
         Fault::Store(StoreFault::MadeByAnotherProgram) => &all.replayed,

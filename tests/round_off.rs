@@ -13,7 +13,7 @@ fn slip(code: &dyn InstalledCode, stack: &Stack) -> Extrapolation {
     let mut estimates = vec![None; cases.len()];
     code.run(&cases, &context, &mut |index, result| {
         let run = result.expect("it delivers");
-        estimates[index] = Some(YieldEstimates::read(&run.series, stack));
+        estimates[index] = Some(YieldEstimates::read(&run.series, &run.case));
     });
     let estimates: Vec<YieldEstimates> = estimates.into_iter().flatten().collect();
     let steps: Vec<u64> = cases.iter().map(|case| case.total_steps()).collect();

@@ -1,6 +1,6 @@
 //! The actions on a stack during preparation and compression, and their steps.
 
-use crate::model::{Case, PreparationSteps, Schedule, SideWallSteps, smooth_step};
+use crate::model::{Case, PreparationSteps, Protocol, Schedule, SideWallSteps, smooth_step};
 use crate::series::DropWatch;
 
 /// An action before the forces of a step are evaluated.
@@ -30,8 +30,7 @@ pub(super) enum Action {
 pub(super) struct LoadingProgram {
     schedule: Schedule,
     gravity: f64,
-    /// Speed of the wall, at first and later.
-    speeds: [f64; 2],
+    protocol: Protocol,
 }
 
 impl LoadingProgram {
@@ -40,7 +39,7 @@ impl LoadingProgram {
         Self {
             schedule: case.protocol.schedule(),
             gravity: case.stack.epsilon(),
-            speeds: [case.protocol.fast_speed(), case.protocol.wall_speed],
+            protocol: case.protocol,
         }
     }
 
@@ -83,23 +82,19 @@ impl LoadingProgram {
         Some(step.max(start)).filter(|&next| steps > 0 && next <= start + steps)
     }
 
-    fn slower_speed(&self, step: u64) -> f64 {
-        let slowed = smooth_step(step - self.schedule.fast_steps, self.schedule.slowing_steps);
-        let [fast, slow] = self.speeds;
-        fast + (slow - fast) * slowed
-    }
-
     /// Calls `act` for every action at `step`, in order.
     pub(super) fn actions_at(&self, step: u64, act: &mut impl FnMut(Action)) {
         let compression = self.preparation();
         if step == compression {
             act(Action::SetGravity(self.gravity));
-            act(Action::StartTopWall(self.speeds[0]));
+            act(Action::StartTopWall(self.protocol.fast_speed()));
         }
         if step >= compression {
             let done = step - compression;
             if self.slower_from(done) == Some(done) {
-                act(Action::MoveTopWall(self.slower_speed(done)));
+                act(Action::MoveTopWall(
+                    self.protocol.speed_at(&self.schedule, done),
+                ));
             }
             return;
         }

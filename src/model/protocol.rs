@@ -231,6 +231,30 @@ impl Protocol {
         factor * self.wall_speed
     }
 
+    /// Speed of the wall during `step` of the compression, which `schedule` counts.
+    pub(crate) fn speed_at(&self, schedule: &Schedule, step: u64) -> f64 {
+        let fast = self.fast_speed();
+        match step.checked_sub(schedule.fast_steps) {
+            None => fast,
+            Some(_) if schedule.slowing_steps == 0 => self.wall_speed,
+            Some(since) => {
+                let slowed = smooth_step(since, schedule.slowing_steps);
+                fast + (self.wall_speed - fast) * slowed
+            }
+        }
+    }
+
+    /// Distance by which the wall has moved before `step` of the compression.
+    pub(crate) fn travel_at(&self, schedule: &Schedule, step: u64) -> f64 {
+        let fast = step.min(schedule.fast_steps);
+        let slowed = fast + (step - fast).min(schedule.slowing_steps);
+        let slowing = (fast..slowed).map(|step| self.speed_at(schedule, step));
+        let speeds = fast as f64 * self.fast_speed()
+            + slowing.sum::<f64>()
+            + (step - slowed) as f64 * self.wall_speed;
+        speeds * self.time_step
+    }
+
     fn mean_slowing_speed(&self) -> f64 {
         0.5 * (self.fast_speed() + self.wall_speed)
     }

@@ -59,14 +59,18 @@ impl Stack {
         1.0 / self.stiffness
     }
 
+    /// Bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m at a
+    /// stiffness k (largest eigenvalue, computed for κ from 1e-3 to 100).
+    pub(crate) fn highest_frequency(&self, convention: &ContactConvention) -> f64 {
+        let stiffness = convention.law(self.stiffness_ratio).highest_stiffness();
+        (stiffness * (4.0 + 12.0 / self.stiffness_ratio)).sqrt()
+    }
+
     /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the
-    /// stiffest mode. For the stack with all its contacts ω² ≤ (4 + 12/κ) k/m at a stiffness k (largest
-    /// eigenvalue, computed for κ from 1e-3 to 100).
+    /// stiffest mode.
     pub fn longest_time_step(&self, convention: &ContactConvention) -> f64 {
         const SAFETY: f64 = 0.6;
-        let stiffness = convention.law(self.stiffness_ratio).highest_stiffness();
-        let fastest = (stiffness * (4.0 + 12.0 / self.stiffness_ratio)).sqrt();
-        SAFETY * 2.0 / fastest
+        SAFETY * 2.0 / self.highest_frequency(convention)
     }
 
     /// Every value in its range, or the first one that is not.

@@ -12,7 +12,7 @@ type Row<'a> = (&'a Run, YieldEstimates);
 /// One row per run.
 pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
     let rows = runs.iter().map(|run| {
-        let estimates = YieldEstimates::read(&run.series, &run.case.stack);
+        let estimates = YieldEstimates::read(&run.series, &run.case);
         (run, estimates)
     });
     protocol(convention(subject()))

@@ -4,15 +4,19 @@ use super::{Reading, Recorded, RecordedError, Store};
 use crate::code::{Code, Identity, InstalledCode, Provenance, Run};
 use crate::files::FileError;
 use crate::model::{Case, sha256_hex};
-use crate::series::YieldEstimates;
+use crate::series::{Mechanics, YieldEstimates};
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Digest of the sources that read a summary off a series.
 pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
     let sources = [
+        include_str!("../model/law.rs"),
+        include_str!("../series/differences.rs"),
         include_str!("../series/drop.rs"),
         include_str!("../series/estimate.rs"),
+        include_str!("../series/mechanics.rs"),
+        include_str!("../series/pair_contact.rs"),
         include_str!("../series/polynomial.rs"),
         include_str!("../series/samples.rs"),
         include_str!("summary.rs"),
@@ -35,6 +39,12 @@ pub struct RunSummary {
     /// c between the bottom cylinders when the compression begins, in m g; absent from older recordings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_force: Option<f64>,
+    /// x₂, y₁ and y₂ when the compression begins, in r; absent from older recordings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<[f64; 3]>,
+    /// The largest deviation from each law of mechanics; absent from older recordings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mechanics: Option<Mechanics>,
 }
 
 impl RunSummary {
@@ -44,8 +54,10 @@ impl RunSummary {
         let samples = run.series.samples();
         let (first, last) = (samples.first(), samples.last());
         Self {
-            estimates: YieldEstimates::read(&run.series, stack),
+            estimates: YieldEstimates::read(&run.series, &run.case),
             last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
+            mechanics: Some(Mechanics::read(&run.series, &run.case)),
+            start: first.map(|sample| [sample.x2, sample.y1, sample.y2]),
             contact_force: first.map(|sample| sample.bottom_contact_force() * stack.stiffness),
             case: run.case,
             provenance: run.provenance,

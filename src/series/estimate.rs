@@ -1,8 +1,10 @@
 //! The yield force read off a series, by the two estimators of the field.
 
+use super::differences::FiveRows;
+use super::pair_contact::PairContact;
 use super::polynomial::value_at_zero;
 use super::samples::{Sample, Series};
-use crate::model::Stack;
+use crate::model::{Case, ContactLaw, CoulombOperand, SlidingSpring, Stack};
 use serde::{Deserialize, Serialize};
 
 /// Rows needed on both sides of the peak.
@@ -28,26 +30,52 @@ pub struct YieldEstimates {
     pub peak: Option<Estimate>,
     /// |t|/n of the floor contacts while they slide, as measured.
     pub sliding_friction: Option<f64>,
+    /// The first row between slip and peak in which a floor contact does not slide: there is no onset then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub departure: Option<Departure>,
+    /// Largest |b|/a that the contacts of cylinder 1 surely carry, in steps of 1e-5: so much friction they have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pair_friction: Option<f64>,
+}
+
+/// A row in which a floor contact should slide, and does not.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Departure {
+    /// Steps since the wall began to move.
+    pub step: u64,
+    /// |t|/n there.
+    pub ratio: f64,
 }
 
 impl YieldEstimates {
-    /// Reads both estimators off `series`.
-    pub fn read(series: &Series, stack: &Stack) -> Self {
+    /// Reads both estimators off `series`, the run of `case`.
+    pub fn read(series: &Series, case: &Case) -> Self {
+        let stiffness = case.stack.stiffness;
         let in_weights = |estimate: Estimate| Estimate {
-            force: estimate.force * stack.stiffness,
-            sampling: estimate.sampling * stack.stiffness,
+            force: estimate.force * stiffness,
+            sampling: estimate.sampling * stiffness,
             ..estimate
         };
         let samples = series.samples();
         let peak_row = peak_row(samples);
         let sliding_friction = peak_row.and_then(|row| sliding_friction(samples, row));
-        let slip = peak_row
-            .zip(sliding_friction)
-            .and_then(|(row, friction)| slip_onset(&samples[..=row], friction));
+        let sliding = peak_row.zip(sliding_friction);
+        let beyond = sliding.and_then(|(row, friction)| row_beyond(&samples[..=row], friction));
+        let slides = beyond.zip(sliding);
+        let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
+        let departure = slides.and_then(|(beyond, row, friction)| {
+            Sliding::of(case, friction).departure(samples, beyond, row)
+        });
+        let slip = slides.filter(|_| departure.is_none());
+        let slip =
+            slip.and_then(|(beyond, row, friction)| slip_onset(&samples[..=row], beyond, friction));
         Self {
             slip: slip.map(in_weights),
             peak: peak_row.map(|row| in_weights(peak(samples, row))),
             sliding_friction,
+            departure,
+            pair_friction: beyond.and_then(|beyond| pair_friction(samples, beyond, case)),
         }
     }
 }
@@ -87,6 +115,131 @@ fn slip_margin(sample: &Sample, friction: f64) -> f64 {
     right.min(left)
 }
 
+/// The first row at which the straight line through the slip margins of the two rows before it has reached zero.
+fn row_beyond(samples: &[Sample], friction: f64) -> Option<usize> {
+    let margin = |row: usize| slip_margin(&samples[row], friction);
+    let line_reaches_zero = |row: &usize| {
+        let time = |back: usize| samples[row - back].time;
+        let slope = (margin(row - 1) - margin(row - 2)) / (time(1) - time(2));
+        margin(row - 1) + slope * (time(0) - time(1)) <= 0.0
+    };
+    (2..samples.len()).find(line_reaches_zero)
+}
+
+/// Part of the friction below which a floor contact surely sticks.
+const SURELY_STICKS: f64 = 1.0 - 1e-3;
+
+/// The rows before the floor contacts come near to sliding, at the friction that is measured or, where nothing
+/// slides, at that of `stack`.
+pub(super) fn sticking_rows<'a>(samples: &'a [Sample], stack: &Stack) -> &'a [Sample] {
+    let measured = peak_row(samples).and_then(|row| sliding_friction(samples, row));
+    let friction = SURELY_STICKS * measured.unwrap_or(stack.floor_friction);
+    let slides = |sample: &Sample| slip_margin(sample, friction) <= 0.0;
+    let end = samples.iter().skip(1).position(slides);
+    &samples[..end.map_or(samples.len(), |end| end + 1)]
+}
+
+/// Largest relative distance of |t|/n from the friction in a contact that slides: codes cap the force at μ n itself.
+const AT_THE_LIMIT: f64 = 1e-9;
+
+/// What |t|/n of a sliding floor contact may be under the convention of a code.
+struct Sliding<'a> {
+    case: &'a Case,
+    law: ContactLaw,
+    friction: f64,
+}
+
+impl<'a> Sliding<'a> {
+    fn of(case: &'a Case, friction: f64) -> Self {
+        let law = case.convention.law(case.stack.stiffness_ratio);
+        Self {
+            case,
+            law,
+            friction,
+        }
+    }
+
+    /// The first row from `beyond`, which lies after the onset, to `peak_row` in which a floor contact is away from
+    /// its limit, further than the convention allows.
+    fn departure(&self, samples: &[Sample], beyond: usize, peak_row: usize) -> Option<Departure> {
+        let mut has_slid = false;
+        (beyond..=peak_row).find_map(|row| {
+            let sample = &samples[row];
+            let excesses = floor_contacts(sample)
+                .map(|(normal, tangential)| (tangential / normal - self.friction) / self.friction);
+            let [below, above] = self.allowed(samples, row, has_slid);
+            has_slid |= excesses.iter().all(|excess| excess.abs() <= AT_THE_LIMIT);
+            let away = excesses
+                .into_iter()
+                .find(|excess| !(-below..=above).contains(excess));
+            away.map(|excess| Departure {
+                step: sample.step,
+                ratio: self.friction * (1.0 + excess),
+            })
+        })
+    }
+
+    /// How far |t|/n may be below and above the friction in `row`, relative to it.
+    ///
+    /// A frozen spring sticks again when the normal force has grown, for one step. Where the limit is compared with the
+    /// spring alone, damping comes on top of it until the spring has reached the limit.
+    fn allowed(&self, samples: &[Sample], row: usize, has_slid: bool) -> [f64; 2] {
+        let convention = &self.case.convention;
+        let below = match convention.sliding_spring {
+            SlidingSpring::Frozen => self.growth_in_a_step(samples, row),
+            SlidingSpring::FollowsLimit => 0.0,
+        };
+        let above = match convention.coulomb_operand {
+            CoulombOperand::Spring if !has_slid => self.damping(samples, row),
+            CoulombOperand::Spring | CoulombOperand::SpringAndDamping => 0.0,
+        };
+        [below, above].map(|allowed| allowed + AT_THE_LIMIT)
+    }
+
+    /// Growth of the normal force of the floor in one step, relative to it.
+    fn growth_in_a_step(&self, samples: &[Sample], row: usize) -> f64 {
+        let (before, after) = (
+            &samples[row - 1],
+            &samples[(row + 1).min(samples.len() - 1)],
+        );
+        let sample = &samples[row];
+        let growth = |from: &Sample, to: &Sample| {
+            let steps = to.step.saturating_sub(from.step).max(1) as f64;
+            (to.floor_n2 - from.floor_n2).abs() / (steps * sample.floor_n2)
+        };
+        growth(before, sample).max(growth(sample, after))
+    }
+
+    /// Damping of the floor contact, relative to its limit.
+    fn damping(&self, samples: &[Sample], row: usize) -> f64 {
+        let sample = &samples[row];
+        let speed = FiveRows::around(samples, row).map(|five| {
+            let (x2, turn) = (five.rates(|row| row.x2), five.rates(|row| row.theta2));
+            let radius = 1.0 + self.case.convention.arms.floor.kinematic * (1.0 - sample.y2);
+            let speed = |x: f64, turn: f64| (x + radius * turn).abs();
+            speed(x2.velocity, turn.velocity)
+                + self.case.protocol.time_step * speed(x2.acceleration, turn.acceleration)
+                + x2.velocity_error
+                + radius * turn.velocity_error
+        });
+        let speed = speed.unwrap_or_else(|| self.case.protocol.fast_speed());
+        self.law.damping_tangential * speed / (self.friction * sample.floor_n2)
+    }
+}
+
+/// Largest ratio b/a in the rows from `beyond` on that is surely carried, while the top wall presses and cylinder 2
+/// stands on the floor.
+fn pair_friction(samples: &[Sample], beyond: usize, case: &Case) -> Option<f64> {
+    let law = case.convention.law(case.stack.stiffness_ratio);
+    let ratios = (beyond..samples.len()).map_while(|row| {
+        let bears = samples[row].wall_force > 0.0 && samples[row].floor_n2 > 0.0;
+        let five = FiveRows::around(samples, row).filter(|_| bears)?;
+        Some(PairContact::of(case, &law, five).carried_ratio())
+    });
+    let largest = ratios.fold(0.0, f64::max);
+    (largest > 0.0).then(|| (1e5 * largest).floor() * 1e-5)
+}
+
 /// Wall force as a function of the slip margin, extrapolated to margin 0 from four rows that certainly
 /// still stick, all before the peak: rows at which the contact slides say nothing about when it began to.
 ///
@@ -96,26 +249,15 @@ fn slip_margin(sample: &Sample, friction: f64) -> f64 {
 /// is frozen while it slides (the paper's law) sticks again now and then as the normal force grows.
 ///
 /// A force outside the rows that enclose the onset is no onset but noise continued, and is refused.
-fn slip_onset(samples: &[Sample], friction: f64) -> Option<Estimate> {
-    let margins: Vec<f64> = samples
-        .iter()
-        .map(|sample| slip_margin(sample, friction))
-        .collect();
-    let line_reaches_zero = |index: &usize| {
-        let time = |back: usize| samples[index - back].time;
-        let slope = (margins[index - 1] - margins[index - 2]) / (time(1) - time(2));
-        margins[index - 1] + slope * (time(0) - time(1)) <= 0.0
-    };
-    let beyond = (2..samples.len()).find(line_reaches_zero)?;
+fn slip_onset(samples: &[Sample], beyond: usize, friction: f64) -> Option<Estimate> {
     let rows = beyond.checked_sub(5)?..beyond - 1;
     let last_sticking = samples[rows.end - 1].wall_force;
     let after = samples[(beyond + 1).min(samples.len() - 1)].wall_force;
-    let margins = &margins[rows.clone()];
-    let forces: Vec<f64> = samples[rows]
-        .iter()
-        .map(|sample| sample.wall_force)
-        .collect();
-    let force = value_at_zero(margins, &forces);
+    let sticking = samples[rows].iter();
+    let (margins, forces): (Vec<f64>, Vec<f64>) = sticking
+        .map(|sample| (slip_margin(sample, friction), sample.wall_force))
+        .unzip();
+    let force = value_at_zero(&margins, &forces);
     let lower_order = value_at_zero(&margins[1..], &forces[1..]);
     let enclosed = (last_sticking..=after).contains(&force);
     let (margin_change, force_change) = (margins[3] - margins[2], forces[3] - forces[2]);

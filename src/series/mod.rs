@@ -1,18 +1,22 @@
 //! A time series with named columns, and the yield force read off it.
 
 mod column;
+mod differences;
 mod drop;
 mod estimate;
 mod frame;
+mod mechanics;
 mod motion;
+mod pair_contact;
 mod polynomial;
 mod pyramid_run;
 mod samples;
 
 pub(crate) use column::Column;
 pub use drop::DropWatch;
-pub use estimate::{Estimate, YieldEstimates};
+pub use estimate::{Departure, Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
+pub use mechanics::{Deviation, Law, Mechanics};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub(crate) use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;

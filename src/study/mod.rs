@@ -5,6 +5,7 @@
 
 pub mod convention;
 pub mod cost;
+mod mechanics;
 mod pipeline;
 pub mod preparation;
 pub mod regimes;

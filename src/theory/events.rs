@@ -69,6 +69,12 @@ impl PathPoint {
         2.0 - self.floor_overlap + self.rise() - self.wall_overlap
     }
 
+    /// x₂, y₁ and y₂, with the floor at 0.
+    pub(super) fn positions(&self) -> [f64; 3] {
+        let height = 1.0 - self.floor_overlap;
+        [1.0 + self.outward, height + self.rise(), height]
+    }
+
     /// Distance to `event`, in its own units; negative once it has happened.
     fn margin(&self, event: Event, stack: &Stack) -> f64 {
         match event {

@@ -20,6 +20,10 @@ pub struct Limit {
     pub z: Option<f64>,
     /// Wall travel, in r, when the floor slips (docs/theory.md, Eq. 34).
     pub wall_travel: Option<f64>,
+    /// b/a where the floor slips: so much friction the cylinders need.
+    pub pair_ratio: Option<f64>,
+    /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand.
+    pub rest: Option<[f64; 3]>,
     /// Why there is no yield force.
     pub reason: Option<String>,
 }
@@ -46,6 +50,8 @@ impl Limit {
             y: point.map(|point| point.outward),
             z: point.map(|point| point.floor_overlap),
             wall_travel: point.map(|point| path.point(settled).wall_height() - point.wall_height()),
+            pair_ratio: point.map(|point| point.pair_ratio),
+            rest: settled.is_finite().then(|| path.point(settled).positions()),
             reason: (!yields).then(|| explanation(event, own_weight)),
         }
     }

@@ -52,7 +52,7 @@ pub fn is_sound(series: &Series, case: &Case) {
         rows.iter()
             .all(|row| finite(row.wall_force) && finite(row.y1) && finite(row.floor_t3))
     );
-    let estimates = YieldEstimates::read(series, &case.stack);
+    let estimates = YieldEstimates::read(series, case);
     assert!(
         estimates
             .sliding_friction

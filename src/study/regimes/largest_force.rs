@@ -172,5 +172,7 @@ fn estimates(observation: &Observation) -> YieldEstimates {
             sensitivity: 1.0,
         }),
         sliding_friction: None,
+        departure: None,
+        pair_friction: None,
     }
 }

@@ -8,14 +8,15 @@ use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::code::{Code, Identity, Run};
 use crate::model::Case;
 use crate::runs::{Reading, Workload};
-use crate::series::Sample;
-use crate::study::{Evaluation, Ground, Grounds, Study};
+use crate::series::{Mechanics, Sample};
+use crate::study::{Evaluation, Ground, Grounds, Study, Verdict};
 
 /// The rows of a run, and the program that made it.
 #[derive(Debug, Clone)]
 pub struct Rows {
     identity: Identity,
     samples: Vec<Sample>,
+    mechanics: Mechanics,
 }
 
 impl Reading for Rows {
@@ -23,6 +24,7 @@ impl Reading for Rows {
 
     fn of(run: Run) -> Self {
         Self {
+            mechanics: Mechanics::read(&run.series, &run.case),
             identity: run.provenance.identity,
             samples: run.series.samples().to_vec(),
         }
@@ -63,7 +65,10 @@ impl Study for Trajectory {
             comparisons: Vec::new(),
         };
         let mut grounds = Grounds::new();
+        let own = runs.first().into_iter().flatten();
+        grounds.hold_to_mechanics(own.map(|run| Some(&run.mechanics)));
         match self.pairs(&samples) {
+            _ if grounds.verdict() == Verdict::Failed => {}
             Some(pairs) => {
                 finding.times = pairs.first().map(Pair::times);
                 finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();

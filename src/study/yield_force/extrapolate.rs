@@ -149,7 +149,7 @@ impl ConvergenceOrder {
 }
 
 /// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
-const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
+pub(super) const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
 /// Root mean square of one rounding, in units of the last place: 1/√12.
 const ROUNDING: f64 = 0.288_675_134_594_812_9;
 /// Half a unit of the seventeenth significant digit.
@@ -232,6 +232,8 @@ mod tests {
                 slip: estimate(force),
                 peak: None,
                 sliding_friction: None,
+                departure: None,
+                pair_friction: None,
             })
             .to_vec()
     }
@@ -348,6 +350,8 @@ mod tests {
                 slip: Some(Estimate { force, ..estimate }),
                 peak: None,
                 sliding_friction: None,
+                departure: None,
+                pair_friction: None,
             })
             .to_vec();
         let budget = |count: usize| {

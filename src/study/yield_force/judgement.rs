@@ -1,12 +1,14 @@
 //! The yield force that the runs of a measurement show, compared with the exact limit.
 
-use super::extrapolate::{ConvergenceOrder, Extrapolation};
+use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE};
 use super::plan::{Measurement, Method};
-use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
+use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::code::Code;
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
-use crate::study::{Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, Study, Verdict, tolerance};
+use crate::study::{
+    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, Study, Verdict, tolerance,
+};
 
 /// The yield force that the runs of a measurement show.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +45,7 @@ impl Study for Measurement {
     fn evaluate(&self, runs: Vec<Vec<RunSummary>>) -> Evaluation<YieldForce> {
         let runs = runs.into_iter().flatten().collect();
         let mut reader = Reader::new(self, runs);
+        reader.hold_to_mechanics();
         match self.limit.yield_force.filter(|_| !self.cases.is_empty()) {
             None => reader
                 .grounds
@@ -149,11 +152,12 @@ impl<'a> Reader<'a> {
         let peak_uncertainty = peak.budget.total() + allowance;
         let Some(slip) = slip else {
             self.compare(peak.force, peak_uncertainty, reference);
-            self.doubt("no onset of slip was found before the peak; judged by the peak".to_owned());
+            self.doubt(self.missing_onset());
             return self.doubt_deep_wall(reference);
         };
         self.compare(slip.force, slip.budget.total(), reference);
         self.doubt_friction();
+        self.doubt_pair_friction();
         self.doubt_equal_runs();
         self.doubt_rough_touch();
         self.doubt_order(&slip);
@@ -216,6 +220,79 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Why there is no onset of slip in one of the runs.
+    fn missing_onset(&self) -> String {
+        let mut departures = (1..).zip(&self.estimates);
+        let departure = departures.find_map(|(run, estimates)| Some((run, estimates.departure?)));
+        departure.map_or_else(
+            || "no onset of slip was found before the peak; judged by the peak".to_owned(),
+            |(run, departure)| {
+                format!(
+                    "between slip and peak the floor does not slide in run {run}: at step {} its |t|/n is {}; judged by \
+                     the peak",
+                    departure.step, departure.ratio
+                )
+            },
+        )
+    }
+
+    /// Cylinders that slip on each other before the floor slips end the equilibrium before the onset that is
+    /// extrapolated. They have not where they carry more afterwards than they needed.
+    fn doubt_pair_friction(&mut self) {
+        let Some(needed) = self.measurement.limit.pair_ratio else {
+            return;
+        };
+        let carried = self.estimates.iter().filter_map(|run| run.pair_friction);
+        let carried = carried.fold(0.0, f64::max);
+        if carried <= needed {
+            self.doubt(format!(
+                "the cylinders are not seen to carry more than b/a = {carried}, but {needed:.5} is needed until the floor \
+                 slips: they may slip on each other before"
+            ));
+        }
+    }
+
+    /// Every run must obey mechanics, and begin at the state of rest that theory gives.
+    fn hold_to_mechanics(&mut self) {
+        let runs = &self.finding.runs;
+        self.grounds
+            .hold_to_mechanics(runs.iter().map(|run| run.mechanics.as_ref()));
+        let prepared_alike = runs.get(..SPEEDS.len()).unwrap_or_default();
+        let begun = prepared_alike.iter().map(|run| run.start);
+        let (Some(rest), Some(begun), Some(Some(hastened))) = (
+            self.measurement.limit.rest,
+            begun.collect::<Option<Vec<_>>>(),
+            runs.get(SHORT_RAMP_RUN).map(|run| run.start),
+        ) else {
+            return;
+        };
+        for (run, start) in (1..).zip(&begun) {
+            for (index, name) in ["x2", "y1", "y2"].into_iter().enumerate() {
+                let shift = (start[index] - hastened[index]).abs();
+                let bound = SAFETY_OF_REST * shift + self.rest_accuracy();
+                let size = (start[index] - rest[index]).abs();
+                if size.is_nan() || size > bound {
+                    self.grounds.add(Ground::Failed(format!(
+                        "run {run} does not begin at rest: its {name} is {} r, and must be {} r; {size:.1e} apart where \
+                         {bound:.1e} is allowed",
+                        start[index], rest[index]
+                    )));
+                }
+            }
+        }
+    }
+
+    /// Accuracy of the state of rest, in r: that of the limit, and the rounding of every step.
+    fn rest_accuracy(&self) -> f64 {
+        let steps = self
+            .measurement
+            .cases
+            .first()
+            .map_or(0, |case| case.protocol.schedule().preparation.total());
+        MIN_TOLERANCE * self.measurement.stack.epsilon()
+            + steps as f64 * LARGEST_COORDINATE * f64::EPSILON
+    }
+
     fn doubt_equal_runs(&mut self) {
         if self.estimates[MIDDLE_RUN] == self.estimates[SHORT_RAMP_RUN] {
             self.doubt(
@@ -270,6 +347,10 @@ impl<'a> Reader<'a> {
         )));
     }
 }
+
+/// Damping along the gravity ramp leaves the stack away from rest by an amount that falls with the duration of the ramp,
+/// so that half of it shifts the start by at least as much as the whole is away from rest; twice that is allowed.
+const SAFETY_OF_REST: f64 = 2.0;
 
 /// Note on rows whose planned walls are too fast.
 const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor slides for a moment, and a gentle \

@@ -1,0 +1,109 @@
+//! Velocities and accelerations from rows at equal distances in time.
+
+use super::samples::Sample;
+
+/// Rounding of the largest coordinate of the stack, 1 + √3.
+pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
+
+/// Time in which the stack rings, in √(m/k_n): a restitution of 0.7 takes some ten.
+const RINGING_TIME: f64 = 10.0;
+
+/// The time derivatives of a coordinate.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Rates {
+    pub(super) velocity: f64,
+    pub(super) acceleration: f64,
+    /// How far the differences of second order are from those of fourth.
+    pub(super) velocity_error: f64,
+    pub(super) acceleration_error: f64,
+}
+
+/// Five rows at equal distances in time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FiveRows<'a>(pub(super) &'a [Sample; 5]);
+
+impl<'a> FiveRows<'a> {
+    /// The rows around `row`, two on either side. The first row of a series is left out: forces of some codes belong
+    /// to another moment there. `None` if there are none, or at other distances.
+    pub(super) fn around(samples: &'a [Sample], row: usize) -> Option<Self> {
+        let first = row.checked_sub(2).filter(|&first| first > 0)?;
+        let five: &[Sample; 5] = samples.get(first..first + 5)?.try_into().ok()?;
+        let mut steps = five.windows(2).map(|pair| pair[1].step - pair[0].step);
+        let every = steps.next()?;
+        steps.all(|step| step == every).then_some(Self(five))
+    }
+
+    /// Time between two of them.
+    pub(super) fn interval(self) -> f64 {
+        self.0[3].time - self.0[2].time
+    }
+
+    /// Noise of a coordinate: it rounds in every step, and the stack remembers each rounding while it rings.
+    pub(super) fn rounding(self) -> f64 {
+        let time_step = self.0[3].time / self.0[3].step as f64;
+        COORDINATE * (RINGING_TIME / time_step).max(1.0).sqrt()
+    }
+
+    /// Central differences in the middle.
+    pub(super) fn rates(self, coordinate: impl Fn(&Sample) -> f64) -> Rates {
+        let middle = coordinate(&self.0[2]);
+        let [before, left, _, right, after] = self.0.each_ref().map(|row| coordinate(row) - middle);
+        let interval = self.interval();
+        let square = interval * interval;
+        let velocity = (8.0 * (right - left) - (after - before)) / (12.0 * interval);
+        let acceleration = (16.0 * (right + left) - (after + before)) / (12.0 * square);
+        Rates {
+            velocity,
+            acceleration,
+            velocity_error: (velocity - (right - left) / (2.0 * interval)).abs(),
+            acceleration_error: (acceleration - (right + left) / square).abs(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample_at(step: u64, interval: f64) -> Sample {
+        Sample {
+            step,
+            time: interval * step as f64,
+            wall_force: 0.0,
+            x1: 0.0,
+            y1: 0.0,
+            theta1: 0.0,
+            x2: 0.0,
+            y2: 0.0,
+            theta2: 0.0,
+            x3: 0.0,
+            y3: 0.0,
+            theta3: 0.0,
+            floor_n2: 0.0,
+            floor_t2: 0.0,
+            floor_n3: 0.0,
+            floor_t3: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_quartic_has_exact_rates_and_the_error_of_second_order_shows() {
+        let rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
+        let five = FiveRows::around(&rows, 4).unwrap();
+        let rates = five.rates(|row| row.time.powi(3) - 2.0 * row.time);
+        assert!((rates.velocity - (3.0 * 4.0 - 2.0)).abs() < 1e-12);
+        assert!((rates.acceleration - 12.0).abs() < 1e-12);
+        assert!((rates.velocity_error - 0.25).abs() < 1e-12, "h² f‴/6");
+        assert!(rates.acceleration_error < 1e-12);
+    }
+
+    #[test]
+    fn rows_at_other_distances_and_the_first_one_have_no_rates() {
+        let mut rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
+        assert!(FiveRows::around(&rows, 2).is_none());
+        assert!(FiveRows::around(&rows, 3).is_some());
+        assert!(FiveRows::around(&rows, 7).is_none());
+        rows[8].step = 9;
+        assert!(FiveRows::around(&rows, 6).is_none());
+    }
+}

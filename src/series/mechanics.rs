@@ -1,0 +1,356 @@
+//! What mechanics demands of every series, whichever code made it.
+//!
+//! Each law compares two sides in every row from the first after the start to the last before the floor slips. A side
+//! that needs a velocity takes it from five rows at equal distances where there are such, and is known to what the
+//! wall's speed can do to it elsewhere. The bounds follow from the contact law, the time step and the rounding of
+//! positions (docs/verdicts.md).
+
+use super::differences::{COORDINATE, FiveRows, Rates};
+use super::estimate::sticking_rows;
+use super::pair_contact::PairContact;
+use super::samples::{Sample, Series};
+use crate::model::{Case, ContactLaw, Preparation, Schedule};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// A law of mechanics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Law {
+    /// The floor bears the wall force and three weights.
+    VerticalBalance,
+    /// The right half of the stack mirrors the left one.
+    MirrorSymmetry,
+    /// The wall force is that of the overlap of cylinder 1 with the wall.
+    WallOverlap,
+    /// The normal force of the floor is that of the overlap of cylinders 2 and 3 with it.
+    FloorOverlap,
+    /// Cylinders 2 and 3 bear cylinder 1 with the force of their overlaps and the shear that keeps them from
+    /// turning.
+    TopBalance,
+    /// Nothing pushes cylinder 2 sideways.
+    SideBalance,
+}
+
+impl Law {
+    /// The words in messages.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::VerticalBalance => "the vertical balance of forces",
+            Self::MirrorSymmetry => "the mirror symmetry",
+            Self::WallOverlap => "wall force against overlap",
+            Self::FloorOverlap => "floor force against overlap",
+            Self::TopBalance => "the balance of forces of cylinder 1",
+            Self::SideBalance => "the horizontal balance of forces of cylinder 2",
+        }
+    }
+}
+
+/// How far a series is from a law, in the row that is furthest in units of its bound. Forces in m g.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Deviation {
+    /// Steps since the wall began to move.
+    pub step: u64,
+    /// Distance of the two sides, to two digits.
+    pub size: f64,
+    /// Largest distance that the law allows there, to two digits.
+    pub bound: f64,
+    /// Both sides, where the law does not hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub found: Option<f64>,
+    /// The side that the law gives, where it does not hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<f64>,
+}
+
+impl Deviation {
+    /// Whether the law holds.
+    pub fn is_allowed(&self) -> bool {
+        self.found.is_none()
+    }
+}
+
+/// The laws that could be looked at in a series, each with the largest deviation from it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Mechanics(pub BTreeMap<Law, Deviation>);
+
+impl Mechanics {
+    /// Holds `series` to every law up to the row at which the floor begins to slide.
+    pub fn read(series: &Series, case: &Case) -> Self {
+        let samples = sticking_rows(series.samples(), &case.stack);
+        let stack = Stack::of(case, series.samples());
+        let mut worst: BTreeMap<Law, (f64, Sides)> = BTreeMap::new();
+        for row in 1..samples.len() {
+            for (law, sides) in stack.sides(samples, row) {
+                let ratio = sides.excess();
+                let known = worst.get(&law).map_or(f64::NEG_INFINITY, |known| known.0);
+                if ratio > known || ratio.is_nan() {
+                    worst.insert(law, (ratio, sides));
+                }
+            }
+        }
+        let stiffness = case.stack.stiffness;
+        let deviations = worst.into_iter();
+        Self(
+            deviations
+                .map(|(law, (_, sides))| (law, sides.deviation(stiffness)))
+                .collect(),
+        )
+    }
+
+    /// The laws that do not hold.
+    pub fn violations(&self) -> impl Iterator<Item = (Law, &Deviation)> {
+        let deviations = self.0.iter().map(|(law, deviation)| (*law, deviation));
+        deviations.filter(|(_, deviation)| !deviation.is_allowed())
+    }
+}
+
+/// Both sides of a law in one row, in k_n r.
+#[derive(Debug, Clone, Copy)]
+struct Sides {
+    step: u64,
+    found: f64,
+    expected: f64,
+    bound: f64,
+}
+
+impl Sides {
+    fn excess(&self) -> f64 {
+        (self.found - self.expected).abs() / self.bound
+    }
+
+    fn deviation(&self, stiffness: f64) -> Deviation {
+        let holds = self.excess() <= 1.0;
+        let shown = |side: f64| (!holds).then_some(side * stiffness);
+        Deviation {
+            step: self.step,
+            size: two_digits((self.found - self.expected).abs() * stiffness),
+            bound: two_digits(self.bound * stiffness),
+            found: shown(self.found),
+            expected: shown(self.expected),
+        }
+    }
+}
+
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// What the laws need to know of a case.
+struct Stack<'a> {
+    case: &'a Case,
+    law: ContactLaw,
+    /// Height of the centre of cylinder 1 in the first row: the wall touches it there.
+    start: f64,
+    /// Largest frequency of the stack with all its contacts.
+    frequency: f64,
+    schedule: Schedule,
+    /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
+    is_smooth: bool,
+}
+
+impl<'a> Stack<'a> {
+    fn of(case: &'a Case, samples: &[Sample]) -> Self {
+        let law = case.convention.law(case.stack.stiffness_ratio);
+        Self {
+            case,
+            law,
+            start: samples.first().map_or(0.0, |first| first.y1),
+            frequency: case.stack.highest_frequency(&case.convention),
+            schedule: case.protocol.schedule(),
+            is_smooth: matches!(case.protocol.preparation, Preparation::GravityRamp { .. }),
+        }
+    }
+
+    /// The laws that can be looked at in `row` of `samples`.
+    fn sides(&self, samples: &[Sample], row: usize) -> Vec<(Law, Sides)> {
+        let sample = &samples[row];
+        let five = FiveRows::around(samples, row).filter(|_| self.is_smooth);
+        let mut sides = vec![
+            (Law::VerticalBalance, self.vertical(sample, five)),
+            (Law::MirrorSymmetry, self.mirror(sample)),
+            (Law::WallOverlap, self.wall(sample, five)),
+        ];
+        let halves = [false, true].map(|left| self.floor(sample, five, left));
+        sides.extend(halves.map(|floor| (Law::FloorOverlap, floor)));
+        if let Some(five) = five.filter(keeps_its_contacts) {
+            sides.extend(self.cylinders(sample, five));
+        }
+        sides
+    }
+
+    /// Rounding of a position that is advanced in every step, at worst.
+    fn rounded(&self, sample: &Sample) -> f64 {
+        (self.schedule.preparation.total() + sample.step) as f64 * COORDINATE
+    }
+
+    /// What is not known of a damping force: its velocity may belong to a moment up to a step away, is a difference of
+    /// rows, and rounds.
+    fn damping_error(&self, rates: &[Rates], five: FiveRows<'_>) -> f64 {
+        let of_one = |rates: &Rates| {
+            self.case.protocol.time_step * rates.acceleration.abs() + rates.velocity_error
+        };
+        let lags: f64 = rates.iter().map(of_one).sum();
+        self.law.damping_normal
+            * (lags
+                + rates.len() as f64 * five.rounding() * (self.frequency + five.interval().recip()))
+    }
+
+    /// The largest force by which the floor and the wall are out of balance in `five` rows.
+    fn ringing(&self, five: FiveRows<'_>) -> f64 {
+        let unbalanced = five.0.iter().map(|sample| self.unbalanced(sample).abs());
+        unbalanced.fold(0.0, f64::max)
+    }
+
+    fn unbalanced(&self, sample: &Sample) -> f64 {
+        sample.floor_n2 + sample.floor_n3 - sample.wall_force - 3.0 * self.case.stack.epsilon()
+    }
+
+    /// What is out of balance accelerates the cylinders: an oscillation of frequency ω that bends by b between rows at a
+    /// distance h has the acceleration ω² b/(4 sin² (ωh/2)), where rows resolve it at most (π²/4) b/h². A wall that
+    /// touches suddenly gives the cylinders at most its own speed.
+    fn vertical(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
+        let height = |sample: &Sample| sample.y1 + sample.y2 + sample.y3;
+        let bend = |three: &[Sample]| {
+            (height(&three[0]) - 2.0 * height(&three[1]) + height(&three[2])).abs()
+        };
+        let inertia = match five {
+            Some(five) => {
+                let resolved = 0.25 * PI * PI / five.interval().powi(2);
+                let square = resolved.max(0.25 * self.frequency * self.frequency);
+                square
+                    * five
+                        .0
+                        .windows(3)
+                        .map(bend)
+                        .fold(4.0 * five.rounding(), f64::max)
+            }
+            None => 3.0 * self.frequency * self.case.protocol.fast_speed(),
+        };
+        Sides {
+            step: sample.step,
+            found: sample.floor_n2 + sample.floor_n3,
+            expected: sample.wall_force + 3.0 * self.case.stack.epsilon(),
+            bound: inertia + 6.0 * COORDINATE,
+        }
+    }
+
+    /// The pair of values that mirror each other worst.
+    fn mirror(&self, sample: &Sample) -> Sides {
+        let pairs = [
+            (sample.x1, -sample.x1),
+            (sample.theta1, -sample.theta1),
+            (sample.x2, -sample.x3),
+            (sample.y2, sample.y3),
+            (sample.theta2, -sample.theta3),
+            (sample.floor_n2, sample.floor_n3),
+            (sample.floor_t2, -sample.floor_t3),
+        ];
+        let distance = |pair: &(f64, f64)| (pair.0 - pair.1).abs();
+        let worst = pairs
+            .into_iter()
+            .max_by(|left, right| distance(left).total_cmp(&distance(right)));
+        let (found, expected) = worst.unwrap_or_default();
+        Sides {
+            step: sample.step,
+            found,
+            expected,
+            bound: 4.0 * self.rounded(sample),
+        }
+    }
+
+    fn wall(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
+        let protocol = &self.case.protocol;
+        let overlap = sample.y1 - self.start + protocol.travel_at(&self.schedule, sample.step);
+        let (speed, error) = match five {
+            Some(five) => {
+                let rates = five.rates(|sample| sample.y1);
+                let error = self.damping_error(&[rates], five) + self.ringing(five);
+                let wall_speed = protocol.speed_at(&self.schedule, sample.step);
+                (rates.velocity + wall_speed, error)
+            }
+            None => (0.0, 2.0 * self.law.damping_normal * protocol.fast_speed()),
+        };
+        Sides {
+            step: sample.step,
+            found: sample.wall_force,
+            expected: self.law.force(overlap) + self.law.damping_normal * speed,
+            bound: error + self.rounded(sample),
+        }
+    }
+
+    fn floor(&self, sample: &Sample, five: Option<FiveRows<'_>>, left: bool) -> Sides {
+        let height = |sample: &Sample| if left { sample.y3 } else { sample.y2 };
+        let force = if left {
+            sample.floor_n3
+        } else {
+            sample.floor_n2
+        };
+        let (speed, error) = match five {
+            Some(five) => {
+                let rates = five.rates(height);
+                let error = self.damping_error(&[rates], five) + self.ringing(five);
+                (-rates.velocity, error)
+            }
+            None => (
+                0.0,
+                self.law.damping_normal * self.case.protocol.fast_speed(),
+            ),
+        };
+        Sides {
+            step: sample.step,
+            found: force,
+            expected: self.law.force(1.0 - height(sample)) + self.law.damping_normal * speed,
+            bound: error + 4.0 * COORDINATE,
+        }
+    }
+
+    /// c, with its damping.
+    fn bottom_force(&self, sample: &Sample, five: FiveRows<'_>) -> f64 {
+        let overlap = 2.0 - (sample.x2 - sample.x3);
+        let parting = five.rates(|row| row.x2 - row.x3).velocity;
+        if overlap > 0.0 {
+            self.law.force(overlap) - self.law.damping_normal * parting
+        } else {
+            0.0
+        }
+    }
+
+    /// The balances of cylinders 1 and 2, whose contact bears the force of its overlap and, so that cylinder 2 turns
+    /// as it does, as much shear as the floor.
+    fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> [(Law, Sides); 2] {
+        let pair = PairContact::of(self.case, &self.law, five);
+        let [x2, y1, y2] = pair.rates;
+        let (sine, cosine) = (pair.direction[0], pair.direction[1]);
+        let second_difference = 16.0 * five.rounding() / five.interval().powi(2);
+        let known_to = self.damping_error(&[x2, y1, y2], five)
+            + second_difference
+            + pair.acceleration_error
+            + 8.0 * COORDINATE;
+        let bottom = self.bottom_force(sample, five);
+        let top = Sides {
+            step: sample.step,
+            found: 2.0 * (pair.normal * cosine + pair.shear * sine),
+            expected: sample.wall_force + self.case.stack.epsilon() + y1.acceleration,
+            bound: 2.0 * known_to + 4.0 * self.ringing(five),
+        };
+        let side = Sides {
+            step: sample.step,
+            found: pair.normal * sine + bottom,
+            expected: pair.shear * cosine - sample.floor_t2 + x2.acceleration,
+            bound: known_to + 2.0 * self.ringing(five),
+        };
+        [(Law::TopBalance, top), (Law::SideBalance, side)]
+    }
+}
+
+/// Whether the contact of cylinders 2 and 3 neither opens nor closes in these rows.
+fn keeps_its_contacts(five: &FiveRows<'_>) -> bool {
+    let is_open = |sample: &Sample| sample.x2 - sample.x3 > 2.0;
+    five.0
+        .iter()
+        .all(|sample| is_open(sample) == is_open(&five.0[0]))
+}

@@ -1,0 +1,67 @@
+//! The contact of cylinders 1 and 2, whose forces no code reports: from positions and the torque of the floor.
+
+use super::differences::{FiveRows, Rates};
+use crate::model::{Case, ContactLaw, CoulombOperand};
+
+/// The contact in the middle of five rows. Forces in k_n r.
+pub(super) struct PairContact {
+    /// Rates of x₂, y₁ and y₂.
+    pub(super) rates: [Rates; 3],
+    /// Unit vector from cylinder 1 to 2: to the right, and downwards.
+    pub(super) direction: [f64; 2],
+    /// a, normal force of overlap and damping.
+    pub(super) normal: f64,
+    /// b, the tangential force with which cylinder 2 turns as it does.
+    pub(super) shear: f64,
+    /// Error of the accelerations behind the balances of its forces.
+    pub(super) acceleration_error: f64,
+    /// Largest error of |b|/a.
+    ratio_error: f64,
+}
+
+impl PairContact {
+    pub(super) fn of(case: &Case, law: &ContactLaw, five: FiveRows<'_>) -> Self {
+        let convention = &case.convention;
+        let sample = &five.0[2];
+        let (x1, x2) = (five.rates(|row| row.x1), five.rates(|row| row.x2));
+        let (y1, y2) = (five.rates(|row| row.y1), five.rates(|row| row.y2));
+        let turn = five.rates(|row| row.theta2);
+        let (across, down) = (sample.x2 - sample.x1, sample.y1 - sample.y2);
+        let distance = libm::hypot(across, down);
+        let [sine, cosine] = [across / distance, down / distance];
+        let (apart, sinking) = (x2.velocity - x1.velocity, y1.velocity - y2.velocity);
+        let overlap = 2.0 - distance;
+        let approach = -(sine * apart + cosine * sinking);
+        let normal = law.force(overlap) + law.damping_normal * approach;
+        let arms = convention.arms;
+        let pair_lever = 1.0 + arms.pair.torque * overlap;
+        let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.y2);
+        let inertia = convention.moment_of_inertia;
+        let shear = (inertia * turn.acceleration - floor_lever * sample.floor_t2) / pair_lever;
+        // Where the limit is compared with the spring alone, damping comes on top of it.
+        let sliding =
+            cosine * apart - sine * sinking - (1.0 + arms.pair.kinematic * overlap) * turn.velocity;
+        let on_top = match convention.coulomb_operand {
+            CoulombOperand::Spring => law.damping_tangential * sliding.abs(),
+            CoulombOperand::SpringAndDamping => 0.0,
+        };
+        let shear_error = inertia * turn.acceleration_error / pair_lever + on_top;
+        let velocity_errors =
+            x1.velocity_error + x2.velocity_error + y1.velocity_error + y2.velocity_error;
+        let normal_error = law.damping_normal * velocity_errors;
+        let accelerations = [x2, y1, y2, turn].map(|rates| rates.acceleration_error);
+        Self {
+            rates: [x2, y1, y2],
+            acceleration_error: accelerations.iter().sum(),
+            direction: [sine, cosine],
+            normal,
+            shear,
+            ratio_error: (shear_error + (shear / normal).abs() * normal_error) / normal,
+        }
+    }
+
+    /// |b|/a, less its largest error: so much friction there is between the cylinders.
+    pub(super) fn carried_ratio(&self) -> f64 {
+        (self.shear / self.normal).abs() - self.ratio_error
+    }
+}

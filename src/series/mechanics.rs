@@ -26,23 +26,20 @@ pub enum Law {
     WallOverlap,
     /// The normal force of the floor is that of the overlap of cylinders 2 and 3 with it.
     FloorOverlap,
-    /// Cylinders 2 and 3 bear cylinder 1 with the force of their overlaps and the shear that keeps them from
-    /// turning.
-    TopBalance,
-    /// Nothing pushes cylinder 2 sideways.
-    SideBalance,
+    /// Cylinders 2 and 3 bear cylinder 1, and are not pushed aside, with the normal force of their overlaps and the
+    /// shear that lets them turn as they do.
+    PairOverlap,
 }
 
 impl Law {
     /// The words in messages.
-    pub fn as_str(self) -> &'static str {
+    pub const fn as_str(self) -> &'static str {
         match self {
             Self::VerticalBalance => "the vertical balance of forces",
             Self::MirrorSymmetry => "the mirror symmetry",
             Self::WallOverlap => "wall force against overlap",
             Self::FloorOverlap => "floor force against overlap",
-            Self::TopBalance => "the balance of forces of cylinder 1",
-            Self::SideBalance => "the horizontal balance of forces of cylinder 2",
+            Self::PairOverlap => "the balance of forces between the cylinders",
         }
     }
 }
@@ -177,7 +174,8 @@ impl<'a> Stack<'a> {
         let halves = [false, true].map(|left| self.floor(sample, five, left));
         sides.extend(halves.map(|floor| (Law::FloorOverlap, floor)));
         if let Some(five) = five.filter(keeps_its_contacts) {
-            sides.extend(self.cylinders(sample, five));
+            let cylinders = self.cylinders(sample, five);
+            sides.extend(cylinders.map(|balance| (Law::PairOverlap, balance)));
         }
         sides
     }
@@ -321,7 +319,7 @@ impl<'a> Stack<'a> {
 
     /// The balances of cylinders 1 and 2, whose contact bears the force of its overlap and, so that cylinder 2 turns
     /// as it does, as much shear as the floor.
-    fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> [(Law, Sides); 2] {
+    fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> [Sides; 2] {
         let pair = PairContact::of(self.case, &self.law, five);
         let [x2, y1, y2] = pair.rates;
         let (sine, cosine) = (pair.direction[0], pair.direction[1]);
@@ -343,7 +341,7 @@ impl<'a> Stack<'a> {
             expected: pair.shear * cosine - sample.floor_t2 + x2.acceleration,
             bound: known_to + 2.0 * self.ringing(five),
         };
-        [(Law::TopBalance, top), (Law::SideBalance, side)]
+        [top, side]
     }
 }
 

@@ -1,0 +1,104 @@
+//! Engines with the conventions of the codes, honest or not, and the verdict on them.
+
+use crate::lie::{Lie, LyingLaw};
+use tristack::code::{Code, Identity, Provenance, Run};
+use tristack::dem::{SpringDashpot, compress_stack_with};
+use tristack::model::{CRITICAL_FRICTION, Case, Stack};
+use tristack::runs::RunSummary;
+use tristack::series::Series;
+use tristack::study::yield_force::{Measurement, plan};
+use tristack::study::{Study, Verdict};
+
+/// A measurement that an honest engine passes.
+pub struct Honest {
+    pub measurement: Measurement,
+    /// Largest error that agrees, relative to F + 3.
+    pub tolerance: f64,
+}
+
+/// What a row says.
+pub struct Said {
+    pub verdict: Verdict,
+    pub notes: Vec<String>,
+    pub tolerance: Option<f64>,
+}
+
+/// The stacks at which engines lie: below, at and above the critical friction.
+pub const STACKS: [(f64, f64); 3] = [(0.2, 1e3), (CRITICAL_FRICTION, 1e4), (0.3, 1e2)];
+
+impl Honest {
+    /// The conventions of native, LIGGGHTS, YADE's plane floor and LAMMPS, at every stack.
+    pub fn all() -> Vec<Self> {
+        let names = ["native", "liggghts", "yade-wall", "lammps"];
+        let codes = names.map(|name| Code::named(name).expect("it is built in"));
+        let all = STACKS.iter().flat_map(|&(friction, stiffness)| {
+            codes.map(|code| Self::new(code, &Stack::paper(friction, stiffness)))
+        });
+        all.collect()
+    }
+
+    fn new(code: Code, stack: &Stack) -> Self {
+        let mut honest = Self {
+            measurement: plan(code, stack, code.convention()),
+            tolerance: f64::NAN,
+        };
+        let said = honest.judge(&Lie::none());
+        honest.tolerance = said.tolerance.expect("it is judged");
+        honest
+    }
+
+    pub fn label(&self) -> String {
+        let stack = &self.measurement.stack;
+        format!(
+            "{}, mu {}, stiffness {}",
+            self.measurement.code, stack.floor_friction, stack.stiffness
+        )
+    }
+
+    /// The row of an engine that tells `lie` in every run.
+    pub fn judge(&self, lie: &Lie) -> Said {
+        let cases = self.measurement.cases.iter();
+        let runs = cases.map(|case| RunSummary::new(self.run(case, lie)));
+        let evaluation = self.measurement.evaluate(vec![runs.collect()]);
+        let grounds = evaluation.grounds;
+        Said {
+            verdict: grounds.verdict(),
+            notes: grounds.notes().into_iter().map(str::to_owned).collect(),
+            tolerance: grounds.deviation().map(|(_, tolerance)| tolerance),
+        }
+    }
+
+    fn run(&self, case: &Case, lie: &Lie) -> Run {
+        let limit = &self.measurement.limit;
+        let computed = lie.computed(case, limit.pair_ratio.expect("it yields"));
+        let law = SpringDashpot::like(0.0, &computed.convention, computed.stack.stiffness_ratio);
+        let model = LyingLaw {
+            law,
+            lie: *lie,
+            slow: 20.0 * case.protocol.wall_speed,
+        };
+        let series = compress_stack_with(&computed, model, || true).expect("a finite series");
+        let mut rows = series.samples().to_vec();
+        for row in &mut rows {
+            row.time = row.step as f64 * case.protocol.time_step;
+        }
+        let load = (limit.yield_force.expect("it yields") + 3.0) * case.stack.epsilon();
+        lie.write(&mut rows, load);
+        Run {
+            case: *case,
+            series: Series::new(rows, &case.protocol).expect("rows at their steps"),
+            provenance: Provenance::now(
+                Identity {
+                    code: self.measurement.code.to_string(),
+                    version: "lying".to_owned(),
+                    package: None,
+                    program_hash: None,
+                },
+                String::new(),
+                Vec::new(),
+                case.total_steps(),
+                0.0,
+            ),
+        }
+    }
+}

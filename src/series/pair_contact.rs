@@ -1,6 +1,6 @@
 //! The contact of cylinders 1 and 2, whose forces no code reports: from positions and the torque of the floor.
 
-use super::differences::{FiveRows, Rates};
+use super::differences::{COORDINATE, FiveRows, Rates};
 use crate::model::{Case, ContactLaw, CoulombOperand};
 
 /// The contact in the middle of five rows. Forces in k_n r.
@@ -46,9 +46,12 @@ impl PairContact {
             CoulombOperand::SpringAndDamping => 0.0,
         };
         let shear_error = inertia * turn.acceleration_error / pair_lever + on_top;
-        let velocity_errors =
-            x1.velocity_error + x2.velocity_error + y1.velocity_error + y2.velocity_error;
-        let normal_error = law.damping_normal * velocity_errors;
+        // Damping may belong to a moment up to a step away.
+        let known_to = |rates: Rates| {
+            rates.velocity_error + case.protocol.time_step * rates.acceleration.abs()
+        };
+        let velocity_errors: f64 = [x1, x2, y1, y2].map(known_to).iter().sum();
+        let normal_error = law.damping_normal * velocity_errors + 4.0 * COORDINATE;
         let accelerations = [x2, y1, y2, turn].map(|rates| rates.acceleration_error);
         Self {
             rates: [x2, y1, y2],

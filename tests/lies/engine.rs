@@ -1,6 +1,6 @@
 //! Engines with the conventions of the codes, honest or not, and the verdict on them.
 
-use crate::lie::{Lie, LyingLaw};
+use crate::lie::{Kind, Lie, LyingLaw};
 use tristack::code::{Code, Identity, Provenance, Run};
 use tristack::dem::{SpringDashpot, compress_stack_with};
 use tristack::model::{CRITICAL_FRICTION, Case, Stack};
@@ -75,7 +75,11 @@ impl Honest {
         let model = LyingLaw {
             law,
             lie: *lie,
-            slow: 20.0 * case.protocol.wall_speed,
+            slow: match lie.kind {
+                // The floor slides this fast near the peak.
+                Kind::FrictionUntilThePeak => 20.0 * case.protocol.wall_speed,
+                _ => 0.5 * case.protocol.wall_speed,
+            },
         };
         let series = compress_stack_with(&computed, model, || true).expect("a finite series");
         let mut rows = series.samples().to_vec();

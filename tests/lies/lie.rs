@@ -13,6 +13,8 @@ pub enum Kind {
     // In the computation.
     FloorFriction,
     FrictionUntilThePeak,
+    /// Friction that falls as soon as the floor slides.
+    StaticFriction,
     CylinderFriction,
     NormalStiffness,
     TangentialStiffness,
@@ -43,9 +45,10 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::FloorFriction,
         Self::FrictionUntilThePeak,
+        Self::StaticFriction,
         Self::CylinderFriction,
         Self::NormalStiffness,
         Self::TangentialStiffness,
@@ -149,7 +152,9 @@ impl Lie {
         self.alter(&mut stack, &mut convention, pair_ratio);
         let mut unit = 1.0;
         match self.kind {
-            Kind::FrictionUntilThePeak => stack.floor_friction *= 1.0 + self.size,
+            Kind::FrictionUntilThePeak | Kind::StaticFriction => {
+                stack.floor_friction *= 1.0 + self.size;
+            }
             Kind::NormalStiffness => {
                 stack.stiffness *= 1.0 + self.size;
                 stack.stiffness_ratio *= 1.0 + self.size;
@@ -324,7 +329,9 @@ impl ContactModel<f64> for LyingLaw {
         let arm = 1.0 + self.law.arms.floor.kinematic * contact.overlap;
         let sliding = (contact.sliding_speed - arm * contact.spin).abs();
         match self.lie.kind {
-            Kind::FrictionUntilThePeak if is_floor && sliding < self.slow => {
+            Kind::FrictionUntilThePeak | Kind::StaticFriction
+                if is_floor && sliding < self.slow =>
+            {
                 altered.friction *= 1.0 + self.lie.size;
             }
             Kind::NormalStiffness => altered.overlap *= 1.0 + self.lie.size,

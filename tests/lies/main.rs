@@ -63,6 +63,8 @@ pub fn in_parallel<T: Send>(jobs: usize, job: impl Fn(usize) -> T + Sync) -> Vec
     results.into_iter().map(|(_, result)| result).collect()
 }
 
+/// Plays a round. Friction that falls between two rows leaves no trace in them: docs/reliability.md says how much of it
+/// passes, and nothing is asked here.
 fn play(index: usize, seed: usize, honest: &[Honest]) -> Round {
     let mut random = fastrand::Rng::with_seed((seed << 32 | index) as u64);
     let honest = &honest[random.usize(..honest.len())];
@@ -73,7 +75,8 @@ fn play(index: usize, seed: usize, honest: &[Honest]) -> Round {
     let seen_by_size = lie.is_off_by(&honest.measurement) > GROSS;
     Round {
         label: honest.label(),
-        must_be_seen: moved > RESOLUTION * honest.tolerance || seen_by_size,
+        must_be_seen: kind != Kind::StaticFriction
+            && (moved > RESOLUTION * honest.tolerance || seen_by_size),
         verdict: judged.verdict,
         notes: judged.notes,
         lie,
@@ -129,13 +132,16 @@ fn never_alone(rounds: &[Round]) -> Vec<&'static str> {
     let alone = noticed.filter_map(|round| {
         let checks: BTreeSet<&str> = round.notes.iter().map(|note| check(note)).collect();
         let only = checks.first().copied().filter(|_| checks.len() == 1);
-        only.filter(|_| round.verdict != Verdict::Differs)
+        // Without an onset the peak decides.
+        only.filter(|only| round.verdict != Verdict::Differs || *only == NO_ONSET)
     });
     let alone: BTreeSet<&str> = alone.collect();
     let mut needed = CHECKS.to_vec();
     needed.retain(|check| !alone.contains(check));
     needed
 }
+
+const NO_ONSET: &str = "between slip and peak";
 
 /// The checks that are asserted to be needed, by a part of their notes.
 const CHECKS: [&str; 8] = [
@@ -145,7 +151,7 @@ const CHECKS: [&str; 8] = [
     Law::FloorOverlap.as_str(),
     Law::PairOverlap.as_str(),
     "does not begin at rest",
-    "between slip and peak",
+    NO_ONSET,
     "are not seen to carry",
 ];
 

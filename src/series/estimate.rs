@@ -227,8 +227,11 @@ impl<'a> Sliding<'a> {
     }
 }
 
-/// Largest ratio b/a in the rows from `beyond` on that is surely carried, while the top wall presses and cylinder 2
-/// stands on the floor.
+/// A kink in the motion spoils the differences in five rows; so many in a row contain one without it.
+const ROWS_BEYOND_A_KINK: usize = 6;
+
+/// Largest ratio b/a that is surely carried in some successive rows from `beyond` on, while the top wall presses and
+/// cylinder 2 stands on the floor.
 fn pair_friction(samples: &[Sample], beyond: usize, case: &Case) -> Option<f64> {
     let law = case.convention.law(case.stack.stiffness_ratio);
     let ratios = (beyond..samples.len()).map_while(|row| {
@@ -236,7 +239,10 @@ fn pair_friction(samples: &[Sample], beyond: usize, case: &Case) -> Option<f64> 
         let five = FiveRows::around(samples, row).filter(|_| bears)?;
         Some(PairContact::of(case, &law, five).carried_ratio())
     });
-    let largest = ratios.fold(0.0, f64::max);
+    let ratios: Vec<f64> = ratios.collect();
+    let least = |rows: &[f64]| rows.iter().copied().fold(f64::INFINITY, f64::min);
+    let sustained = ratios.windows(ROWS_BEYOND_A_KINK).map(least);
+    let largest = sustained.fold(0.0, f64::max);
     (largest > 0.0).then(|| (1e5 * largest).floor() * 1e-5)
 }
 

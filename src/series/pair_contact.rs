@@ -3,6 +3,9 @@
 use super::differences::{COORDINATE, FiveRows, Rates};
 use crate::model::{Case, ContactLaw, CoulombOperand};
 
+/// Safety factor of an error that is the distance of two orders (ASME V&V 20, section 2-4.1).
+const TWO_ORDERS: f64 = 3.0;
+
 /// The contact in the middle of five rows. Forces in k_n r.
 pub(super) struct PairContact {
     /// Rates of x₂, y₁ and y₂.
@@ -65,6 +68,6 @@ impl PairContact {
 
     /// |b|/a, less its largest error: so much friction there is between the cylinders.
     pub(super) fn carried_ratio(&self) -> f64 {
-        (self.shear / self.normal).abs() - self.ratio_error
+        (self.shear / self.normal).abs() - TWO_ORDERS * self.ratio_error
     }
 }

@@ -570,13 +570,12 @@ fn a_full_disk_loses_nothing_that_is_printed() {
     }
     let bench = Bench::with_system_programs();
     for (line, first) in [
-        (format!("{SWEEP} --out disk/out"), "sweep.json"),
+        (format!("{SWEEP} --out disk/out"), "sweep.csv"),
         (format!("{RUN} --format csv --out disk/out"), "series.csv"),
     ] {
         let expected = ended(bench.process(line.split(" --out").next().expect("a line")));
-        let set_up = "mkdir -p disk && mount -t tmpfs -o size=8k none disk && mkdir disk/out";
-        let script = "\"$@\"";
-        let output = ended(with_mounts(&bench.process(&line), set_up, script));
+        let set_up = "mkdir -p disk && mount -t tmpfs -o size=8k none disk && mkdir disk/out && echo > disk/all";
+        let output = ended(with_mounts(&bench.process(&line), set_up, "\"$@\""));
         let message = String::from_utf8_lossy(&output.stderr);
         assert_ne!(output.status.code(), Some(NO_DISK), "{message}");
         assert_eq!(output.status.code(), Some(5), "{message}");
@@ -589,6 +588,33 @@ fn a_full_disk_loses_nothing_that_is_printed() {
         assert_eq!(numbers(&output.stdout), numbers(&expected.stdout));
         assert!(numbers(&output.stdout) > 1);
     }
+}
+
+#[test]
+fn a_run_is_printed_though_not_a_byte_of_it_can_be_written() {
+    if !can_mount() {
+        eprintln!("not tried: no file system can be mounted");
+        return;
+    }
+    let bench = Bench::with_system_programs();
+    let line = format!("{RUN} --format csv --out disk/out");
+    let set_up =
+        "mkdir disk && mount -t tmpfs -o size=4k none disk && mkdir disk/out && echo > disk/all";
+    let output = ended(with_mounts(
+        &bench.process(&line),
+        set_up,
+        "\"$@\"; status=$?; ls -A disk/out >&2; exit $status",
+    ));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(5), "{message}");
+    let told = "error: cannot write disk/out/case.json: No space left on device";
+    assert!(message.starts_with(told), "{message}");
+    assert_eq!(
+        message.lines().count(),
+        1,
+        "something is left behind: {message}"
+    );
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 2);
 }
 
 #[test]

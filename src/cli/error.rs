@@ -126,6 +126,7 @@ impl CliError {
             Self::CodeFailed(failure) => match failure.kind {
                 FailureKind::Interrupted => ExitStatus::Interrupted,
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
+                FailureKind::RunDirectory(ref error) if error.is_full() => ExitStatus::NotWritten,
                 _ => ExitStatus::CodeFailed,
             },
             Self::Files(error) if error.is_full() => ExitStatus::NotWritten,

@@ -4,13 +4,13 @@ use super::options::{
     CodeParser, ConventionOptions, Format, StackOptions, as_flag, friction, options_of, time_limit,
 };
 use super::out::{Out, write};
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{
     Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
 };
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, Layout, remove_older, write_atomically};
-use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
+use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack, shown};
 use crate::output::{
     VTK_COLLECTION, is_vtk_collection, is_vtk_row, json, run_svg, simulations, vtk_series,
 };
@@ -113,22 +113,27 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let code = code.ok_or(CliError::MissingCode(arguments.code))?;
     let out = Out::claim(arguments.out.as_deref(), &run_layout(arguments, &case))?;
     Out::claim(arguments.vtk_outside(), &vtk_layout())?;
-    let run = match &arguments.out {
-        Some(directory) => {
-            begin(directory, &case)?;
+    let begun = begin(arguments.out.as_deref(), &case)?;
+    let run = match arguments.out.as_deref() {
+        Some(directory) if begun == ExitStatus::Success => {
             execute(code.as_ref(), &case, limit, directory)?
         }
-        None => execute_in_scratch(code.as_ref(), &case, limit)?,
+        _ => execute_in_scratch(code.as_ref(), &case, limit)?,
     };
     let tables = [simulations(std::slice::from_ref(&run))];
     let people = || tables[0].transposed(&["value"]).terminal();
     let printed = arguments.format.print(&tables, command, people);
-    let written = out.write(|| {
+    let results = || {
         vec![
             (SERIES, run.series.to_csv()),
             (SUMMARY, json(&tables, command).into_bytes()),
         ]
-    });
+    };
+    // The directory is known by the case, so that nothing may be there without it.
+    let written = match begun {
+        ExitStatus::Success => out.write(results),
+        failed => failed,
+    };
     let drawn = draw(arguments, &run)?;
     Ok(printed.max(written).max(drawn))
 }
@@ -279,13 +284,22 @@ const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const SUMMARY: &str = "summary.json";
 
-/// Writes the case, and removes the results of an earlier run, which must not stand beside the deck of this run.
-fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
-    write_atomically(&directory.join(CASE), case.to_json().as_bytes())?;
+/// Removes the results of an earlier run from the directory, if one is given, because they must not stand beside the deck
+/// of this run, and writes the case. A disk that is full is told, and no reason not to run.
+fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError> {
+    let Some(directory) = directory else {
+        return Ok(ExitStatus::Success);
+    };
     for path in [SERIES, SUMMARY].map(|name| directory.join(name)) {
         remove_older(&path).map_err(FileError::writing(&path))?;
     }
-    Ok(())
+    match write_atomically(&directory.join(CASE), case.to_json().as_bytes()) {
+        Err(error) if error.is_full() => {
+            tell!("error: {}", shown(Path::new(&error.to_string())));
+            Ok(ExitStatus::NotWritten)
+        }
+        written => written.map(|()| ExitStatus::Success),
+    }
 }
 
 /// The files of a run in the directory of `--out`, with pictures that are asked for in the same place.

@@ -1,7 +1,7 @@
 //! The directories of a store: adopted or created, and nobody else's.
 
 use super::StoreError;
-use crate::files::{FileError, is_draft, kind, sync_directory};
+use crate::files::{FileError, create_parent, is_draft, kind, sync_directory};
 use crate::model::shown;
 use nix::unistd::geteuid;
 use std::fs::{self, DirBuilder, Metadata};
@@ -62,9 +62,7 @@ impl Directories {
 
     fn create_root(&self) -> Result<(), FileError> {
         let writing = || FileError::writing(&self.root);
-        if let Some(parent) = self.root.parent() {
-            fs::create_dir_all(parent).map_err(writing())?;
-        }
+        let parent = create_parent(&self.root)?;
         let mut builder = DirBuilder::new();
         if self.sharing == Sharing::Private {
             builder.mode(0o700);
@@ -72,7 +70,8 @@ impl Directories {
         match builder.create(&self.root) {
             // By another program, just now.
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
-            created => created.map_err(writing()),
+            Err(error) => Err(writing()(error)),
+            Ok(()) => sync_directory(&parent),
         }
     }
 

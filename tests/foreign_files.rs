@@ -363,8 +363,11 @@ fn a_store_that_can_only_be_read_is_read() {
     assert_eq!(contents(&bench.path("store")), before);
 }
 
-/// Starts the program where its store can only be read, if that can be arranged.
-fn reader(bench: &Bench) -> Option<Box<dyn Fn(&str) -> Command + '_>> {
+/// Starts the program with a command line.
+type Start<'a> = Box<dyn Fn(&str) -> Command + 'a>;
+
+/// Starts it where its store can only be read, if that can be arranged.
+fn reader(bench: &Bench) -> Option<Start<'_>> {
     if can_mount() {
         let set_up = "mount --bind store store && mount -o remount,bind,ro store";
         return Some(Box::new(move |line| {

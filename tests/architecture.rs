@@ -95,6 +95,56 @@ fn no_folder_points_back() {
     }
 }
 
+/// Ways to open or to copy a file: one in the place of which somebody has put a named pipe would never be opened, and
+/// one that grows for ever never read to its end.
+const WAYS_TO_OPEN: [&str; 9] = [
+    "fs::read(",
+    "read_to_string",
+    "File::open",
+    "File::create",
+    "OpenOptions",
+    ".open(",
+    "fs::write(",
+    "fs::copy(",
+    "from_path(",
+];
+
+/// The lines of `text` outside comments and tests in which a file is opened.
+fn lines_that_open(text: &str) -> Vec<&str> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or(text);
+    let code = code.split("#[cfg(all(test").next().unwrap_or(code);
+    let lines = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"));
+    let opens = |line: &&str| WAYS_TO_OPEN.iter().any(|way| line.contains(way));
+    lines.filter(opens).collect()
+}
+
+#[test]
+fn files_are_opened_in_one_room_alone() {
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = 0;
+    for file in rust_files(&sources) {
+        let text = std::fs::read_to_string(&file).expect("a source file");
+        let mut lines = lines_that_open(&text);
+        if file.starts_with(sources.join("files")) {
+            found += lines.len();
+            continue;
+        }
+        // The files by which the kernel is told who somebody is: they take what is written at once.
+        lines.retain(|line| !line.contains("fs::write(\"/proc/self/"));
+        assert!(lines.is_empty(), "{}: {lines:#?}", file.display());
+    }
+    assert!(found >= 5, "files are opened somewhere");
+}
+
+#[test]
+fn a_file_that_is_opened_elsewhere_would_be_noticed() {
+    let text = "let a = std::fs::read(path)?;\n// fs::read(path)\nlet f = File::open(path);\n\
+                options.write(true).open(path)\n#[cfg(test)]\nfs::read(path)";
+    assert_eq!(lines_that_open(text).len(), 3);
+}
+
 /// Files of one room may use one another, but not in a circle.
 #[test]
 fn no_files_of_a_room_import_one_another_in_a_circle() {

@@ -225,7 +225,7 @@ fn native_reproduction() -> Reproduction {
     let scratch = tempfile::tempdir().expect("a directory");
     let interrupt = Interrupt::new();
     let settings = Settings {
-        store: Store::open(scratch.path()).expect("a store"),
+        store: Store::open(&scratch.path().join("store")).expect("a store"),
         recorded: Recorded::embedded(),
         fresh: false,
         threads: 2,

@@ -129,7 +129,7 @@ fn times(directory: &Path) -> Vec<(f64, String)> {
 #[test]
 fn vtk_series_says_what_the_series_says() {
     let bench = Bench::without_codes();
-    fs::create_dir(bench.path("para")).expect("a directory");
+    run(&bench, "--vtk para");
     fs::write(bench.path("para/cylinders_9999.vtp"), "of an earlier run").expect("a file");
     fs::write(bench.path("para/cylinders_mine.vtp"), "of the user").expect("a file");
     let case = run(&bench, "--vtk para");

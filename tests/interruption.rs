@@ -8,8 +8,9 @@ use tristack::code::Run;
 use tristack::code::{Code, Failure, Interrupt, RunContext};
 use tristack::files::{seal, unseal};
 use tristack::model::{Case, ContactConvention, Preparation, Stack};
-use tristack::runs::Store;
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store, Workload};
 use tristack::series::Series;
+use tristack::study::Campaign;
 use tristack::study::yield_force::plan;
 
 /// Some 1e7 steps each.
@@ -74,6 +75,52 @@ fn an_interrupted_run_is_taken_up_where_it_was_and_ends_with_the_same_bits() {
 }
 
 #[test]
+fn a_fresh_start_takes_up_nothing() {
+    let root = tempfile::tempdir().expect("a directory");
+    let interrupt = Interrupt::new();
+    let settings = |fresh| Settings {
+        store: Store::open(&root.path().join("store")).expect("a store"),
+        recorded: Recorded::embedded(),
+        fresh,
+        threads: 2,
+        time_limit: None,
+        interrupt: &interrupt,
+    };
+    let case = slow_start();
+    for fresh in [true, false] {
+        let checkpoints = settings(fresh).store.checkpoint_directory();
+        fs::create_dir_all(&checkpoints).expect("a directory");
+        outcomes(&[case], &checkpoints, 0);
+        let file = only_file(&checkpoints);
+        let sealed = fs::read(&file).expect("a checkpoint");
+        let text = unseal(&file, &sealed).expect("its digest");
+        let mut kept: serde_json::Value = serde_json::from_slice(text).expect("JSON");
+        // By this the run is known that goes on from it.
+        kept["seconds"] = 1e6.into();
+        fs::write(&file, seal(kept.to_string().as_bytes())).expect("a checkpoint");
+        let codes = [SelectedCode::find(Code::NATIVE)];
+        let settings = settings(fresh);
+        let read = Campaign::new(&codes, &settings, &Silent).read::<Run>(&[Workload {
+            code: Code::NATIVE,
+            tasks: vec![case],
+        }]);
+        let seconds = read[0][0].as_ref().expect("a run").provenance.seconds;
+        assert_eq!(seconds < 1e6, fresh, "{seconds} s");
+        assert_eq!(fs::read_dir(&checkpoints).expect("a directory").count(), 0);
+        fs::remove_dir_all(root.path().join("store/runs")).expect("it is there");
+    }
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
+    fn advanced(&self, _: f64) {}
+    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn warn(&self, _: &str) {}
+}
+
+#[test]
 fn of_more_runs_than_fit_into_a_vector_every_one_is_reported_after_an_interrupt() {
     let some = long_cases(3);
     let cases: Vec<Case> = some.iter().copied().cycle().take(40).collect();
@@ -89,7 +136,7 @@ fn of_more_runs_than_fit_into_a_vector_every_one_is_reported_after_an_interrupt(
 #[test]
 fn a_finished_run_needs_no_checkpoint_once_it_is_kept() {
     let root = tempfile::tempdir().expect("a directory");
-    let store = Store::open(root.path()).expect("a store");
+    let store = Store::open(&root.path().join("store")).expect("a store");
     let cases = long_cases(1);
     let checkpoints = store.checkpoint_directory();
     let kept = || fs::read_dir(&checkpoints).expect("a directory").count();

@@ -251,7 +251,7 @@ impl Progress for Silent {
 fn with_settings<T>(action: impl FnOnce(&Settings) -> T) -> T {
     let root = tempfile::tempdir().expect("a directory");
     let settings = Settings {
-        store: Store::open(root.path()).expect("a store"),
+        store: Store::open(&root.path().join("store")).expect("a store"),
         recorded: Recorded::new(Path::new("nowhere")),
         fresh: true,
         threads: 2,

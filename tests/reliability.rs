@@ -51,7 +51,8 @@ it, `bash .ci/reliability faults`, `fuzz` or `mutants`, does so for one section.
 mutant may survive, is written by hand.
 
 Known to be left lying about: a YADE that is killed leaves an empty directory `/tmp/yade-…`, whose place is fixed in its
-program; a `simulate` without `--out` or a `bench` that is killed leaves its directory for temporary files, `/tmp/tristack-…`.
+program; a `simulate` without `--out`, a `bench`, or a program with a store that can only be read leaves, if it is killed, its
+directory for temporary files, `/tmp/tristack-…`.
 ";
 
 fn faults_section(page: &mut String, faults: &Value) {

@@ -5,6 +5,7 @@ mod common;
 use common::replay::{self, Disturbance};
 use common::{Bench, standard_output, wait_for};
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -110,6 +111,14 @@ fn a_store_of_another_format_is_refused_and_left_as_it_is() {
         let path = store.join(file);
         fs::create_dir_all(path.parent().expect("a directory")).expect("a directory");
         fs::write(&path, content).expect("a file");
+        let private = fs::Permissions::from_mode(0o700);
+        for directory in path
+            .ancestors()
+            .skip(1)
+            .take_while(|path| path.starts_with(&store))
+        {
+            fs::set_permissions(directory, private.clone()).expect("permissions");
+        }
         let output = bench.tristack(SWEEP).output().expect("it runs");
         assert_eq!(output.status.code(), Some(1));
         let message = String::from_utf8_lossy(&output.stderr);

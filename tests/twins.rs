@@ -29,7 +29,7 @@ impl Progress for Silence {
 fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
     let settings = Settings {
-        store: Store::open(store.path()).expect("a store"),
+        store: Store::open(&store.path().join("store")).expect("a store"),
         recorded: Recorded::embedded(),
         fresh: false,
         threads: 2,

@@ -1,15 +1,14 @@
 //! `tristack bench`.
 
-use super::options::{CodeParser, Format, selected_codes, writable, write_all};
+use super::options::{CodeParser, Format, selected_codes};
+use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
-use crate::files::FileError;
+use crate::files::{FileError, Layout};
 use crate::output::{
     DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
-use crate::study::cost::{
-    PyramidBench, StackCost, installed_codes, measure_scaling, measure_stack,
-};
+use crate::study::cost::{PyramidBench, Scaling, installed_codes, measure_scaling, measure_stack};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -45,13 +44,15 @@ pub(super) struct Arguments {
 /// Measures, prints and writes the costs.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = timed_codes(&arguments.codes)?;
-    writable(arguments.out.as_deref())?;
+    let files = ["bench.csv", "bench.md", "scaling.csv", "performance.svg"];
+    let layout = Layout::tables("bench.json", &files);
+    let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let temporary = std::env::temp_dir();
     let directory = tempfile::tempdir().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
     let measured = match arguments.pyramids {
         true => time_pyramids(arguments, command, codes, &context),
-        false => time_stack(arguments, command, &codes, &context),
+        false => time_stack(arguments, command, &codes, &out, &context),
     };
     match measured {
         Err(_) if INTERRUPT.requested() => Ok(ExitStatus::Interrupted),
@@ -70,46 +71,43 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     Ok(codes.iter().map(|selected| selected.name).collect())
 }
 
+/// Measures the stack, and how lanes scale if that is printed or written; prints and writes all of it.
 fn time_stack(
     arguments: &Arguments,
     command: &str,
     codes: &[Code],
+    out: &Out,
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
-    let costs = measure_stack(codes, arguments.repeats.map(usize::from), context)?;
-    let rows = crate::output::bench(&costs);
-    let further = match arguments.scaling || arguments.out.is_some() {
-        true => time_scaling(arguments, command, &costs, context)?,
-        false => String::new(),
-    };
-    print(arguments.format, rows, command, &further)
+    let repeats = arguments.repeats.map(usize::from);
+    let costs = measure_stack(codes, repeats, context)?;
+    let rows = || crate::output::bench(&costs);
+    if !arguments.scaling && arguments.out.is_none() {
+        return Ok(print(arguments.format, rows(), command, ""));
+    }
+    let measured = measure_scaling(repeats, context)?;
+    let printed = print(arguments.format, rows(), command, &scaling_text(&measured));
+    let written = out.write(|| {
+        let all = measured.cases.iter().chain(&measured.cores);
+        vec![
+            ("bench.csv", rows().csv()),
+            ("bench.json", json(&[rows()], command)),
+            ("bench.md", bench_markdown(&costs, &measured)),
+            ("scaling.csv", scaling(all).csv()),
+            ("performance.svg", performance_svg(&costs, &measured)),
+        ]
+    });
+    Ok(printed.max(written))
 }
 
-/// Measures how lanes scale, writes all files, and returns the text for a terminal.
-fn time_scaling(
-    arguments: &Arguments,
-    command: &str,
-    costs: &[StackCost],
-    context: &RunContext,
-) -> Result<String, CliError> {
-    let measured = measure_scaling(arguments.repeats.map(usize::from), context)?;
-    write_all(arguments.out.as_deref(), || {
-        let all = measured.cases.iter().chain(&measured.cores);
-        let rows = crate::output::bench(costs);
-        [
-            ("bench.csv", rows.csv()),
-            ("bench.json", json(&[rows], command)),
-            ("bench.md", bench_markdown(costs, &measured)),
-            ("scaling.csv", scaling(all).csv()),
-            ("performance.svg", performance_svg(costs, &measured)),
-        ]
-    })?;
+/// How lanes scale, for a terminal.
+fn scaling_text(measured: &Scaling) -> String {
     let (cases, cores) = (scaling(&measured.cases), scaling(&measured.cores));
-    Ok(format!(
+    format!(
         "native lanes on one core:\n{}native lanes, planned runs:\n{}",
         cases.shown().terminal(),
         cores.shown().terminal()
-    ))
+    )
 }
 
 fn time_pyramids(
@@ -128,16 +126,11 @@ fn time_pyramids(
         ..default
     };
     let costs = bench.measure(context)?;
-    print(arguments.format, pyramids(&costs), command, "")
+    Ok(print(arguments.format, pyramids(&costs), command, ""))
 }
 
 /// Prints `rows`; a terminal also gets the machine above and `further` text below.
-fn print(
-    format: Format,
-    rows: DataTable,
-    command: &str,
-    further: &str,
-) -> Result<ExitStatus, CliError> {
+fn print(format: Format, rows: DataTable, command: &str, further: &str) -> ExitStatus {
     let tables = [rows];
     let table = || tables[0].shown().terminal();
     let people = || format!("{}\n{}{further}", bench_machine(), table());

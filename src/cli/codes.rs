@@ -19,5 +19,5 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let tables = [inventory(&Code::all())];
     let people = || tables[0].shown().terminal();
-    arguments.format.print(&tables, command, people)
+    Ok(arguments.format.print(&tables, command, people))
 }

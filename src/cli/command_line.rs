@@ -13,7 +13,7 @@ const LEFT_OUT: [&str; 7] = [
     "--svg",
     "--vtk",
 ];
-const LEFT_OUT_FLAGS: [&str; 1] = ["--fresh"];
+const LEFT_OUT_FLAGS: [&str; 2] = ["--fresh", "--shared-store"];
 
 /// `tristack` with those of its `arguments`, the first of which is the program, on which the results depend.
 pub(super) fn command_line(arguments: &[OsString]) -> String {

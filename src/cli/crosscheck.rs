@@ -2,12 +2,12 @@
 
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
-use super::options::{
-    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
-};
+use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
+use crate::files::Layout;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement, Profile};
@@ -54,23 +54,26 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return explain(row, &arguments.run);
     }
     let codes = selected_codes(&arguments.codes.named)?;
-    writable(arguments.out.as_deref())?;
+    let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];
+    let layout = Layout::tables("crosscheck.json", &files);
+    let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let measurements = measurements(arguments, &codes);
     let settings = arguments.run.settings()?;
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let tables = [crosscheck(&judgements)];
-    write_all(arguments.out.as_deref(), || {
-        [
+    let people = || crosscheck_text(&judgements);
+    let printed = arguments.format.print(&tables, command, people);
+    let written = out.write(|| {
+        vec![
             ("crosscheck.csv", tables[0].csv()),
             ("budget.csv", budget(&judgements).csv()),
             ("crosscheck.json", json(&tables, command)),
             ("crosscheck.md", crosscheck_markdown(&judgements, command)),
         ]
-    })?;
-    let people = || crosscheck_text(&judgements);
-    arguments.format.print(&tables, command, people)?;
-    Ok(conclude(&judgements, planned, &codes))
+    });
+    let found = conclude(&judgements, planned, &codes);
+    Ok(found.max(printed).max(written))
 }
 
 fn measurements(arguments: &Arguments, codes: &[SelectedCode]) -> Vec<Measurement> {

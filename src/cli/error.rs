@@ -19,6 +19,8 @@ pub enum ExitStatus {
     Success,
     /// An uncertainty is larger than its tolerance, and nothing is worse.
     Inconclusive,
+    /// A result could not be written, and no run is worse than inconclusive.
+    NotWritten,
     /// A disagreement was found.
     Disagreement,
     /// A code failed, timed out or is missing.
@@ -38,6 +40,7 @@ impl ExitStatus {
             Self::Disagreement => 2,
             Self::CodeFailed => 3,
             Self::Inconclusive => 4,
+            Self::NotWritten => 5,
             Self::Interrupted => 130,
         }
     }
@@ -123,8 +126,10 @@ impl CliError {
             Self::CodeFailed(failure) => match failure.kind {
                 FailureKind::Interrupted => ExitStatus::Interrupted,
                 FailureKind::Unsupported(_) => ExitStatus::WrongInput,
+                FailureKind::RunDirectory(ref error) if error.is_full() => ExitStatus::NotWritten,
                 _ => ExitStatus::CodeFailed,
             },
+            Self::Files(error) if error.is_full() => ExitStatus::NotWritten,
             Self::Reproduction(_) | Self::MissingCode(_) => ExitStatus::CodeFailed,
             _ => ExitStatus::WrongInput,
         }

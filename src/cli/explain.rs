@@ -49,9 +49,9 @@ pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus,
     };
     let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
-    print(&explanation(judgement, twin.as_ref()))?;
+    let printed = print(&explanation(judgement, twin.as_ref()));
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }
-    Ok(ExitStatus::of(&judgements))
+    Ok(ExitStatus::of(&judgements).max(printed))
 }

@@ -2,6 +2,7 @@
 
 use super::{ExitStatus, tell};
 use crate::code::Interrupt;
+use crate::files::system_text;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
@@ -41,7 +42,7 @@ fn interrupt() {
 /// The signals that interrupt. SIGHUP is left alone if it was ignored at the start, as under `nohup`. SIGINT is not,
 /// although shells start background jobs with it ignored: there it is only sent on purpose.
 fn wanted() -> Vec<i32> {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let status = system_text("/proc/self/status").unwrap_or_default();
     let stays = ignored(&status) >> (SIGHUP - 1) & 1 == 1;
     let mut signals = vec![SIGINT, SIGTERM];
     signals.extend((!stays).then_some(SIGHUP));

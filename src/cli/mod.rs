@@ -9,6 +9,7 @@ mod explain;
 mod guard;
 mod interrupt;
 mod options;
+mod out;
 mod predict;
 mod probe;
 mod progress;
@@ -35,8 +36,9 @@ pub(crate) use streams::{print, tell};
 #[command(name = "tristack", version, max_term_width = 100)]
 #[command(
     after_help = "Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
-    --stiffness is k_n r/(m g).\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
-    3 a code failed or is missing, 4 inconclusive, 130 interrupted."
+    --stiffness is k_n r/(m g).\n\n--out and --vtk take a new or empty directory, or one with nothing but \
+    earlier results of the same command.\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
+    3 a code failed or is missing, 4 inconclusive, 5 a result could not be written, 130 interrupted."
 )]
 struct Cli {
     #[command(subcommand)]

@@ -2,13 +2,12 @@
 
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::{Code, ManifestError};
-use crate::files::{FileError, write_atomically};
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::output::{DataTable, json};
-use crate::runs::{Recorded, SelectedCode, Settings, Store, in_parallel};
+use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
@@ -42,7 +41,7 @@ impl Format {
         tables: &[DataTable],
         command: &str,
         people: impl FnOnce() -> String,
-    ) -> Result<ExitStatus, CliError> {
+    ) -> ExitStatus {
         print(&match self {
             Self::Table if tables.iter().all(DataTable::is_empty) => String::new(),
             Self::Table => people(),
@@ -173,9 +172,12 @@ pub(super) fn options_of<T: Args>() -> Vec<clap::Id> {
 /// The store of runs, and how runs are carried out.
 #[derive(Debug, Clone, Args)]
 pub(super) struct RunOptions {
-    /// Store of finished runs [default: $TRISTACK_STORE, else tristack in the user's cache directory]
+    /// Store of finished runs: a new or empty directory, or a store of yours [default: $TRISTACK_STORE, else tristack in the user's cache directory]
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
+    /// Accept a store that other users may write to, and believe what is in it
+    #[arg(long)]
+    pub shared_store: bool,
     /// Run everything again instead of reusing runs from the store
     #[arg(long)]
     pub fresh: bool,
@@ -191,9 +193,13 @@ pub(super) struct RunOptions {
 impl RunOptions {
     /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
+        let sharing = match self.shared_store {
+            true => Sharing::Shared,
+            false => Sharing::Private,
+        };
         let jobs = self.jobs.or(std::thread::available_parallelism().ok());
         Ok(Settings {
-            store: Store::open(&self.store_directory()?)?,
+            store: Store::open_as(&self.store_directory()?, sharing)?,
             recorded: recorded(),
             fresh: self.fresh,
             threads: jobs.map_or(1, usize::from),
@@ -328,29 +334,6 @@ pub(super) fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) 
             selected.name.installation_hint()
         );
     }
-}
-
-/// Creates the directory, if one is given, and checks that files can be written there.
-pub(super) fn writable(directory: Option<&Path>) -> Result<(), FileError> {
-    if let Some(directory) = directory {
-        std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
-        tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
-    }
-    Ok(())
-}
-
-/// Writes files, given by name and content, to the directory, if one is given. Nothing is written after an interrupt,
-/// when rows are missing.
-pub(super) fn write_all<'a, const N: usize>(
-    directory: Option<&Path>,
-    files: impl FnOnce() -> [(&'a str, String); N],
-) -> Result<(), FileError> {
-    let Some(directory) = directory.filter(|_| !INTERRUPT.requested()) else {
-        return Ok(());
-    };
-    files()
-        .iter()
-        .try_for_each(|(name, content)| write_atomically(&directory.join(name), content.as_bytes()))
 }
 
 /// Reads `--mu`: a number, or the word `critical`.

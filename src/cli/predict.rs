@@ -94,5 +94,5 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
     let people = || forecast_text(&found[0]);
     let tables = [forecasts(&found)];
-    arguments.format.print(&tables, command, people)
+    Ok(arguments.format.print(&tables, command, people))
 }

@@ -39,8 +39,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .collect();
     let people = || probe_by_code(&findings).terminal();
     let tables = [probe(&findings)];
-    arguments.format.print(&tables, command, people)?;
-    Ok(conclude(&codes, &probed, &findings))
+    let printed = arguments.format.print(&tables, command, people);
+    Ok(conclude(&codes, &probed, &findings).max(printed))
 }
 
 /// Summarizes the findings on standard error, and returns the exit status.

@@ -58,6 +58,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let codes = selected_codes(&external)?;
     let directory = recording_directory()?;
+    for selected in &codes {
+        Recording::check_place(&directory, selected.name)?;
+    }
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
     for selected in codes {

@@ -1,12 +1,14 @@
 //! `tristack regimes`.
 
-use super::options::{Format, RunOptions, as_flag, writable, write_all};
+use super::options::{Format, RunOptions, as_flag};
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
+use crate::files::Layout;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
-    boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
+    REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
 use crate::runs::SelectedCode;
 use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, survey};
@@ -47,7 +49,7 @@ pub(super) struct Arguments {
 /// Examines every boundary, prints and writes the result.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let maps = checked_maps(arguments)?;
-    writable(arguments.out.as_deref())?;
+    let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
     let settings = arguments.run.settings()?;
@@ -62,18 +64,34 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         boundaries(&survey.confirmations),
         largest_forces(&survey.examinations),
     ];
-    write_all(arguments.out.as_deref(), || {
-        [
+    let people = || survey_text(&survey);
+    let printed = arguments.format.print(&tables, command, people);
+    let written = out.write(|| {
+        vec![
             ("regimes.csv", regimes(&maps, GRID.0, GRID.1).csv()),
             ("boundaries.csv", tables[0].csv()),
             ("largest_forces.csv", tables[1].csv()),
             ("regimes.md", regimes_markdown(&survey, command)),
             ("regimes.svg", regimes_svg(&maps, &survey)),
         ]
-    })?;
-    let people = || survey_text(&survey);
-    arguments.format.print(&tables, command, people)?;
-    Ok(conclude(&survey))
+    });
+    Ok(conclude(&survey).max(printed).max(written))
+}
+
+/// The files that are written.
+fn layout() -> Layout {
+    let files = [
+        "regimes.csv",
+        "boundaries.csv",
+        "largest_forces.csv",
+        "regimes.svg",
+    ];
+    Layout {
+        witness: "regimes.md",
+        is_ours: |content| content.starts_with(REGIMES_TITLE.as_bytes()),
+        files: files.map(str::to_owned).into(),
+        scratch: None,
+    }
 }
 
 fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {

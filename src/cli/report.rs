@@ -1,16 +1,17 @@
 //! `tristack report`.
 
-use super::options::{CodeParser, RunOptions, selected_codes, writable};
+use super::options::{CodeParser, RunOptions, selected_codes};
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
-use crate::files::write_atomically;
+use crate::files::Layout;
 use crate::model::shown;
 use crate::output::{Origin, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Write the reproducibility report for the paper
 ///
@@ -42,7 +43,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }
     let codes = selected_codes(&codes)?;
     let register = Register::paper()?;
-    writable(Some(&arguments.out))?;
+    let out = Out::claim(Some(&arguments.out), &layout())?;
     let settings = arguments.run.settings()?;
     let scope = Scope {
         codes: &codes,
@@ -67,19 +68,35 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         recorded: absent.map(|selected| selected.name).collect(),
         literal: arguments.literal,
     };
-    for file in report_files(&reproduced, &claims, &origin) {
-        write_atomically(&arguments.out.join(&file.name), &file.content)?;
+    let found = conclude(&reproduced, &claims);
+    let written = out.write(|| {
+        let files = report_files(&reproduced, &claims, &origin).into_iter();
+        files.map(|file| (file.name, file.content)).collect()
+    });
+    if written == ExitStatus::Success {
+        tell!("{}", shown(&arguments.out.join("report.html")));
     }
-    Ok(conclude(&arguments.out, &reproduced, &claims))
+    Ok(found.max(written))
+}
+
+/// The files of a report.
+fn layout() -> Layout {
+    let files = [
+        "report.html",
+        "report.md",
+        "junit.xml",
+        "ro-crate-metadata.json",
+        "tables/*.csv",
+        "tables/*.tex",
+        "figures/*.svg",
+        "figures/*.pdf",
+    ];
+    Layout::tables("claims.json", &files)
 }
 
 /// Summarizes the claims on standard error, and returns the exit status of the runs alone: a claim that does not
 /// hold is a result.
-fn conclude(
-    directory: &Path,
-    reproduction: &Reproduction,
-    claims: &[ClaimJudgement],
-) -> ExitStatus {
+fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatus {
     let count = |verdict| claims.iter().filter(|own| own.verdict == verdict).count();
     tell!(
         "{} claims: {} hold, {} hold approximately, {} do not hold as stated, {} cannot be tested",
@@ -89,7 +106,6 @@ fn conclude(
         count(ClaimVerdict::Fails),
         count(ClaimVerdict::Untestable)
     );
-    tell!("{}", shown(&directory.join("report.html")));
     let curves = ExitStatus::of(&reproduction.yield_curves);
     curves.max(ExitStatus::of(&reproduction.scaling))
 }

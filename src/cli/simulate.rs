@@ -2,14 +2,18 @@
 
 use super::options::{
     CodeParser, ConventionOptions, Format, StackOptions, as_flag, friction, options_of, time_limit,
-    writable,
 };
-use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence};
+use super::out::{Out, write};
+use super::{CliError, ExitStatus, INTERRUPT, tell};
+use crate::code::{
+    Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
+};
 use crate::dem::compress_stack_into_frames;
-use crate::files::{FileError, write_atomically};
-use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack};
-use crate::output::{is_vtk_row, json, run_svg, simulations, vtk_series};
+use crate::files::{FileError, Layout, remove_older, write_atomically};
+use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack, shown};
+use crate::output::{
+    VTK_COLLECTION, is_vtk_collection, is_vtk_row, json, run_svg, simulations, vtk_series,
+};
 use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
@@ -105,25 +109,33 @@ fn replaced_by_case() -> Vec<Id> {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
     let limit = time_limit(arguments.time_limit)?;
-    writable(arguments.vtk.as_deref())?;
     let code = arguments.code.find();
     let code = code.ok_or(CliError::MissingCode(arguments.code))?;
-    let run = match &arguments.out {
-        Some(directory) => {
-            writable(Some(directory))?;
-            begin(directory, &case)?;
+    let out = Out::claim(arguments.out.as_deref(), &run_layout(arguments, &case))?;
+    Out::claim(arguments.vtk_outside(), &vtk_layout())?;
+    let begun = begin(arguments.out.as_deref(), &case)?;
+    let run = match arguments.out.as_deref() {
+        Some(directory) if begun == ExitStatus::Success => {
             execute(code.as_ref(), &case, limit, directory)?
         }
-        None => execute_in_scratch(code.as_ref(), &case, limit)?,
+        _ => execute_in_scratch(code.as_ref(), &case, limit)?,
     };
     let tables = [simulations(std::slice::from_ref(&run))];
-    if let Some(directory) = &arguments.out {
-        write_atomically(&directory.join(SERIES), &run.series.to_csv())?;
-        write_atomically(&directory.join(SUMMARY), json(&tables, command).as_bytes())?;
-    }
-    draw(arguments, &run)?;
     let people = || tables[0].transposed(&["value"]).terminal();
-    arguments.format.print(&tables, command, people)
+    let printed = arguments.format.print(&tables, command, people);
+    let results = || {
+        vec![
+            (SERIES, run.series.to_csv()),
+            (SUMMARY, json(&tables, command).into_bytes()),
+        ]
+    };
+    // The directory is known by the case, so that nothing may be there without it.
+    let written = match begun {
+        ExitStatus::Success => out.write(results),
+        failed => failed,
+    };
+    let drawn = draw(arguments, &run)?;
+    Ok(printed.max(written).max(drawn))
 }
 
 /// Runs the case in a temporary directory, which stays if it helps to explain a failure.
@@ -162,32 +174,33 @@ fn execute(
 }
 
 /// Writes the picture and the files for ParaView, if asked for.
-fn draw(arguments: &Arguments, run: &Run) -> Result<(), CliError> {
+fn draw(arguments: &Arguments, run: &Run) -> Result<ExitStatus, CliError> {
+    let mut status = ExitStatus::Success;
     if arguments.svg.is_none() && arguments.vtk.is_none() {
-        return Ok(());
+        return Ok(status);
     }
     let frames = frames(arguments.code, run)?;
     if let Some(file) = &arguments.svg {
         let name = &run.provenance.identity.code;
-        write_atomically(file, run_svg(name, &run.case, &frames).as_bytes())?;
+        status = write(file, run_svg(name, &run.case, &frames).as_bytes());
     }
     if let Some(directory) = &arguments.vtk {
-        let files = vtk_series(&frames, run.case.stack.epsilon());
-        remove_vtk_series(directory)?;
-        for file in files {
-            write_atomically(&directory.join(&file.name), file.content.as_bytes())?;
-        }
+        remove_vtk_rows(directory)?;
+        let files = vtk_series(&frames, run.case.stack.epsilon()).into_iter();
+        let files = || files.map(|file| (file.name, file.content)).collect();
+        let written = Out::claimed(directory, VTK_COLLECTION).write(files);
+        status = status.max(written);
     }
-    Ok(())
+    Ok(status)
 }
 
-/// Removes the files of an earlier series, which may have had more rows.
-fn remove_vtk_series(directory: &Path) -> Result<(), FileError> {
+/// Removes the rows of an earlier series, which may have been longer.
+fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
     let entries = std::fs::read_dir(directory).map_err(FileError::writing(directory))?;
     for entry in entries.flatten() {
         if is_vtk_row(&entry.file_name().to_string_lossy()) {
             let path = entry.path();
-            std::fs::remove_file(&path).map_err(FileError::writing(&path))?;
+            remove_older(&path).map_err(FileError::writing(&path))?;
         }
     }
     Ok(())
@@ -271,14 +284,70 @@ const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const SUMMARY: &str = "summary.json";
 
-/// Writes the case, and removes the results of an earlier run, which must not stand beside the deck of this run.
-fn begin(directory: &Path, case: &Case) -> Result<(), FileError> {
-    write_atomically(&directory.join(CASE), case.to_json().as_bytes())?;
-    for name in [SERIES, SUMMARY] {
-        let path = directory.join(name);
-        if path.exists() {
-            std::fs::remove_file(&path).map_err(FileError::writing(&path))?;
-        }
+/// Removes the results of an earlier run from the directory, if one is given, because they must not stand beside the deck
+/// of this run, and writes the case. A disk that is full is told, and no reason not to run.
+fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError> {
+    let Some(directory) = directory else {
+        return Ok(ExitStatus::Success);
+    };
+    for path in [SERIES, SUMMARY].map(|name| directory.join(name)) {
+        remove_older(&path).map_err(FileError::writing(&path))?;
     }
-    Ok(())
+    match write_atomically(&directory.join(CASE), case.to_json().as_bytes()) {
+        Err(error) if error.is_full() => {
+            tell!("error: {}", shown(Path::new(&error.to_string())));
+            Ok(ExitStatus::NotWritten)
+        }
+        written => written.map(|()| ExitStatus::Success),
+    }
+}
+
+/// The files of a run in the directory of `--out`, with pictures that are asked for in the same place.
+fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
+    let mut files = arguments.code.run_files(case);
+    files.extend([SERIES, SUMMARY].map(str::to_owned));
+    files.extend(arguments.in_out(arguments.svg.as_deref()));
+    if let Some(vtk) = arguments.in_out(arguments.vtk.as_deref()) {
+        let names = vtk_layout().files.into_iter();
+        let names = names.chain([VTK_COLLECTION.to_owned()]);
+        files.extend(names.map(|name| match vtk.as_str() {
+            "" => name,
+            folder => format!("{folder}/{name}"),
+        }));
+    }
+    Layout {
+        witness: CASE,
+        is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
+        files,
+        scratch: Some(HOME),
+    }
+}
+
+/// The files for ParaView.
+fn vtk_layout() -> Layout {
+    Layout {
+        witness: VTK_COLLECTION,
+        is_ours: is_vtk_collection,
+        files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
+        scratch: None,
+    }
+}
+
+impl Arguments {
+    /// The path of `place` in the directory of `--out`, if it lies there.
+    fn in_out(&self, place: Option<&Path>) -> Option<String> {
+        let [out, place] =
+            [self.out.as_deref()?, place?].map(|path| std::path::absolute(path).ok());
+        let inside = place?.strip_prefix(out?).ok()?.to_str()?.to_owned();
+        Some(inside)
+    }
+
+    /// The directory of `--vtk`, unless it is that of `--out`.
+    fn vtk_outside(&self) -> Option<&Path> {
+        let vtk = self.vtk.as_deref();
+        vtk.filter(|&vtk| {
+            self.in_out(Some(vtk))
+                .is_none_or(|inside| !inside.is_empty())
+        })
+    }
 }

@@ -1,9 +1,7 @@
 //! Results on standard output, messages on standard error.
 
-use super::{CliError, ExitStatus};
-use crate::files::FileError;
+use super::ExitStatus;
 use std::io::Write;
-use std::path::Path;
 
 /// Writes a line to standard error; a closed pipe is no reason to stop.
 macro_rules! tell {
@@ -15,16 +13,17 @@ macro_rules! tell {
 
 pub(crate) use tell;
 
-/// Writes results to standard output; a closed pipe is no error.
-pub(crate) fn print(text: &str) -> Result<ExitStatus, CliError> {
+/// Writes results to standard output; a closed pipe is no error, and any other one is told.
+pub(crate) fn print(text: &str) -> ExitStatus {
     let mut output = std::io::stdout().lock();
     let written = output
         .write_all(text.as_bytes())
         .and_then(|()| output.flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(FileError::writing(Path::new("standard output"))(error).into())
+            tell!("error: cannot write standard output: {error}");
+            ExitStatus::NotWritten
         }
-        _ => Ok(ExitStatus::Success),
+        _ => ExitStatus::Success,
     }
 }

@@ -3,11 +3,13 @@
 use super::crosscheck::conclude;
 use super::options::{
     CodeParser, ConventionOptions, Format, RunOptions, StackListOptions, as_flag, friction,
-    selected_codes, writable, write_all,
+    selected_codes,
 };
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
+use crate::files::Layout;
 use crate::model::Stack;
 use crate::output::{crosscheck, crosscheck_text, json};
 use crate::study::Campaign;
@@ -99,7 +101,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;
     let stacks = arguments.stack.stacks(&arguments.mu.0)?;
-    writable(arguments.out.as_deref())?;
+    let layout = Layout::tables("sweep.json", &["sweep.csv"]);
+    let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let settings = arguments.run.settings()?;
     let planned = |stack: &Stack| {
         let measurement = plan(arguments.code, stack, convention);
@@ -118,15 +121,16 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .collect();
     drop(progress);
     let tables = [crosscheck(&judgements)];
-    write_all(arguments.out.as_deref(), || {
-        [
+    let people = || crosscheck_text(&judgements);
+    let printed = arguments.format.print(&tables, command, people);
+    let written = out.write(|| {
+        vec![
             ("sweep.csv", tables[0].csv()),
             ("sweep.json", json(&tables, command)),
         ]
-    })?;
-    let people = || crosscheck_text(&judgements);
-    arguments.format.print(&tables, command, people)?;
-    Ok(conclude(&judgements, stacks.len(), &codes))
+    });
+    let found = conclude(&judgements, stacks.len(), &codes);
+    Ok(found.max(printed).max(written))
 }
 
 #[cfg(test)]

@@ -36,9 +36,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .collect();
     let people = || theories_by_stack(&predictions);
     let tables = [theory(&predictions)];
-    arguments.format.print(&tables, command, people)?;
+    let printed = arguments.format.print(&tables, command, people);
     Ok(match predictions.len() == stacks.len() {
-        true => ExitStatus::Success,
+        true => printed,
         false => ExitStatus::Interrupted,
     })
 }

@@ -1,12 +1,12 @@
 //! `tristack trajectories`.
 
 use super::interrupt::interrupted_after;
-use super::options::{
-    CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, writable, write_all,
-};
+use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
+use crate::files::Layout;
 use crate::model::InvalidValue;
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
@@ -24,7 +24,7 @@ use std::path::PathBuf;
 /// angle row by row, through yield and collapse, and judges whether the differences fall with the time step as
 /// they must. Recorded runs stand in for codes that are not installed.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out results")]
+#[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out trajectories")]
 pub(super) struct Arguments {
     #[command(flatten)]
     codes: CodeOptions,
@@ -43,15 +43,19 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     refuse_native(&arguments.codes.named)?;
     let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
-    writable(arguments.out.as_deref())?;
+    let files = ["trajectories.csv", "trajectories.md"];
+    let layout = Layout::tables("trajectories.json", &files);
+    let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let plans = plans(codes.iter().map(|selected| selected.name));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
     let tables = [trajectories(&judgements)];
-    write_all(arguments.out.as_deref(), || {
-        [
+    let people = || trajectories_text(&judgements);
+    let printed = arguments.format.print(&tables, command, people);
+    let written = out.write(|| {
+        vec![
             ("trajectories.csv", tables[0].csv()),
             ("trajectories.json", json(&tables, command)),
             (
@@ -59,10 +63,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
                 trajectories_markdown(&judgements, command),
             ),
         ]
-    })?;
-    let people = || trajectories_text(&judgements);
-    arguments.format.print(&tables, command, people)?;
-    Ok(conclude(&judgements, planned, &codes))
+    });
+    let found = conclude(&judgements, planned, &codes);
+    Ok(found.max(printed).max(written))
 }
 
 /// The plans for the codes, each under its declared convention.

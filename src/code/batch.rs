@@ -7,20 +7,21 @@ use super::manifest::ResultFile;
 use super::parameters::only_numbers;
 use super::process::{Job, run};
 use super::task::Task;
-use crate::files::{FileError, locked_directory, remove_abandoned};
+use super::written::{HOME, STANDARD_ERROR, STANDARD_OUTPUT};
+use crate::files::{
+    FileError, create_anew, locked_directory, read_end, remove_abandoned, remove_older,
+};
 use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io::{Read, Seek, SeekFrom};
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
 const LAST_LINES: usize = 4;
-const HOME: &str = ".home-";
+/// The permissions of that home.
+const PRIVATE: u32 = 0o700;
 const TAIL_BYTES: u64 = 4096;
-// Files that receive the output of a program.
-const STANDARD_OUTPUT: &str = "stdout.txt";
-const STANDARD_ERROR: &str = "stderr.txt";
 
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
@@ -130,7 +131,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let directory = self.directory.clone();
         // A killed process may have left its home in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
-        let (home, _lock) = locked_directory(&directory, HOME)?;
+        let (home, _lock) = locked_directory(&directory, HOME, PRIVATE)?;
         let job = Job {
             command: &command,
             directory: &directory,
@@ -140,7 +141,7 @@ impl<'a, T: Task> Batch<'a, T> {
             interrupt: context.interrupt,
         };
         let [output, error] =
-            [STANDARD_OUTPUT, STANDARD_ERROR].map(|name| File::create(directory.join(name)));
+            [STANDARD_OUTPUT, STANDARD_ERROR].map(|name| create_anew(&directory.join(name)));
         let (status, _) = run(&job, output?, error?, || self.harvest(report))?;
         Ok(status)
     }
@@ -163,7 +164,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn is_complete(&self, index: usize) -> bool {
         let file = self.task_directory(index).join(&self.result.file);
-        self.code.definition.runs_many() && file.is_file()
+        self.code.definition.runs_many() && is_regular(&file)
     }
 
     fn task_directory(&self, index: usize) -> PathBuf {
@@ -230,33 +231,21 @@ impl<'a, T: Task> Batch<'a, T> {
 /// Writes a file of a task, which may lie in a folder of its own.
 fn write(path: &Path, content: &[u8]) -> Result<(), FailureKind> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    let written = folder.and_then(|()| fs::write(path, content));
+    let written = folder.and_then(|()| create_anew(path)?.write_all(content));
     written.map_err(|error| FileError::writing(path)(error).into())
 }
 
 fn remove(path: &Path) -> Result<(), FailureKind> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            Err(FileError::writing(path)(error).into())
-        }
-        _ => Ok(()),
-    }
+    remove_older(path).map_err(|error| FileError::writing(path)(error).into())
+}
+
+fn is_regular(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
 }
 
 /// The last lines of a file that are not blank; bytes that are not text are replaced.
 fn tail(path: &Path) -> Vec<String> {
-    let Ok(mut file) = File::open(path) else {
-        return Vec::new();
-    };
-    let length = file.metadata().map_or(0, |metadata| metadata.len());
-    let mut bytes = Vec::new();
-    let start = length.saturating_sub(TAIL_BYTES);
-    let read = file
-        .seek(SeekFrom::Start(start))
-        .and_then(|_| file.take(TAIL_BYTES).read_to_end(&mut bytes));
-    if read.is_err() {
-        return Vec::new();
-    }
+    let bytes = read_end(path, TAIL_BYTES).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);
     let lines = text.lines().filter(|line| !line.trim().is_empty());
     let lines: Vec<String> = lines.map(str::to_owned).collect();

@@ -3,6 +3,7 @@
 
 use super::format::ResultFormat;
 use super::manifest::{Definition, ResultFile, TaskKind};
+use crate::files::{Links, read_bounded};
 use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
@@ -11,6 +12,8 @@ use toml::{Table, Value};
 
 const MANIFEST: &str = "code.toml";
 const SCHEMA: i64 = 1;
+/// Largest file of a folder that is read, in bytes; a mesh may be long.
+const LARGEST_FILE: u64 = 1 << 26;
 /// Placeholders that every command knows.
 const DECK: &str = "{deck}";
 const DIRECTORIES: &str = "{directories}";
@@ -51,7 +54,8 @@ impl Definition {
     /// The codes that `folder` describes, one a variant, in the order of their names.
     pub fn read(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         Self::read_with(folder, &|name| {
-            std::fs::read(folder.join(name)).map_err(|error| error.to_string())
+            let content = read_bounded(&folder.join(name), LARGEST_FILE, Links::Followed);
+            content.map_err(|error| error.to_string())
         })
     }
 

@@ -4,6 +4,7 @@
 //! reason, `kill -9` included. It also limits their memory and files, and shuts them off from the network where the
 //! system permits.
 
+use crate::files::system_text;
 use nix::errno::Errno;
 use nix::sched::{CloneFlags, unshare};
 use nix::sys::prctl::set_child_subreaper;
@@ -170,7 +171,7 @@ fn children() -> Vec<Pid> {
 }
 
 fn parent(process: i32) -> Option<Pid> {
-    let status = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    let status = system_text(format!("/proc/{process}/stat"))?;
     // The name, in parentheses, may hold anything.
     let (_, rest) = status.rsplit_once(')')?;
     let parent = rest.split_whitespace().nth(1)?;

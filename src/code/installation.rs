@@ -6,6 +6,7 @@ use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestio
 use super::process::{Interrupt, Job, run};
 use super::provenance::Identity;
 use super::registry::Code;
+use crate::files::{Links, read_bounded};
 use crate::model::sha256_hex;
 use nix::unistd::{AccessFlags, access};
 use std::ffi::OsString;
@@ -16,6 +17,8 @@ use std::time::Duration;
 /// Attempts at a query that a signal ends: the answer becomes part of the address of every run.
 const TRIES: usize = 3;
 
+/// Largest file of a program that is read, in bytes.
+const LARGEST_PROGRAM: u64 = 1 << 32;
 /// Longest version in characters, as it is printed in tables.
 const LONGEST_VERSION: usize = 100;
 const UNKNOWN: &str = "unknown";
@@ -61,7 +64,7 @@ impl ExternalCode {
             Some((_, version)) if question.package => upstream(version).to_owned(),
             _ => own_version(&file, question, &program.environment).ok()?,
         };
-        let hash = sha256_hex(&std::fs::read(&file).ok()?);
+        let hash = sha256_hex(&read_bounded(&file, LARGEST_PROGRAM, Links::Followed).ok()?);
         Some(Self {
             name,
             definition,

@@ -16,6 +16,8 @@ pub struct RunContext<'a> {
     pub directory: &'a Path,
     /// Directory for checkpoints of unfinished runs; `None` to keep none.
     pub checkpoints: Option<&'a Path>,
+    /// Whether to begin anew, whatever checkpoints there are.
+    pub fresh: bool,
     /// Longest time without a finished case; the code's own estimate if absent.
     pub time_limit: Option<Duration>,
     /// Stops the runs when requested.
@@ -30,6 +32,7 @@ impl<'a> RunContext<'a> {
         Self {
             directory,
             checkpoints: None,
+            fresh: false,
             time_limit: None,
             interrupt,
             advanced: &|_, _| (),

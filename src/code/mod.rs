@@ -35,7 +35,7 @@ pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use registry::{Code, Declaration};
 pub use task::Task;
-pub(crate) use written::keep_evidence;
+pub(crate) use written::{HOME, keep_evidence};
 
 impl Code {
     /// The code as it is installed here; `None` if it is not.

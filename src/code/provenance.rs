@@ -1,6 +1,7 @@
 //! The origin of a run: program, inputs, time and machine.
 
 use super::registry::Code;
+use crate::files::system_text;
 use crate::model::{Case, sha256_hex};
 use crate::series::Series;
 use serde::{Deserialize, Serialize};
@@ -99,7 +100,7 @@ pub fn machine() -> &'static str {
 }
 
 fn read_machine() -> String {
-    let cpu_info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu_info = system_text("/proc/cpuinfo").unwrap_or_default();
     let mut lines = cpu_info.lines();
     let model = lines.find_map(|line| line.strip_prefix("model name"));
     let model = model.map(|rest| rest.trim_start_matches([' ', '\t', ':']));

@@ -4,7 +4,7 @@ use super::format::pyramid_in_log;
 use super::manifest::{ResultFile, TaskKind};
 use super::parameters;
 use super::registry::Code;
-use super::written::read;
+use super::written::{STANDARD_ERROR, STANDARD_OUTPUT, read};
 use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use std::path::Path;
@@ -135,6 +135,21 @@ impl Task for Pyramid {
 }
 
 impl Code {
+    /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
+    pub(crate) fn run_files<T: Task>(self, task: &T) -> Vec<String> {
+        let definition = self.definition();
+        let Some(program) = &definition.program else {
+            return Vec::new();
+        };
+        let kind = task.kind();
+        let own = [STANDARD_OUTPUT, STANDARD_ERROR, &definition.parameters.file];
+        let decks = definition.files(kind).map(|(name, _)| name);
+        let further = task.files().into_iter().map(|(name, _)| name);
+        let names = own.into_iter().chain(decks).chain(further);
+        let names = names.map(str::to_owned).chain(program.logs.clone());
+        names.chain([definition.result(kind).file]).collect()
+    }
+
     /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command
     /// and environment. For the native code its sources take the place of the files.
     pub fn deck_hash<T: Task>(self, task: &T) -> String {

@@ -1,7 +1,8 @@
 //! Digests beside the files of an entry, in the form that `sha256sum --check` reads.
 
 use super::FileError;
-use super::draft::write_by_draft;
+use super::draft::{OWNER_WRITES, write_by_draft};
+use super::read::{Links, read_bounded};
 use crate::model::sha256_hex;
 use std::ffi::OsStr;
 use std::fmt::Display;
@@ -10,6 +11,9 @@ use std::path::Path;
 
 /// The file with the digests of all others of an entry.
 pub(crate) const CHECKSUMS: &str = "SHA256SUMS";
+
+/// Largest sealed file that is read, in bytes: four times the longest result of a code.
+const LARGEST: u64 = 1 << 30;
 
 /// Content of the file with the digests of `files`.
 pub(crate) fn checksums<'a>(
@@ -77,12 +81,13 @@ pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> 
 /// # Errors
 /// If the file system refuses; `path` is then as it was.
 pub(crate) fn write_sealed(drafts: &Path, path: &Path, content: &[u8]) -> Result<(), FileError> {
-    write_by_draft(drafts, OsStr::new("draft-"), path, &seal(content))
+    let (prefix, sealed) = (OsStr::new("draft-"), seal(content));
+    write_by_draft(drafts, prefix, path, &sealed, OWNER_WRITES)
 }
 
 /// The content of the sealed file at `path`, if there is one.
 pub(crate) fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
-    match std::fs::read(path) {
+    match read_bounded(path, LARGEST, Links::Refused) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(FileError::reading(path)(error)),
         Ok(sealed) => unseal(path, &sealed).map(|content| Some(content.to_vec())),

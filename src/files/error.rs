@@ -3,6 +3,7 @@
 use crate::model::{CaseError, shown};
 use crate::series::SeriesError;
 use serde::de::DeserializeOwned;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -50,6 +51,12 @@ impl FileError {
             path,
             source,
         }
+    }
+
+    /// Whether there is no room for the file.
+    pub(crate) fn is_full(&self) -> bool {
+        let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
+        matches!(self, Self::Io { source, .. } if full.contains(&source.kind()))
     }
 
     /// The file at `path` does not hold the series of its case.

@@ -93,15 +93,6 @@ impl Case {
         json.expect("a case has only named fields and finite numbers") + "\n"
     }
 
-    /// Reads and validates a case from a `.toml` or `.json` file.
-    pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let content = std::fs::read(path).map_err(|source| CaseError::Unreadable {
-            path: path.to_owned(),
-            source,
-        })?;
-        Self::parse(&content, path)
-    }
-
     /// Reads and validates a case from the content of the file at `path`, whose ending says the format.
     pub fn parse(content: &[u8], path: &Path) -> Result<Self, CaseError> {
         let parsed = match path.extension().and_then(|extension| extension.to_str()) {

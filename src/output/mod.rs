@@ -32,9 +32,11 @@ pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
 pub(crate) use probe::{probe, probe_by_code};
-pub(crate) use regimes::{boundaries, largest_forces, regimes, regimes_markdown, survey_text};
+pub(crate) use regimes::{
+    REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,
+};
 pub(crate) use simulation::simulations;
 pub(crate) use table::json;
 pub(crate) use theory::{theories_by_stack, theory};
 pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};
-pub(crate) use vtk::is_vtk_row;
+pub(crate) use vtk::{VTK_COLLECTION, is_vtk_collection, is_vtk_row};

@@ -152,11 +152,14 @@ pub(crate) fn survey_text(survey: &Survey) -> String {
     )
 }
 
+/// The beginning of the page.
+pub(crate) const REGIMES_TITLE: &str = "# Which event comes first\n\nMade by tristack";
+
 /// A page with boundaries, largest forces, the effect of each event, and the figure.
 pub(crate) fn regimes_markdown(survey: &Survey, command: &str) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.markdown());
     format!(
-        "# Which event comes first\n\nMade by tristack {} with `{command}`.\n\n\
+        "{REGIMES_TITLE} {} with `{command}`.\n\n\
          ![The three maps](regimes.svg)\n\n\
          Colours say how a stack ends, full lines where another event comes first, dashed lines where the \
          end changes while the events come in the same order. A marker is a point with native DEM runs on \

@@ -4,6 +4,9 @@ use crate::series::{ContactPoint, Frame, Frames, Partner};
 
 /// Most rows written, apart from the last one and the one of the largest force.
 const MOST_ROWS: usize = 500;
+/// The file that lists the others.
+pub(crate) const VTK_COLLECTION: &str = "stack.pvd";
+const UNITS: &str = "Lengths in r, forces in m g, times in sqrt(m/k_n).";
 const CYLINDERS: &str = "cylinders";
 const CONTACTS: &str = "contacts";
 
@@ -25,7 +28,7 @@ pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
     let kept = kept_rows(frames);
     let mut files = Vec::with_capacity(2 * kept.len() + 1);
     let mut collection = format!(
-        "<?xml version=\"1.0\"?>\n<!-- {} of {} rows. Lengths in r, forces in m g, times in sqrt(m/k_n). {} -->\n\
+        "<?xml version=\"1.0\"?>\n<!-- {} of {} rows. {UNITS} {} -->\n\
          <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
         kept.len(),
         frames.frames.len(),
@@ -52,10 +55,16 @@ pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
     }
     collection += "</Collection>\n</VTKFile>\n";
     files.push(VtkFile {
-        name: "stack.pvd".to_owned(),
+        name: VTK_COLLECTION.to_owned(),
         content: collection,
     });
     files
+}
+
+/// Whether this program wrote a collection with this content.
+pub(crate) fn is_vtk_collection(content: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&content[..content.len().min(200)]);
+    start.contains(UNITS)
 }
 
 /// Whether a file of this name is a row of such a series.

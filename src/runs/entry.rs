@@ -3,27 +3,30 @@
 use super::summary::{ESTIMATOR, RunSummary};
 use crate::code::Run;
 use crate::files::{
-    CHECKSUMS, FileError, check, checksums, create_parent, locked_directory, parse_json,
-    read_sealed, seal, sync_directory, write_sealed, write_synced,
+    CHECKSUMS, FileError, Links, check, checksums, create_parent, kind, locked_directory,
+    parse_json, read_bounded, read_sealed, seal, sync_directory, write_sealed, write_synced,
 };
 use crate::model::Case;
 use crate::series::Series;
 use nix::fcntl::{AT_FDCWD, RenameFlags, renameat2};
 use serde::{Deserialize, Serialize};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
 const DRAFT: &str = ".draft-";
+/// Largest file of an entry that is read, in bytes: four times the longest result of a code.
+const LARGEST: u64 = 1 << 30;
 
 /// Reads the entry in `directory`; `None` if there is none.
 ///
 /// # Errors
 /// If it is there but damaged.
 pub fn read_entry(directory: &Path) -> Result<Option<Run>, FileError> {
-    if !directory.is_dir() {
+    if !is_there(directory)? {
         return Ok(None);
     }
     let checked = checked_files(directory)?;
@@ -35,6 +38,19 @@ pub fn read_entry(directory: &Path) -> Result<Option<Run>, FileError> {
         series,
         provenance,
     }))
+}
+
+/// Whether there is a directory; anything else in its place is an error.
+fn is_there(directory: &Path) -> Result<bool, FileError> {
+    match fs::symlink_metadata(directory) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(FileError::reading(directory)(error)),
+        Ok(found) if found.is_dir() => Ok(true),
+        Ok(found) => {
+            let message = format!("it is {}; accepted is a directory", kind(&found));
+            Err(FileError::content(directory, message))
+        }
+    }
 }
 
 /// Reads the summary of the entry in `directory`; `None` if there is none. Beside its series an entry has the summary
@@ -103,13 +119,18 @@ fn checked_files(
 }
 
 /// Writes `run` as the entry in `target`, in place of an older one, by way of a draft in the directory `drafts`,
-/// which the caller cleans up.
+/// which the caller cleans up. The entry gets the permissions `mode`, which the umask restricts further.
 ///
 /// # Errors
 /// If the file system refuses; an older entry is then unchanged.
-pub(super) fn write_entry(target: &Path, drafts: &Path, run: &Run) -> Result<(), FileError> {
+pub(super) fn write_entry(
+    target: &Path,
+    drafts: &Path,
+    run: &Run,
+    mode: u32,
+) -> Result<(), FileError> {
     let parent = create_parent(target)?;
-    let draft = locked_directory(drafts, DRAFT).map_err(FileError::writing(drafts))?;
+    let draft = locked_directory(drafts, DRAFT, mode).map_err(FileError::writing(drafts))?;
     let (draft, _lock) = draft;
     write_files(draft.path(), run)?;
     put_in_place(draft.path(), target)?;
@@ -166,7 +187,7 @@ fn put_in_place_by_steps(draft: &Path, target: &Path) -> std::io::Result<()> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    fs::read(path).map_err(FileError::reading(path))
+    read_bounded(path, LARGEST, Links::Refused).map_err(FileError::reading(path))
 }
 
 /// The series of `case` in the `content` of the file at `path`.

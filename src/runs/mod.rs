@@ -18,5 +18,5 @@ pub use recorded::{Recorded, RecordedRun, Recording};
 pub use schedule::{Progress, RunError, SelectedCode, Settings, Workload};
 pub(crate) use schedule::{Reading, ScheduledTask, read_all};
 pub use store::Store;
-pub(crate) use store::{Kind, LockOwner, StoreError};
+pub(crate) use store::{Kind, LockOwner, Sharing, StoreError};
 pub use summary::RunSummary;

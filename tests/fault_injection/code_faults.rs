@@ -50,6 +50,8 @@ fn command(fault: E) -> Option<&'static str> {
         E::LeavesADaemon => "setsid sleep 600 & (setsid sh -c 'sleep 600 & sleep 600' &)",
         E::WritesTenGigabytes => "head -c 10G /dev/zero; head -c 100M /dev/zero >&2",
         E::FillsAFile => "truncate -s 2G \"$directory/big\" || exit 1",
+        E::LeavesANamedPipe => "mkfifo \"$directory/$result\"; exit 0",
+        E::LeavesALinkToADevice => "ln -s /dev/zero \"$directory/$result\"; exit 0",
         _ => return None,
     };
     Some(command)

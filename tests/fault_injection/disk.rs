@@ -1,61 +1,35 @@
 //! Faults of the file system, on small private file systems in memory.
 
+use super::common::mounts::{NO_DISK, with_mounts};
 use super::fault::DiskFault;
 use super::round::{Aftermath, Round};
 use std::os::unix::fs::PermissionsExt;
-use std::process::{Command, Output, Stdio};
-use std::sync::LazyLock;
+use std::process::Output;
 
-/// Root may be refused a name space of users, and needs none.
-const WAYS: [&[&str]; 2] = [&["--map-root-user", "--mount"], &["--mount"]];
-
-/// Options with which `unshare` lets this user mount private file systems, if there are any.
-static WAY: LazyLock<Option<&[&str]>> = LazyLock::new(|| {
-    WAYS.into_iter().find(|way| {
-        let mut command = private_mounts(way, "mount -t tmpfs none /mnt");
-        let status = command.stderr(Stdio::null()).status();
-        status.is_ok_and(|status| status.success())
-    })
-});
-
-/// With which a script ends that cannot set up its disk, or not copy what is on it: tristack never does.
-const NO_DISK: i32 = 99;
+pub use super::common::mounts::can_mount;
 
 /// Parts of the messages that tristack prints when it cannot write.
-const SIGNS: [&str; 3] = ["No space left", "could not be kept", " failed on "];
+const SIGNS: [&str; 4] = [
+    "No space left",
+    "could not be kept",
+    " failed on ",
+    NOT_KEPT,
+];
 
-/// Whether this user may mount private file systems.
-pub fn can_mount() -> bool {
-    WAY.is_some()
-}
-
-fn private_mounts(way: &[&str], script: &str) -> Command {
-    let mut command = Command::new("unshare");
-    command.args(way).args(["sh", "-c", script]);
-    command
-}
+/// Part of the message of a program that can only read its store.
+pub const NOT_KEPT: &str = "nothing new is kept";
 
 pub fn strike(fault: DiskFault, round: &mut Round) -> Result<Aftermath, String> {
     match fault {
         DiskFault::Full => fill(round),
-        DiskFault::ReadOnly => refuse_read_only(round),
+        DiskFault::ReadOnly => read_only(round),
         DiskFault::RunsReadOnly => lose_the_right_to_keep(round),
     }
 }
 
 /// Runs `script`, in which `$@` is tristack, once `set_up` has mounted what it needs.
 fn run(round: &Round, set_up: &str, script: &str) -> Result<Output, String> {
-    let tristack = round.command("");
-    let script = format!("{{ {set_up}; }} || exit {NO_DISK}\n{script}");
-    let mut command = private_mounts(WAY.expect("something can be mounted"), &script);
-    command.arg("sh").arg(tristack.get_program());
-    command.args(tristack.get_args());
-    for (name, value) in tristack.get_envs() {
-        match value {
-            Some(value) => command.env(name, value),
-            None => command.env_remove(name),
-        };
-    }
+    let mut command = with_mounts(&round.command(""), set_up, script);
     command.current_dir(round.root());
     let output = command.output().expect("it runs");
     if output.status.code() == Some(NO_DISK) {
@@ -87,30 +61,47 @@ fn fill(round: &mut Round) -> Result<Aftermath, String> {
     })
 }
 
-/// After a program was killed, the store can only be read.
-fn refuse_read_only(round: &mut Round) -> Result<Aftermath, String> {
+/// After a program was killed, the store can only be read: what is there is used, and what is missing is made and
+/// printed, and said, once, not to be kept. A directory that is no store yet is refused.
+fn read_only(round: &mut Round) -> Result<Aftermath, String> {
     let mut child = round.start("");
     round.wait_for_a_moment(&mut child);
     let _ = child.kill();
     let killed = child.wait_with_output().expect("it ends");
     std::fs::create_dir_all(round.store()).expect("a store");
+    let permissions = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(round.store(), permissions).expect("permissions");
+    let is_store = round.store().join("format").exists();
+    let cases = round.workload.cases.len();
+    let missing = cases.saturating_sub(round.entries().len());
     let output = run(
         round,
         "mount --bind store store && mount -o remount,bind,ro store",
         "\"$@\"",
     )?;
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    let named = message.contains("cannot write") && message.contains("/store");
-    if output.status.code() != Some(1) || !output.stdout.is_empty() || !named {
-        return Err(format!(
-            "it was not refused: {:?}\n{message}",
-            output.status
-        ));
-    }
-    Ok(Aftermath {
-        outputs: vec![killed, output],
+    let aftermath = Aftermath {
+        killed: vec![killed],
         struck: true,
         ..Aftermath::default()
+    };
+    if !is_store {
+        let named = message.contains("cannot write") && message.contains("/store");
+        return match output.status.code() {
+            Some(1) if output.stdout.is_empty() && named => Ok(aftermath),
+            status => Err(format!("it was not refused: {status:?}\n{message}")),
+        };
+    }
+    let told = message.matches(NOT_KEPT).count();
+    // The answers to a probe are kept too.
+    if told > 1 || (missing > 0 && told == 0) {
+        let complaint = format!("{missing} runs were missing, and that was told {told} times");
+        return Err(format!("{complaint}\n{message}"));
+    }
+    Ok(Aftermath {
+        outputs: vec![output],
+        harmless: true,
+        ..aftermath
     })
 }
 

@@ -44,6 +44,8 @@ pub enum CodeFault {
     LeavesADaemon,
     WritesTenGigabytes,
     FillsAFile,
+    LeavesANamedPipe,
+    LeavesALinkToADevice,
     SeriesTruncated,
     SeriesCutInARow,
     SeriesReordered,
@@ -66,6 +68,9 @@ pub enum StoreFault {
     MadeWithAnotherDeck,
     MadeByAnotherProgram,
     OtherFormat,
+    NamedPipeInPlace,
+    LinkInPlace,
+    ForeignFiles,
 }
 
 /// A fault of the file system.
@@ -107,6 +112,8 @@ impl Fault {
             E::LeavesADaemon,
             E::WritesTenGigabytes,
             E::FillsAFile,
+            E::LeavesANamedPipe,
+            E::LeavesALinkToADevice,
             E::SeriesTruncated,
             E::SeriesCutInARow,
             E::SeriesReordered,
@@ -126,6 +133,9 @@ impl Fault {
             S::MadeWithAnotherDeck,
             S::MadeByAnotherProgram,
             S::OtherFormat,
+            S::NamedPipeInPlace,
+            S::LinkInPlace,
+            S::ForeignFiles,
         ];
         let disk = [D::Full, D::ReadOnly, D::RunsReadOnly];
         let process = process.into_iter().map(Self::Process);

@@ -311,6 +311,9 @@ fn told(output: &Output) -> String {
 /// Number of runs that a program said it has finished, less those that it could not keep.
 pub fn finished_runs(output: &Output) -> usize {
     let message = String::from_utf8_lossy(&output.stderr);
+    if message.contains(disk::NOT_KEPT) {
+        return 0;
+    }
     let is_run = |line: &&str| line.starts_with('[') && !line.contains(": micro-tests");
     let finished = message.lines().filter(is_run);
     let lost = message.matches("a finished run could not be kept");
@@ -343,12 +346,16 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
 
 /// Whether every file of an entry is the one that was written.
 pub fn is_whole(entry: &Path) -> bool {
-    let Ok(sums) = fs::read_to_string(entry.join("SHA256SUMS")) else {
-        return false;
+    let content = |name: &str| {
+        let path = entry.join(name);
+        let is_file = fs::symlink_metadata(&path).is_ok_and(|found| found.is_file());
+        is_file.then(|| fs::read(&path).ok()).flatten()
     };
+    let sums = content("SHA256SUMS").unwrap_or_default();
+    let sums = String::from_utf8_lossy(&sums);
     let right = sums.lines().filter(|line| {
         let (digest, name) = line.split_once("  ").unwrap_or_default();
-        fs::read(entry.join(name)).is_ok_and(|content| sha256_hex(&content) == digest)
+        content(name).is_some_and(|content| sha256_hex(&content) == digest)
     });
     right.count() == 3
 }

@@ -2,7 +2,10 @@
 
 use super::fault::StoreFault;
 use super::round::{Aftermath, Round, finished_runs};
+use nix::sys::stat::Mode;
+use nix::unistd::mkfifo;
 use std::fs;
+use std::os::unix::fs::symlink;
 use std::path::Path;
 use tristack::model::sha256_hex;
 
@@ -16,6 +19,9 @@ pub fn strike(fault: StoreFault, round: &mut Round) -> Result<Aftermath, String>
         harmless: true,
         ..Aftermath::default()
     };
+    if fault == StoreFault::ForeignFiles {
+        return keep_foreign_files(round, aftermath);
+    }
     if fault == StoreFault::OtherFormat {
         return refuse_other_format(round).map(|()| aftermath);
     }
@@ -33,6 +39,15 @@ pub fn strike(fault: StoreFault, round: &mut Round) -> Result<Aftermath, String>
             // A list of digests without the newline at its end would still be whole.
             content.truncate(round.random.usize(..content.len() - 1));
             fs::write(&file, content).expect("it can be written");
+        }
+        StoreFault::NamedPipeInPlace => {
+            fs::remove_file(&file).expect("it is there");
+            mkfifo(&file, Mode::S_IRWXU).expect("a named pipe");
+        }
+        StoreFault::LinkInPlace => {
+            let elsewhere = round.bench.path("elsewhere");
+            fs::rename(&file, &elsewhere).expect("it can be moved");
+            symlink(&elsewhere, &file).expect("a link");
         }
         StoreFault::FileMissing => fs::remove_file(&file).expect("it is there"),
         StoreFault::MadeWithAnotherDeck => {
@@ -76,6 +91,38 @@ fn make_again(
     if fs::read_to_string(&path).is_ok_and(|kept| kept == changed) {
         return Err("a run of something else was used".to_owned());
     }
+    Ok(aftermath)
+}
+
+/// Files of somebody else in the store: with names that resemble those of the program, and with others.
+fn keep_foreign_files(round: &mut Round, mut aftermath: Aftermath) -> Result<Aftermath, String> {
+    const NAMES: [&str; 8] = [
+        "notes.txt",
+        "sessions/monday.md",
+        "sessions/monday.json",
+        "sessions/...json",
+        "sessions/session-monday.json",
+        "work/monday/data.bin",
+        "runs/aa/notes.txt",
+        "checkpoints/mine.json",
+    ];
+    let mut chosen: Vec<_> = NAMES.map(|name| round.store().join(name)).into();
+    round.random.shuffle(&mut chosen);
+    chosen.truncate(round.random.usize(1..=NAMES.len()));
+    for path in &chosen {
+        fs::create_dir_all(path.parent().expect("a directory")).expect("a directory");
+        fs::write(path, "mine").expect("a file");
+    }
+    aftermath.outputs.push(round.run(""));
+    for path in &chosen {
+        if fs::read(path).ok().as_deref() != Some(b"mine") {
+            return Err(format!("{} is gone", path.display()));
+        }
+        fs::remove_file(path).expect("it is there");
+    }
+    // Whatever is left in these directories counts as left behind.
+    let _ = fs::remove_dir(round.store().join("work/monday"));
+    let _ = fs::remove_dir(round.store().join("runs/aa"));
     Ok(aftermath)
 }
 

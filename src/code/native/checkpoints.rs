@@ -29,8 +29,11 @@ pub(super) fn keep(context: &RunContext, address: &str, run: &Unfinished) {
     }
 }
 
-/// The checkpoint under `address`, if there is a readable one.
+/// The checkpoint under `address`, if there is a readable one and the run is not to begin anew.
 pub(super) fn take_up(context: &RunContext, address: &str) -> Option<Unfinished> {
+    if context.fresh {
+        return None;
+    }
     let content = read_sealed(&path(context, address)?).ok()??;
     serde_json::from_slice(&content).ok()
 }

@@ -60,6 +60,14 @@ pub(super) fn unpack(packed: &[u8], path: &Path) -> Result<Members, FileError> {
     Ok(members)
 }
 
+/// Whether `packed` begins like an archive of this program: with the list of digests.
+pub(super) fn is_archive(packed: &[u8]) -> bool {
+    let mut archive = tar::Archive::new(GzDecoder::new(packed));
+    let entries = archive.entries().ok();
+    let first = entries.and_then(|mut entries| entries.next()?.ok());
+    first.is_some_and(|entry| *entry.path_bytes() == *CHECKSUMS.as_bytes())
+}
+
 fn read(packed: &[u8]) -> std::io::Result<Members> {
     let mut content = Vec::new();
     let mut decoder = GzDecoder::new(packed).take(MAX_CONTENT + 1);
@@ -97,6 +105,17 @@ mod tests {
         let unpacked = unpack(&packed, Path::new("x.tar.gz")).unwrap();
         assert_eq!(unpacked, members());
         assert_eq!(pack(&unpacked), packed);
+    }
+
+    #[test]
+    fn an_archive_of_somebody_else_is_told_from_ours() {
+        assert!(is_archive(&pack(&members())));
+        let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::fast()));
+        append(&mut archive, "lammps/src/main.cpp", b"int main").unwrap();
+        let foreign = archive.into_inner().unwrap().finish().unwrap();
+        for other in [foreign.as_slice(), b"", b"Makefile"] {
+            assert!(!is_archive(other));
+        }
     }
 
     #[test]

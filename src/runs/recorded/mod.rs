@@ -8,14 +8,13 @@ mod table;
 pub use recording::{RecordedRun, Recording};
 
 use crate::code::{Code, Run};
-use crate::files::FileError;
+use crate::files::{FileError, Links, read_bounded};
 use crate::model::{Case, shown};
 use crate::runs::{ProbeRecord, RunSummary};
 use archive::{Members, unpack};
 use recording::{PROBE, Row, archive_path, parse_table, probe_in, series_in, table_path};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use thiserror::Error;
@@ -211,17 +210,10 @@ impl Recorded {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             return Ok(embedded::file(&name).map(Cow::Borrowed));
         }
-        let file = match std::fs::File::open(path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            opened => opened.map_err(FileError::reading(path))?,
-        };
-        let mut content = Vec::new();
-        let read = file.take(MAX_FILE + 1).read_to_end(&mut content);
-        if read.map_err(FileError::reading(path))? as u64 > MAX_FILE {
-            let message = format!("it has more than {MAX_FILE} bytes");
-            return Err(FileError::reading(path)(std::io::Error::other(message)));
+        match read_bounded(path, MAX_FILE, Links::Followed) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            read => Ok(Some(Cow::Owned(read.map_err(FileError::reading(path))?))),
         }
-        Ok(Some(Cow::Owned(content)))
     }
 
     fn directory(&self) -> &Path {

@@ -1,9 +1,10 @@
 //! The recorded runs of one code: a table of all runs, and an archive of the series and micro-tests that are kept.
 
-use super::archive::{Members, pack, unpack};
-use super::table::{from_csv, to_csv};
+use super::MAX_FILE;
+use super::archive::{Members, is_archive, pack, unpack};
+use super::table::{from_csv, has_title, to_csv};
 use crate::code::{Code, Run};
-use crate::files::{FileError, write_atomically};
+use crate::files::{FileError, Links, read_bounded, write_atomically};
 use crate::model::Case;
 use crate::runs::entry::parse_series;
 use crate::runs::{ProbeRecord, RunSummary};
@@ -11,6 +12,7 @@ use crate::series::Series;
 use serde_json::{Value, from_value};
 use std::cmp::Ordering;
 use std::collections::HashSet;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The file in the archive with the micro-tests.
@@ -78,8 +80,19 @@ impl Recording {
         }
     }
 
-    /// Writes the table and the archive of `code` in `directory`, in place of older ones.
+    /// Refuses a `directory` in which something else has the place of the table or the archive of `code`.
+    ///
+    /// # Errors
+    /// If there is a file of one of these names that is no recording, or anything but a file.
+    pub(crate) fn check_place(directory: &Path, code: Code) -> Result<(), FileError> {
+        let is_table = |content: &[u8]| has_title(content, &title(code));
+        check_own(&table_path(directory, code), is_table)?;
+        check_own(&archive_path(directory, code), is_archive)
+    }
+
+    /// Writes the table and the archive of `code` in `directory`, in place of older ones and of nothing else.
     pub fn save(&self, directory: &Path, code: Code) -> Result<(), FileError> {
+        Self::check_place(directory, code)?;
         let (table, archive) = self.to_files(code);
         write_atomically(&archive_path(directory, code), &archive)?;
         write_atomically(&table_path(directory, code), table.as_bytes())
@@ -104,9 +117,8 @@ impl Recording {
         if let Some(probe) = &self.probe {
             members.insert(PROBE.to_owned(), probe.to_json().into_bytes());
         }
-        let title =
-            format!("Runs of {code}, recorded by `tristack record`; see reference/README.md");
-        (to_csv(&rows, &title, &FIRST_COLUMNS), pack(&members))
+        let text = to_csv(&rows, &title(code), &FIRST_COLUMNS);
+        (text, pack(&members))
     }
 
     /// The content of the table and the archive of `code`, read from `directory`.
@@ -129,6 +141,25 @@ impl Recording {
             runs: runs.collect::<Result<_, FileError>>()?,
             probe: probe_in(&members, &path)?,
         })
+    }
+}
+
+/// The title of the table of `code`.
+fn title(code: Code) -> String {
+    format!("Runs of {code}, recorded by `tristack record`; see reference/README.md")
+}
+
+/// Refuses to replace the file at `path`, if there is one, unless its content `is_own`.
+fn check_own(path: &Path, is_own: impl FnOnce(&[u8]) -> bool) -> Result<(), FileError> {
+    match read_bounded(path, MAX_FILE, Links::Refused) {
+        Ok(content) if is_own(&content) => Ok(()),
+        Ok(_) => Err(FileError::content(
+            path,
+            "it is no recording of tristack, and is not replaced; move it away, or let TRISTACK_REFERENCE name another \
+             directory",
+        )),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(FileError::writing(path)(error)),
     }
 }
 

@@ -40,6 +40,15 @@ pub(super) fn to_csv(objects: &[Value], title: &str, first: &[&str]) -> String {
     format!("{DIGEST}{}\n{text}", sha256_hex(text.as_bytes()))
 }
 
+/// Whether `text` begins like a table under `title`.
+pub(super) fn has_title(text: &[u8], title: &str) -> bool {
+    let mut lines = text.split(|&byte| byte == b'\n');
+    let digest = lines
+        .next()
+        .is_some_and(|line| line.starts_with(DIGEST.as_bytes()));
+    digest && lines.next() == Some(format!("# {title}").as_bytes())
+}
+
 fn body(rows: &[Row], columns: &[&str]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let header = columns.iter().map(|&key| key.to_owned()).collect();

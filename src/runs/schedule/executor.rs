@@ -223,6 +223,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         let context = RunContext {
             directory: directory.path(),
             checkpoints: Some(&checkpoints),
+            fresh: self.settings.fresh,
             time_limit: self.settings.time_limit,
             interrupt: self.settings.interrupt,
             advanced: &|index, steps| self.requests[requests[index]].advance(steps, self.progress),
@@ -266,7 +267,7 @@ impl<'a, R: Reading> Executor<'a, R> {
             .map(|&request| self.task(request).address(job.code));
         let addresses: Vec<String> = addresses.collect();
         let store = &self.settings.store;
-        let owners = store.session.claim(&addresses).unwrap_or_else(|error| {
+        let owners = store.claim(&addresses).unwrap_or_else(|error| {
             let name = R::Task::KIND.name();
             let message = format!("other programs may make the same {name}s again: {error}");
             self.progress.warn(&message);

@@ -25,7 +25,7 @@ pub struct Settings<'a> {
     pub store: Store,
     /// The runs that stand in for codes that are not installed.
     pub recorded: Recorded,
-    /// Whether to ignore stored runs.
+    /// Whether to ignore stored runs, and checkpoints of unfinished ones.
     pub fresh: bool,
     /// Runs at the same time.
     pub threads: usize,

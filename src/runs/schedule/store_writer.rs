@@ -23,7 +23,7 @@ impl Drop for Claim<'_> {
         if self.addresses.is_empty() {
             return;
         }
-        if let Err(error) = self.store.session.release(&self.addresses) {
+        if let Err(error) = self.store.release(&self.addresses) {
             let message = format!("other programs may wait for this one to end: {error}");
             self.progress.warn(&message);
         }
@@ -76,6 +76,9 @@ pub(super) fn keep<T: ScheduledTask>(finished: &Finished<T>) {
     let Claim {
         store, progress, ..
     } = finished.claim.as_ref();
+    if !store.is_kept(|message| progress.warn(message)) {
+        return;
+    }
     let kept = finished.task.keep(finished.code, &finished.outcome, store);
     if let Err(error) = kept {
         let name = T::KIND.name();

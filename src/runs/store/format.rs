@@ -1,32 +1,40 @@
-//! The format version of a store.
+//! The marker of a store, with the version of its format.
 
 use super::StoreError;
-use crate::files::{FileError, create_parent, write_atomically};
+use super::directories::Directories;
+use crate::files::{FileError, Links, read_bounded, write_atomically};
 use std::io::ErrorKind;
-use std::path::Path;
 
 const FILE: &str = "format";
 /// Version 2 has digests and sessions. Version 1 had neither, and no file that said so.
 const CURRENT: &str = "tristack store, format 2\n";
+/// Longest marker of another version that is read, in bytes.
+const LONGEST: u64 = 80;
 
-/// Refuses a store at `root` with another format; a new one gets the current format.
-pub(super) fn check(root: &Path) -> Result<(), StoreError> {
-    create_parent(&root.join(FILE))?;
-    // Looked for first, because the format is written before the first run.
-    let has_runs = root.join("runs").exists();
-    let path = root.join(FILE);
-    let found = match std::fs::read(&path) {
+/// Refuses a directory that is no store, or one with another format; a new or empty one becomes a store.
+pub(super) fn check(directories: &Directories) -> Result<(), StoreError> {
+    // Looked for first, because the marker is written before anything else.
+    let first = directories.first_file();
+    let path = directories.root().join(FILE);
+    let found = match read_bounded(&path, LONGEST, Links::Refused) {
         Ok(found) if found == CURRENT.as_bytes() => return Ok(()),
-        Ok(found) => String::from_utf8_lossy(&found[..found.len().min(80)]).into_owned(),
-        Err(error) if error.kind() == ErrorKind::NotFound && !has_runs => {
-            return Ok(write_atomically(&path, CURRENT.as_bytes())?);
+        Ok(found) => String::from_utf8_lossy(&found).trim().to_owned(),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let Some(first) = first? else {
+                return Ok(write_atomically(&path, CURRENT.as_bytes())?);
+            };
+            return Err(StoreError::NoStore {
+                path,
+                first,
+                accepted: CURRENT.trim(),
+            });
         }
-        Err(error) if error.kind() == ErrorKind::NotFound => "no such file".to_owned(),
+        Err(error) if error.kind() == ErrorKind::InvalidInput => error.to_string(),
         Err(error) => return Err(FileError::reading(&path)(error).into()),
     };
     Err(StoreError::OtherFormat {
         path,
-        found: found.trim().to_owned(),
+        found,
         accepted: CURRENT.trim(),
     })
 }

@@ -2,7 +2,7 @@
 //! it when its owner dies.
 
 use super::StoreError;
-use crate::files::FileError;
+use crate::files::{FileError, Links, open_regular, read_bounded, system_text};
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
 use std::io::{Seek, Write};
@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 
 /// Longest wait for the lock: an owner that keeps it longer is suspended.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// Longest name of an owner, which holds a command line, in bytes.
+const LONGEST_OWNER: u64 = 1 << 24;
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
 
 /// A running tristack.
@@ -29,11 +31,11 @@ pub struct LockOwner {
 
 impl LockOwner {
     pub(crate) fn this_program() -> Self {
-        let host = std::fs::read_to_string("/proc/sys/kernel/hostname");
+        let host = system_text("/proc/sys/kernel/hostname");
         let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         Self {
             process: std::process::id(),
-            host: host.map_or_else(|_| "unknown".to_owned(), |host| host.trim().to_owned()),
+            host: host.map_or_else(|| "unknown".to_owned(), |host| host.trim().to_owned()),
             command: words.collect::<Vec<_>>().join(" "),
             since: jiff::Timestamp::now().to_string(),
         }
@@ -68,7 +70,8 @@ impl Lock {
     ) -> Result<Self, StoreError> {
         let mut options = File::options();
         options.create(true).truncate(false).read(true).write(true);
-        let mut file = options.open(path).map_err(FileError::writing(path))?;
+        let file = open_regular(path, Links::Refused, &mut options);
+        let mut file = file.map_err(FileError::writing(path))?;
         let start = Instant::now();
         loop {
             match file.try_lock() {
@@ -96,7 +99,7 @@ pub(super) fn overwrite(file: &mut File, content: &[u8]) -> std::io::Result<()> 
 }
 
 fn busy(path: &Path) -> StoreError {
-    let owner = std::fs::read(path).unwrap_or_default();
+    let owner = read_bounded(path, LONGEST_OWNER, Links::Refused).unwrap_or_default();
     StoreError::Busy {
         path: path.to_owned(),
         owner: String::from_utf8_lossy(&owner).into_owned(),

@@ -2,22 +2,29 @@
 //!
 //! Several programs may use one store at a time: each claims the runs that it is making, and takes those that
 //! others have made. A damaged entry is moved to quarantine, never used and never deleted.
+//!
+//! A directory is adopted as a store only if its marker is there, or if it is new or empty. A store that cannot be
+//! written to is read.
 
+mod directories;
 mod format;
 mod lock;
 mod session;
 
+pub use directories::Sharing;
 pub use lock::LockOwner;
 
 use crate::code::{Identity, Provenance, Run};
-use crate::files::{FileError, create_parent, read_sealed, write_sealed};
+use crate::files::{FileError, read_sealed, write_sealed};
 use crate::model::{Case, shown};
 use crate::runs::RunSummary;
 use crate::runs::entry::{read_entry, read_summary, write_entry};
+use directories::Directories;
 use session::Session;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 const CHECKPOINTS: &str = "checkpoints";
@@ -28,12 +35,22 @@ pub enum StoreError {
     #[error(transparent)]
     Files(#[from] FileError),
     #[error(
-        "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store, or delete this one",
+        "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store",
         shown(path)
     )]
     OtherFormat {
         path: PathBuf,
         found: String,
+        accepted: &'static str,
+    },
+    #[error(
+        "{}: no such file beside `{first}`, so that this is no store; accepted is a store with `{accepted}`, or a new or \
+         empty directory: choose another one with --store",
+        shown(path)
+    )]
+    NoStore {
+        path: PathBuf,
+        first: String,
         accepted: &'static str,
     },
     #[error(
@@ -68,18 +85,82 @@ impl Kind {
 /// The finished runs of a user.
 #[derive(Debug, Clone)]
 pub struct Store {
-    pub(crate) session: Arc<Session>,
+    directories: Arc<Directories>,
+    access: Arc<Access>,
+}
+
+/// What this program may do in a store.
+#[derive(Debug)]
+enum Access {
+    /// Keep results, claim tasks.
+    Full(Session),
+    /// Read alone.
+    Reading(Reading),
+}
+
+/// A store that cannot be written to.
+#[derive(Debug)]
+struct Reading {
+    /// Why it cannot.
+    reason: String,
+    /// Directory for unfinished work.
+    work: PathBuf,
+    /// Whether somebody has been told.
+    told: AtomicBool,
 }
 
 impl Store {
-    /// A store at `root`, which is created.
+    /// The private store at `root`, which is created.
     ///
     /// # Errors
-    /// If it cannot be written to, or has another format.
+    /// If it is neither a store nor a new or empty directory, or has another format, or others may write to it.
     pub fn open(root: &Path) -> Result<Self, StoreError> {
-        format::check(root)?;
-        let session = Arc::new(Session::begin(root)?);
-        Ok(Self { session })
+        Self::open_as(root, Sharing::Private)
+    }
+
+    /// The same for a store that may be shared with other users.
+    pub(crate) fn open_as(root: &Path, sharing: Sharing) -> Result<Self, StoreError> {
+        let directories = Directories::open(root, sharing)?;
+        format::check(&directories)?;
+        let access = match Session::begin(&directories) {
+            Ok(session) => Access::Full(session),
+            Err(error) => Access::Reading(Reading::after(error)?),
+        };
+        Ok(Self {
+            directories: Arc::new(directories),
+            access: Arc::new(access),
+        })
+    }
+
+    /// Whether results are kept; if they are not, `tell` is told why, once.
+    pub(crate) fn is_kept(&self, tell: impl FnOnce(&str)) -> bool {
+        let Access::Reading(Reading { reason, told, .. }) = self.access.as_ref() else {
+            return true;
+        };
+        if !told.swap(true, Ordering::Relaxed) {
+            let root = shown(self.directories.root());
+            tell(&format!(
+                "nothing new is kept, because the store {root} can only be read: {reason}"
+            ));
+        }
+        false
+    }
+
+    /// Claims the tasks under `addresses` for this program. Returns, for each, the other program that is carrying it out,
+    /// if there is one.
+    pub(crate) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
+        match self.access.as_ref() {
+            Access::Full(session) => session.claim(addresses),
+            Access::Reading(_) => Ok(vec![None; addresses.len()]),
+        }
+    }
+
+    /// Releases the claims to the tasks under `addresses`.
+    pub(crate) fn release(&self, addresses: &[String]) -> Result<(), StoreError> {
+        match self.access.as_ref() {
+            Access::Full(session) => session.release(addresses),
+            Access::Reading(_) => Ok(()),
+        }
     }
 
     /// The finished run of `case` by the code with `identity`, if there is one; an error if it is damaged.
@@ -90,7 +171,7 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<Run>, FileError> {
         let address = identity.address(case, deck_hash);
-        let run = read_entry(&self.path(Kind::Run, &address))?;
+        let run = read_entry(&self.path(Kind::Run, &address)?)?;
         let run =
             run.filter(|run| is_of(&run.provenance, identity, deck_hash) && run.case == *case);
         if run.is_some() {
@@ -107,7 +188,7 @@ impl Store {
         deck_hash: &str,
     ) -> Result<Option<RunSummary>, FileError> {
         let address = identity.address(case, deck_hash);
-        let summary = read_summary(&self.path(Kind::Run, &address), self.work_directory())?;
+        let summary = read_summary(&self.path(Kind::Run, &address)?, self.work_directory())?;
         let summary = summary.filter(|summary| {
             is_of(&summary.provenance, identity, deck_hash) && summary.case == *case
         });
@@ -121,7 +202,10 @@ impl Store {
     pub fn put(&self, run: &Run) -> Result<(), FileError> {
         let made = &run.provenance;
         let address = made.identity.address(&run.case, &made.deck_hash);
-        write_entry(&self.path(Kind::Run, &address), self.work_directory(), run)?;
+        let target = self.path(Kind::Run, &address)?;
+        self.create_directory(Kind::Run, &address)?;
+        let mode = self.directories.mode();
+        write_entry(&target, self.work_directory(), run, mode)?;
         self.forget_checkpoint(&address);
         Ok(())
     }
@@ -134,12 +218,13 @@ impl Store {
     /// Puts the damaged result under `address` into quarantine, and returns its place there. It may have been moved
     /// already.
     pub(crate) fn put_aside(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
-        let directory = self.session.root.join("quarantine");
+        let directory = self.directories.create("quarantine")?;
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
-        let free = places.find(|place| !place.exists());
+        let free = places.find(|place| std::fs::symlink_metadata(place).is_err());
         let aside = free.expect("there are more numbers than files");
-        create_parent(&aside)?;
-        match std::fs::rename(self.path(kind, address), &aside) {
+        // Whatever is there is moved, a link or a pipe too, and not opened.
+        let damaged = self.directories.place(name(kind, address))?;
+        match std::fs::rename(damaged, &aside) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
                 Err(FileError::writing(&aside)(error))
             }
@@ -155,7 +240,7 @@ impl Store {
         address: &str,
         parse: impl FnOnce(&[u8], &Path) -> Result<T, FileError>,
     ) -> Result<Option<T>, FileError> {
-        let path = self.path(kind, address);
+        let path = self.path(kind, address)?;
         let text = read_sealed(&path)?;
         text.map(|text| parse(&text, &path)).transpose()
     }
@@ -167,27 +252,81 @@ impl Store {
         address: &str,
         content: &str,
     ) -> Result<(), FileError> {
-        let path = self.path(kind, address);
+        let path = self.path(kind, address)?;
+        self.create_directory(kind, address)?;
         write_sealed(self.work_directory(), &path, content.as_bytes())
     }
 
     /// Directory of the checkpoints of native runs.
     pub fn checkpoint_directory(&self) -> PathBuf {
-        self.session.root.join(CHECKPOINTS)
+        self.directories.root().join(CHECKPOINTS)
     }
 
     /// Directory of the run directories; those of failed runs stay.
     pub(crate) fn work_directory(&self) -> &Path {
-        &self.session.work
+        match self.access.as_ref() {
+            Access::Full(session) => &session.work,
+            Access::Reading(reading) => &reading.work,
+        }
     }
 
     /// The place of the result of the given kind under `address`.
-    fn path(&self, kind: Kind, address: &str) -> PathBuf {
-        let directory = self.session.root.join(format!("{}s", kind.name()));
-        match kind {
-            Kind::Run => directory.join(&address[..2]).join(&address[2..]),
-            _ => directory.join(format!("{address}.json")),
+    fn path(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
+        let path = self.directories.place(name(kind, address))?;
+        if kind == Kind::Run {
+            self.directories.check(&path)?;
         }
+        Ok(path)
+    }
+
+    /// Creates the directory in which that result lies.
+    fn create_directory(&self, kind: Kind, address: &str) -> Result<(), FileError> {
+        let name = name(kind, address);
+        let above = name.parent().unwrap_or(Path::new(""));
+        self.directories.create(above).map(drop)
+    }
+}
+
+impl Reading {
+    /// The way on after an `error` that keeps this program from writing to the store; any other error is returned.
+    fn after(error: StoreError) -> Result<Self, StoreError> {
+        use ErrorKind as Kind;
+        let cannot_write = [
+            Kind::PermissionDenied,
+            Kind::ReadOnlyFilesystem,
+            Kind::StorageFull,
+            Kind::QuotaExceeded,
+        ];
+        match error {
+            StoreError::Files(FileError::Io { ref source, .. })
+                if cannot_write.contains(&source.kind()) =>
+            {
+                let work = tempfile::Builder::new().prefix("tristack-").tempdir();
+                let work = work.map_err(FileError::writing(&std::env::temp_dir()))?;
+                Ok(Self {
+                    reason: error.to_string(),
+                    work: work.keep(),
+                    told: AtomicBool::new(false),
+                })
+            }
+            error => Err(error),
+        }
+    }
+}
+
+impl Drop for Reading {
+    fn drop(&mut self) {
+        // Stays if it holds the files of failed runs.
+        let _ = std::fs::remove_dir(&self.work);
+    }
+}
+
+/// The path in a store of the result of the given kind under `address`.
+fn name(kind: Kind, address: &str) -> PathBuf {
+    let directory = PathBuf::from(format!("{}s", kind.name()));
+    match kind {
+        Kind::Run => directory.join(&address[..2]).join(&address[2..]),
+        _ => directory.join(format!("{address}.json")),
     }
 }
 

@@ -4,14 +4,51 @@
 //! when the program ends, however it ends: an unlocked file belongs to a dead program, whose leftovers the next one
 //! removes.
 
+use super::directories::Directories;
 use super::lock::{Lock, overwrite};
-use super::{LockOwner, StoreError};
-use crate::files::FileError;
+use super::{CHECKPOINTS, LockOwner, StoreError};
+use crate::files::{FileError, Links, is_temporary, open_regular, read_bounded, temporary};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
-use std::fs::{self, File};
+use std::ffi::OsStr;
+use std::fs::{self, DirBuilder, File, Permissions};
+use std::os::unix::fs::{DirBuilderExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+// Directories of a store.
+const SESSIONS: &str = "sessions";
+const WORK: &str = "work";
+/// The beginning of the name of every session.
+const PREFIX: &str = "session-";
+const ENDING: &str = ".json";
+/// Permissions of a session file, which other users of a shared store read.
+const READABLE: u32 = 0o644;
+/// Permissions of its directory for unfinished work.
+const PRIVATE: u32 = 0o700;
+/// Largest session file that is read, in bytes: that of a million runs.
+const LARGEST: u64 = 1 << 27;
+
+/// The name of a session: that of its file, without its ending, and of its directory for unfinished work.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct SessionName(String);
+
+impl SessionName {
+    /// The name of the session with this `file`; `None` for a file that is no session's.
+    fn of(file: &OsStr) -> Option<Self> {
+        let name = file.to_str()?.strip_suffix(ENDING)?;
+        let is_own = is_temporary(name.as_ref(), PREFIX.as_ref());
+        is_own.then(|| Self(name.to_owned()))
+    }
+
+    fn file(&self, root: &Path) -> PathBuf {
+        root.join(SESSIONS).join(format!("{}{ENDING}", self.0))
+    }
+
+    fn work(&self, root: &Path) -> PathBuf {
+        root.join(WORK).join(&self.0)
+    }
+}
 
 /// The content of a session file.
 #[derive(Debug, Serialize, Deserialize)]
@@ -25,7 +62,8 @@ struct Claims {
 #[derive(Debug)]
 pub(crate) struct Session {
     /// The store.
-    pub(super) root: PathBuf,
+    root: PathBuf,
+    name: SessionName,
     path: PathBuf,
     /// Directory for unfinished work.
     pub(super) work: PathBuf,
@@ -39,26 +77,31 @@ struct State {
 }
 
 impl Session {
-    /// Begins a session in the store at `root`, after the leftovers of dead ones are removed.
-    pub(super) fn begin(root: &Path) -> Result<Self, StoreError> {
-        let (sessions, all_work) = (root.join("sessions"), root.join("work"));
-        for directory in [&sessions, &all_work] {
-            fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
-        }
+    /// Begins a session in a store, after the leftovers of dead ones are removed.
+    pub(super) fn begin(directories: &Directories) -> Result<Self, StoreError> {
+        let root = directories.root();
+        let sessions = directories.create(SESSIONS)?;
+        directories.create(WORK)?;
+        directories.create(CHECKPOINTS)?;
         let owner = LockOwner::this_program();
         let _lock = Lock::acquire(&root.join("lock"), &owner)?;
         remove_dead(root);
         let writing = || FileError::writing(&sessions);
-        let draft = tempfile::Builder::new()
-            .prefix("")
-            .suffix(".json")
+        let draft = temporary(PREFIX.as_ref())
+            .suffix(ENDING)
+            .permissions(Permissions::from_mode(READABLE))
             .tempfile_in(&sessions)
             .map_err(writing())?;
         draft.as_file().lock().map_err(writing())?;
+        let name = draft.path().file_name().and_then(SessionName::of);
+        let name = name.expect("its parts are those of a session");
+        let work = name.work(root);
+        let created = DirBuilder::new().mode(PRIVATE).create(&work);
+        created.map_err(FileError::writing(&work))?;
         let (file, path) = draft.keep().map_err(|error| writing()(error.error))?;
-        let work = work_of(root, &path);
         let session = Self {
             root: root.to_owned(),
+            name,
             path,
             work,
             state: Mutex::new(State {
@@ -70,7 +113,6 @@ impl Session {
             }),
         };
         session.state().write(&session.path)?;
-        fs::create_dir(&session.work).map_err(FileError::writing(&session.work))?;
         Ok(session)
     }
 
@@ -113,8 +155,10 @@ impl Session {
     /// Addresses claimed by other live sessions, with their owners.
     fn others(&self) -> HashMap<String, LockOwner> {
         remove_dead(&self.root);
-        let sessions = session_files(&self.root).into_iter();
-        let alive = sessions.filter(|path| *path != self.path && !is_unlocked(path));
+        let others = sessions(&self.root).into_iter();
+        let others = others.filter(|name| *name != self.name);
+        let paths = others.map(|name| name.file(&self.root));
+        let alive = paths.filter(|path| !is_unlocked(path));
         let claimed = alive.filter_map(|path| claims(&path));
         let owned = claimed.flat_map(|Claims { owner, addresses }| {
             let owned = addresses.into_iter();
@@ -144,24 +188,22 @@ impl Drop for Session {
     }
 }
 
-fn session_files(root: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(root.join("sessions")).into_iter().flatten();
-    entries.flatten().map(|entry| entry.path()).collect()
-}
-
-fn work_of(root: &Path, session: &Path) -> PathBuf {
-    root.join("work")
-        .join(session.file_stem().unwrap_or_default())
+/// All sessions of the store at `root`.
+fn sessions(root: &Path) -> Vec<SessionName> {
+    let entries = fs::read_dir(root.join(SESSIONS)).into_iter().flatten();
+    let names = entries.flatten().map(|entry| entry.file_name());
+    names.filter_map(|name| SessionName::of(&name)).collect()
 }
 
 fn claims(session: &Path) -> Option<Claims> {
-    let text = fs::read(session).ok()?;
+    let text = read_bounded(session, LARGEST, Links::Refused).ok()?;
     serde_json::from_slice(&text).ok()
 }
 
 /// Whether no program on this machine has locked it.
 fn is_unlocked(session: &Path) -> bool {
-    File::open(session).is_ok_and(|file| file.try_lock_shared().is_ok())
+    let file = open_regular(session, Links::Refused, File::options().read(true));
+    file.is_ok_and(|file| file.try_lock_shared().is_ok())
 }
 
 /// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its
@@ -169,11 +211,12 @@ fn is_unlocked(session: &Path) -> bool {
 /// cannot be seen from here.
 fn remove_dead(root: &Path) {
     let here = LockOwner::this_program().host;
-    for session in session_files(root) {
+    for name in sessions(root) {
+        let session = name.file(root);
         let foreign = || claims(&session).is_some_and(|claims| claims.owner.host != here);
         if is_unlocked(&session) && !foreign() {
             // If that fails the session file stays, and the next program tries again.
-            let removed = match fs::remove_dir_all(work_of(root, &session)) {
+            let removed = match fs::remove_dir_all(name.work(root)) {
                 Err(error) => error.kind() == std::io::ErrorKind::NotFound,
                 Ok(()) => true,
             };
@@ -186,7 +229,12 @@ fn remove_dead(root: &Path) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::directories::Sharing;
     use super::*;
+
+    fn begin(root: &Path) -> Result<Session, StoreError> {
+        Session::begin(&Directories::open(root, Sharing::Private)?)
+    }
 
     fn addresses(names: &[&str]) -> Vec<String> {
         names.iter().map(|&name| name.to_owned()).collect()
@@ -195,7 +243,7 @@ mod tests {
     #[test]
     fn what_one_session_works_on_no_other_begins() {
         let root = tempfile::tempdir().unwrap();
-        let [one, other] = [(); 2].map(|()| Session::begin(root.path()).unwrap());
+        let [one, other] = [(); 2].map(|()| begin(root.path()).unwrap());
         let [ab, bc] = [addresses(&["a", "b"]), addresses(&["b", "c"])];
         assert_eq!(one.claim(&ab).unwrap(), [None, None]);
         let owners = other.claim(&bc).unwrap();
@@ -211,7 +259,11 @@ mod tests {
 
     /// Session file and work directory of an `owner` that claimed "a", and has no lock any more.
     fn leftovers(root: &Path, owner: LockOwner) -> [PathBuf; 2] {
-        let [file, work] = ["sessions/other.json", "work/other"].map(|name| root.join(name));
+        let names = [
+            "sessions/session-abcdefABCDEF.json",
+            "work/session-abcdefABCDEF",
+        ];
+        let [file, work] = names.map(|name| root.join(name));
         fs::create_dir_all(file.parent().unwrap()).unwrap();
         fs::create_dir_all(work.join("yade-1")).unwrap();
         let claims = Claims {
@@ -228,10 +280,35 @@ mod tests {
         let [dead, left] = leftovers(root.path(), LockOwner::this_program());
         let evidence = root.path().join("work/ended/yade-2");
         fs::create_dir_all(&evidence).unwrap();
-        let session = Session::begin(root.path()).unwrap();
+        let session = begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(!dead.exists() && !left.exists());
         assert!(evidence.exists(), "it belongs to a session that ended well");
+    }
+
+    #[test]
+    fn what_no_session_could_be_called_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let kept = [
+            "sessions/monday.md",
+            "sessions/monday.json",
+            "sessions/...json",
+            "sessions/.json",
+            "sessions/session-..json",
+            "sessions/session-abcdefABCDEF.json.bak",
+            "work/monday/data.bin",
+            "work/session-ended/data.bin",
+            "runs/mine",
+        ];
+        let kept = kept.map(|name| root.path().join(name));
+        for path in &kept {
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "mine").unwrap();
+        }
+        drop(begin(root.path()).unwrap());
+        for path in kept {
+            assert!(path.exists(), "{} is gone", path.display());
+        }
     }
 
     #[test]
@@ -240,7 +317,7 @@ mod tests {
         let mut owner = LockOwner::this_program();
         owner.host += "-not";
         let [path, work] = leftovers(root.path(), owner);
-        let session = Session::begin(root.path()).unwrap();
+        let session = begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(path.exists() && work.exists());
     }
@@ -248,7 +325,7 @@ mod tests {
     #[test]
     fn a_session_that_ends_leaves_nothing() {
         let root = tempfile::tempdir().unwrap();
-        drop(Session::begin(root.path()).unwrap());
+        drop(begin(root.path()).unwrap());
         for directory in ["sessions", "work"] {
             let entries = fs::read_dir(root.path().join(directory)).unwrap();
             assert_eq!(entries.count(), 0, "{directory}");

@@ -1,5 +1,6 @@
 //! Largest resident memory of processes during some work, from `/proc`.
 
+use crate::files::system_text;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,7 +49,7 @@ fn sample(processes: Processes) -> Option<u64> {
 
 /// A size in the `status` of the process at `directory`, in bytes.
 fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
-    let status = fs::read_to_string(directory.join("status")).ok()?;
+    let status = system_text(directory.join("status"))?;
     let line = status.lines().find_map(|line| line.strip_prefix(key))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(1024 * kibibytes)
@@ -58,7 +59,7 @@ fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
 fn descendants(directory: &Path) -> Vec<PathBuf> {
     let threads = fs::read_dir(directory.join("task")).into_iter().flatten();
     let lists = threads.flatten();
-    let lists = lists.filter_map(|thread| fs::read_to_string(thread.path().join("children")).ok());
+    let lists = lists.filter_map(|thread| system_text(thread.path().join("children")));
     let mut found = Vec::new();
     for list in lists {
         for process in list.split_whitespace() {

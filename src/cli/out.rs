@@ -1,0 +1,71 @@
+//! Directories and files for results.
+
+use super::{ExitStatus, INTERRUPT, tell};
+use crate::files::{FileError, Layout, write_atomically};
+use crate::model::shown;
+use std::path::Path;
+
+/// The directory for the results of a command, if one is given.
+pub(super) struct Out<'a> {
+    directory: Option<&'a Path>,
+    witness: &'static str,
+}
+
+impl<'a> Out<'a> {
+    /// Creates the directory, or makes sure that it holds nothing but earlier results of `layout`.
+    pub(super) fn claim(directory: Option<&'a Path>, layout: &Layout) -> Result<Self, FileError> {
+        if let Some(directory) = directory {
+            layout.claim(directory)?;
+        }
+        Ok(Self {
+            directory,
+            witness: layout.witness,
+        })
+    }
+
+    /// The `directory`, which has been claimed, for a layout with this `witness`.
+    pub(super) fn claimed(directory: &'a Path, witness: &'static str) -> Self {
+        let directory = Some(directory);
+        Self { directory, witness }
+    }
+
+    /// Writes files, given by name and content, if there is a directory for them. Nothing is written after an interrupt,
+    /// when rows are missing. A file that cannot be written is named on standard error.
+    pub(super) fn write<N: AsRef<str>, C: AsRef<[u8]>>(
+        &self,
+        files: impl FnOnce() -> Vec<(N, C)>,
+    ) -> ExitStatus {
+        let Some(directory) = self.directory.filter(|_| !INTERRUPT.requested()) else {
+            return ExitStatus::Success;
+        };
+        let mut files = files();
+        // The directory is known by its witness, so that nothing may be there without it.
+        files.sort_by_key(|(name, _)| name.as_ref() != self.witness);
+        let mut worst = ExitStatus::Success;
+        for (name, content) in &files {
+            let status = write(&directory.join(name.as_ref()), content.as_ref());
+            worst = worst.max(status);
+            if status != ExitStatus::Success && name.as_ref() == self.witness {
+                tell!("nothing else is written to {}", shown(directory));
+                break;
+            }
+        }
+        worst
+    }
+}
+
+/// Writes a file; one that cannot be written is named on standard error.
+pub(super) fn write(path: &Path, content: &[u8]) -> ExitStatus {
+    match write_atomically(path, content) {
+        Ok(()) => ExitStatus::Success,
+        Err(error) => {
+            let (file, error) = (shown(path), shown(Path::new(&error.to_string())));
+            match error.contains(&file) {
+                true => tell!("error: {error}"),
+                // It is the directory that cannot be written.
+                false => tell!("error: cannot write {file}: {error}"),
+            }
+            ExitStatus::NotWritten
+        }
+    }
+}

@@ -11,6 +11,7 @@ use std::sync::LazyLock;
 /// Digest of the sources that read a summary off a series.
 pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
     let sources = [
+        include_str!("../series/digits.rs"),
         include_str!("../series/drop.rs"),
         include_str!("../series/estimate.rs"),
         include_str!("../series/polynomial.rs"),

@@ -1,5 +1,6 @@
 //! The yield force read off a series, by the two estimators of the field.
 
+use super::digits::PrintedDigits;
 use super::polynomial::value_at_zero;
 use super::samples::{Sample, Series};
 use crate::model::Stack;
@@ -28,6 +29,9 @@ pub struct YieldEstimates {
     pub peak: Option<Estimate>,
     /// |t|/n of the floor contacts while they slide, as measured.
     pub sliding_friction: Option<f64>,
+    /// The digits with which the code has printed the forces; absent if it has printed all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub printed: Option<PrintedDigits>,
 }
 
 impl YieldEstimates {
@@ -48,6 +52,7 @@ impl YieldEstimates {
             slip: slip.map(in_weights),
             peak: peak_row.map(|row| in_weights(peak(samples, row))),
             sliding_friction,
+            printed: PrintedDigits::read(samples, stack.stiffness),
         }
     }
 }

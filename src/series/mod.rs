@@ -1,6 +1,7 @@
 //! A time series with named columns, and the yield force read off it.
 
 mod column;
+mod digits;
 mod drop;
 mod estimate;
 mod frame;
@@ -10,6 +11,7 @@ mod pyramid_run;
 mod samples;
 
 pub(crate) use column::Column;
+pub use digits::PrintedDigits;
 pub use drop::DropWatch;
 pub use estimate::{Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};

@@ -172,5 +172,6 @@ fn estimates(observation: &Observation) -> YieldEstimates {
             sensitivity: 1.0,
         }),
         sliding_friction: None,
+        printed: None,
     }
 }

@@ -536,11 +536,55 @@ fn version_of_yade(bench: &Bench) -> String {
     version.expect("a version").to_owned()
 }
 
-#[test]
-fn a_code_that_dies_of_the_question_for_its_version_is_listed_without_one() {
+/// Recorded runs do not stand in for it, and no command takes it for one that is not installed.
+fn assert_broken(script: &str, reason: &str) {
     let bench = Bench::with_system_programs();
-    bench.install("yade", "kill -SEGV $$");
-    assert_eq!(version_of_yade(&bench), "unknown");
+    bench.install("yade", script);
+    for line in [
+        "codes",
+        "crosscheck --codes yade",
+        "simulate --code yade --mu 0.3 --stiffness 100",
+        "probe --codes yade",
+    ] {
+        let output = bench.tristack(line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{line}: {message}");
+        for part in ["programs/yade is installed, but broken: ", reason] {
+            assert!(message.contains(part), "{line}: {message} lacks {part}");
+        }
+        assert!(!message.contains("not installed"), "{line}: {message}");
+    }
+    assert_eq!(version_of_yade(&bench), "broken");
+}
+
+#[test]
+fn a_code_that_dies_of_the_question_for_its_version_is_broken() {
+    assert_broken("kill -SEGV $$", "it ended with signal: 11");
+}
+
+#[test]
+fn a_code_that_hangs_at_the_question_for_its_version_is_broken() {
+    assert_broken("sleep 600", "it gave no answer within 30s");
+}
+
+#[test]
+fn a_question_for_the_version_leaves_nothing_behind() {
+    let bench = Bench::with_system_programs();
+    let homes = bench.path("homes");
+    let script = format!(
+        "echo \"$HOME\" >> '{}'; touch \"$HOME/a\" b; echo Yade version: 1.2",
+        homes.display()
+    );
+    bench.install("yade", &script);
+    assert_eq!(version_of_yade(&bench), "1.2");
+    let homes = fs::read_to_string(homes).expect("the log");
+    for home in homes.lines() {
+        assert!(
+            home.starts_with(&bench.path("").display().to_string()),
+            "{home}"
+        );
+        assert!(!fs::exists(home).expect("readable"), "{home}");
+    }
 }
 
 #[test]

@@ -49,7 +49,8 @@ pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus,
     };
     let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
-    print(&explanation(judgement, twin.as_ref()))?;
+    let coverage = codes[0].code.as_ref().map(|code| code.coverage());
+    print(&explanation(judgement, twin.as_ref(), coverage.as_deref()))?;
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

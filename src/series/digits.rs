@@ -22,11 +22,19 @@ const DECISIVE: [fn(&Sample) -> f64; 5] = [
 pub struct PrintedDigits {
     /// Significant digits of the largest numbers, in the coarsest of the columns that decide.
     pub digits: u32,
+    /// The same in the finest of these columns; 17 if one has all digits.
+    pub finest: u32,
     /// Half a unit of the last place of these numbers, the largest of all columns that decide, in m g.
     pub half_unit: f64,
 }
 
 impl PrintedDigits {
+    const IN_FULL: Self = Self {
+        digits: EXACT,
+        finest: EXACT,
+        half_unit: 0.0,
+    };
+
     /// The digits of `samples`, forces in units of k_n r, which is `stiffness` m g; `None` if every column that
     /// decides has all of them.
     ///
@@ -41,22 +49,23 @@ impl PrintedDigits {
         let columns = columns.filter_map(|value| precision(samples[..end].iter().map(value)));
         let coarsest = columns.reduce(|left, right| Self {
             digits: left.digits.min(right.digits),
+            finest: left.finest.max(right.finest),
             half_unit: left.half_unit.max(right.half_unit),
         })?;
-        Some(Self {
+        (coarsest.digits < EXACT).then_some(Self {
             half_unit: coarsest.half_unit * stiffness,
             ..coarsest
         })
     }
 }
 
-/// The precision of a column; `None` if it has every digit, or holds nothing but zeros.
+/// The precision of a column; `None` if it holds nothing but zeros.
 fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     let (mut digits, mut highest) = (0, i32::MIN);
     for value in values.filter(|value| *value != 0.0) {
         let (own, exponent) = decimal(value);
         if own >= EXACT {
-            return None;
+            return Some(PrintedDigits::IN_FULL);
         }
         digits = digits.max(own);
         highest = highest.max(exponent);
@@ -64,6 +73,7 @@ fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     let last_place = highest.checked_sub(digits as i32 - 1)?;
     (digits > 0).then(|| PrintedDigits {
         digits,
+        finest: digits,
         half_unit: 0.5 * libm::exp10(f64::from(last_place)),
     })
 }
@@ -87,8 +97,12 @@ mod tests {
 
     #[test]
     fn numbers_in_full_have_no_precision_of_their_own() {
-        assert_eq!(printed(|value| format!("{value:.16e}")), None);
-        assert_eq!(printed(|value| format!("{value}")), None);
+        for in_full in [
+            printed(|value| format!("{value:.16e}")),
+            printed(|value| format!("{value}")),
+        ] {
+            assert_eq!(in_full, Some(PrintedDigits::IN_FULL));
+        }
         assert_eq!(precision([0.0, 0.0].into_iter()), None);
     }
 

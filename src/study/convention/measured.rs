@@ -175,6 +175,8 @@ mod tests {
                 version: "1".to_owned(),
                 package: None,
                 program_hash: None,
+                files_hash: None,
+                witness: None,
             },
             findings: verdicts.iter().map(finding).collect(),
         })
@@ -210,6 +212,8 @@ mod tests {
         assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
         let newer = Identity {
             program_hash: Some("00".to_owned()),
+            files_hash: None,
+            witness: None,
             ..own.clone()
         };
         let note = other_program(&probed, [&own, &newer].into_iter()).unwrap();

@@ -205,10 +205,10 @@ impl<'a> Reader<'a> {
     fn find_no_yield(&mut self) {
         let last = self.finding.runs.iter().map(|run| run.last_force);
         let highest = last.fold(0.0, f64::max);
-        if let Some(digits) = self
-            .digits()
-            .filter(|digits| *digits < DIGITS_TO_SEE_A_YIELD)
-        {
+        let printed = self.estimates.iter().filter_map(|run| run.printed);
+        let mut coarse = printed.filter(|printed| printed.finest < DIGITS_TO_SEE_A_YIELD);
+        if let Some(printed) = coarse.next() {
+            let digits = printed.digits;
             let note = format!("printed with {digits} digits, too few to show a yield");
             self.grounds.add(Ground::Undecidable(note));
         }

@@ -12,17 +12,18 @@ use crate::study::yield_force::{Judgement, NoYield};
 use std::path::Path;
 use thiserror::Error;
 
-/// The exit status of the program.
+/// The exit status of the program, from best to worst: of several rows the worst counts. A disagreement that was found
+/// is worse than a code that failed, which shows nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
     /// All rows agree, or there was nothing to judge.
     Success,
     /// An uncertainty is larger than its tolerance, and nothing is worse.
     Inconclusive,
-    /// A disagreement was found.
-    Disagreement,
     /// A code failed, timed out or is missing.
     CodeFailed,
+    /// A disagreement was found.
+    Disagreement,
     /// The command line or an input is wrong.
     WrongInput,
     /// The user interrupted the program.

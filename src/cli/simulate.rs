@@ -4,7 +4,7 @@ use super::options::{
     CodeParser, ConventionOptions, Format, StackOptions, as_flag, friction, options_of, time_limit,
     writable,
 };
-use super::{CliError, ExitStatus, INTERRUPT};
+use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Failure, FailureKind, InstalledCode, Run, RunContext, keep_evidence};
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, write_atomically};
@@ -104,6 +104,7 @@ fn replaced_by_case() -> Vec<Id> {
 /// Runs one case and prints both estimators.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
+    tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;
     writable(arguments.vtk.as_deref())?;
     let code = arguments.code.find();
@@ -124,6 +125,15 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     draw(arguments, &run)?;
     let people = || tables[0].transposed(&["value"]).terminal();
     arguments.format.print(&tables, command, people)
+}
+
+/// Says which durations are not those of the case: rows lie at whole steps, and phases begin at rows.
+fn tell_changed_durations(case: &Case) {
+    for (key, asked, made) in case.protocol.changed_durations() {
+        tell!(
+            "`{key}` is {asked}, and carried out as {made}, a whole number of fine intervals in whole time steps"
+        );
+    }
 }
 
 /// Runs the case in a temporary directory, which stays if it helps to explain a failure.

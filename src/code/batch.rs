@@ -8,6 +8,7 @@ use super::parameters::only_numbers;
 use super::process::{Job, run};
 use super::task::Task;
 use crate::files::{FileError, locked_directory, remove_abandoned};
+use crate::model::readable;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
@@ -259,6 +260,6 @@ fn tail(path: &Path) -> Vec<String> {
     }
     let text = String::from_utf8_lossy(&bytes);
     let lines = text.lines().filter(|line| !line.trim().is_empty());
-    let lines: Vec<String> = lines.map(str::to_owned).collect();
+    let lines: Vec<String> = lines.map(readable).collect();
     lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }

@@ -10,7 +10,7 @@ use super::provenance::Identity;
 use super::question::answer;
 use super::registry::Code;
 use super::search_path::in_search_path;
-use crate::model::shown;
+use crate::model::{readable, shown};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -176,8 +176,8 @@ pub fn version_in_answer(answer: &str, before: &str) -> String {
     let line = first.unwrap_or_default().trim();
     let rest = line.strip_prefix(before).unwrap_or(line);
     let version = rest.split(',').next().unwrap_or(rest);
-    let readable = version.chars().filter(|char| !char.is_control());
-    let version: String = readable.take(LONGEST_VERSION).collect();
+    let version: String = version.chars().filter(|char| !char.is_control()).collect();
+    let version: String = readable(&version).chars().take(LONGEST_VERSION).collect();
     match version.trim() {
         "" => UNKNOWN.to_owned(),
         version => version.to_owned(),

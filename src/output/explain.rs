@@ -2,7 +2,7 @@
 
 use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
-use crate::model::{Case, Preparation};
+use crate::model::{Case, Preparation, exact};
 use crate::runs::RunSummary;
 use crate::series::Estimate;
 use crate::study::yield_force::{
@@ -45,8 +45,8 @@ fn reference(row: &Judgement) -> String {
         row.source.as_str(),
         friction(row.mu()),
         row.stiffness(),
-        row.study.stack.stiffness_ratio,
-        row.study.stack.cylinder_friction,
+        exact(row.study.stack.stiffness_ratio),
+        exact(row.study.stack.cylinder_friction),
         arms.pair,
         arms.floor,
         if row.arms_are_measured {

@@ -1,13 +1,47 @@
 //! Escapes of text for Markdown, HTML and TeX.
 
-/// `text` in one cell of a Markdown table.
+use crate::model::{readable, readable_lines};
+
+/// `text` in one cell of a Markdown table, as [`markdown_text`].
 pub(super) fn markdown_cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('\n', " ")
+    markdown_text(&text.replace('\n', " ")).replace('|', "\\|")
+}
+
+/// `text` in Markdown without HTML in it; parts between backticks stay code, in which nothing needs an escape.
+pub(crate) fn markdown_text(text: &str) -> String {
+    let text = readable_lines(text);
+    let last = text.matches('`').count();
+    let parts = text.split('`').enumerate().map(|(index, part)| {
+        // An odd backtick begins no code.
+        match index % 2 == 1 && index < last {
+            true => part.to_owned(),
+            false => part.replace('&', "&amp;").replace('<', "&lt;"),
+        }
+    });
+    parts.collect::<Vec<_>>().join("`")
+}
+
+/// `text` as code in Markdown, also if it has backticks.
+pub(crate) fn markdown_code(text: &str) -> String {
+    let text = readable(text);
+    let longest = text.split(|char| char != '`').map(str::len).max();
+    match longest.unwrap_or(0) {
+        0 => format!("`{text}`"),
+        longest => {
+            let fence = "`".repeat(longest + 1);
+            format!("{fence} {text} {fence}")
+        }
+    }
+}
+
+/// `text` in one cell for a terminal.
+pub(super) fn terminal_cell(text: &str) -> String {
+    readable_lines(text)
 }
 
 /// `text` escaped for HTML, with the parts between backticks as code.
 pub(crate) fn html_text(text: &str) -> String {
-    code_marked(text, "<code>", "</code>", |part| {
+    code_marked(&readable_lines(text), "<code>", "</code>", |part| {
         part.replace('&', "&amp;")
             .replace('<', "&lt;")
             .replace('>', "&gt;")
@@ -17,7 +51,7 @@ pub(crate) fn html_text(text: &str) -> String {
 
 /// `text` for TeX: special characters escaped, symbols as commands, parts between backticks in typewriter.
 pub(super) fn latex_text(text: &str) -> String {
-    code_marked(text, "\\texttt{", "}", |part| {
+    code_marked(&readable(text), "\\texttt{", "}", |part| {
         part.chars().map(character).collect()
     })
 }

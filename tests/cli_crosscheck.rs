@@ -318,7 +318,7 @@ fn a_page_names_the_command_that_explains_its_own_rows() {
     let explain = "crosscheck --explain native/0.3/100";
     let text = standard_output(&mut bench.tristack(&format!("{explain} --shortcuts")));
     assert!(
-        text.contains("\n7   "),
+        text.contains("│   7 ┆"),
         "the runs without shortcuts: {text}"
     );
     assert_ne!(text, standard_output(&mut bench.tristack(explain)));

@@ -799,7 +799,7 @@ fn a_failure_hides_no_contradicted_probe() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::Instead("exit 7"));
     replay::install_probe(&bench, |mut row| {
-        row.fy1 *= 1.01;
+        row.wall_force *= 1.001;
         row
     });
     let outcome = crosscheck(&bench, "");

@@ -15,10 +15,26 @@ pub(crate) fn markdown_text(text: &str) -> String {
         // An odd backtick begins no code.
         match index % 2 == 1 && index < last {
             true => part.to_owned(),
-            false => part.replace('&', "&amp;").replace('<', "&lt;"),
+            false => without_markup(part),
         }
     });
     parts.collect::<Vec<_>>().join("`")
+}
+
+/// `text` in which no tag, entity, link or picture begins.
+fn without_markup(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for (at, char) in text.char_indices() {
+        let next = text[at + char.len_utf8()..].chars().next();
+        let next = next.unwrap_or(' ');
+        match char {
+            '<' if next.is_ascii_alphabetic() || "/!?".contains(next) => escaped += "&lt;",
+            '&' if next.is_ascii_alphanumeric() || next == '#' => escaped += "&amp;",
+            ']' if "([:".contains(next) => escaped += "\\]",
+            _ => escaped.push(char),
+        }
+    }
+    escaped
 }
 
 /// `text` as code in Markdown, also if it has backticks.
@@ -112,6 +128,24 @@ fn symbol(character: char) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nothing_becomes_markup_that_is_none() {
+        for (text, expected) in [
+            ("a < b & c", "a < b & c"),
+            ("<b>x</b> &lt;", "&lt;b>x&lt;/b> &amp;lt;"),
+            ("![x](http://x)", "![x\\](http://x)"),
+            ("`<b>` and `<b>", "`<b>` and `&lt;b>"),
+            ("1\u{202e}2\u{7}", "1\\u{202e}2\\u{7}"),
+        ] {
+            assert_eq!(markdown_text(text), expected);
+        }
+        assert_eq!(markdown_code("a b"), "`a b`");
+        assert_eq!(markdown_code("a `b` <i>"), "`` a `b` <i> ``");
+        assert_eq!(markdown_cell("a|b\n<i>"), "a\\|b &lt;i>");
+        assert_eq!(html_text("\u{202e}"), "\\u{202e}");
+        assert_eq!(latex_text("\u{202e}"), "\\textbackslash{}u\\{202e\\}");
+    }
 
     #[test]
     fn text_is_escaped_and_code_is_marked() {

@@ -155,7 +155,7 @@ impl Search {
         };
         self.add_program(Path::new(interpreter));
         let mut name = file_name(interpreter);
-        if name == "env" {
+        if interpreter.ends_with("/env") {
             let real = words.find(|word| !word.starts_with('-') && !word.contains('='));
             name = real.map_or_else(String::new, file_name);
             if let Some(real) = real.and_then(in_search_path) {
@@ -255,14 +255,13 @@ fn modules_below(directory: &Path, levels: usize, found: &mut Vec<PathBuf>) -> b
     let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
     for entry in entries {
         let path = entry.path();
-        match entry.file_type() {
-            Ok(kind) if kind.is_dir() => {
-                if levels > 0 && !modules_below(&path, levels - 1, found) {
-                    return false;
-                }
+        let is_directory = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_directory && levels > 0 {
+            if !modules_below(&path, levels - 1, found) {
+                return false;
             }
-            _ if path.is_file() && is_source(&path) => found.push(path),
-            _ => {}
+        } else if path.is_file() && is_source(&path) {
+            found.push(path);
         }
         if found.len() > MOST_MODULES {
             return false;
@@ -304,8 +303,8 @@ fn is_library(path: &Path) -> bool {
 
 /// Whether it is one of the files that scripts read and execute.
 fn is_source(path: &Path) -> bool {
-    let end = path.extension().unwrap_or_default().to_string_lossy();
-    matches!(&*end, "py" | "sh") || is_library(path)
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.ends_with(".py") || name.ends_with(".sh") || is_library(path)
 }
 
 /// The content of a script, or the head of a program.

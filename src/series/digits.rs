@@ -59,6 +59,18 @@ impl PrintedDigits {
     }
 }
 
+/// Significant digits of the longest of `values`, up to those that give every number back.
+pub(super) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
+    let mut most = 0;
+    for value in values.filter(|value| *value != 0.0) {
+        most = most.max(decimal(value).0);
+        if most >= EXACT {
+            break;
+        }
+    }
+    most
+}
+
 /// The precision of a column; `None` if it holds nothing but zeros.
 fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     let (mut digits, mut highest) = (0, i32::MIN);

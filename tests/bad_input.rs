@@ -233,3 +233,59 @@ fn wrong_usage_ends_with_status_1_and_help_with_0() {
     bench.tristack("--help").assert().code(0);
     bench.tristack("--version").assert().code(0);
 }
+
+#[test]
+fn a_unit_that_is_not_meant_is_refused() {
+    let bench = Bench::without_codes();
+    let line = "predict --youngs 1MPa --mass 1g --radius 1cm --mu 0.3 --length 1M";
+    let message = refusal(&bench, line, 1);
+    assert!(message.contains("m, cm, mm, um or in"), "{message}");
+}
+
+#[test]
+fn a_duration_that_rows_would_change_is_refused_with_those_that_are_accepted() {
+    let bench = Bench::without_codes();
+    let coarse = CASE.replace("fine_interval = 2.0", "fine_interval = 30.0");
+    fs::write(bench.path("case.toml"), coarse).expect("a case");
+    let message = refusal(&bench, "simulate --code native --case case.toml", 1);
+    for part in ["ramp_time", "100", "multiple of 30", "such as 90 or 120"] {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+}
+
+#[test]
+fn a_duration_that_a_time_step_changes_a_little_is_said() {
+    let bench = Bench::without_codes();
+    let line = "simulate --code native --mu 0.3 --stiffness 100 --dt";
+    let message = standard_error(&mut bench.tristack(&format!("{line} 0.3")));
+    let said = "`protocol.preparation.ramp_time` is 100, and carried out as 100.8";
+    assert!(message.contains(said), "{message}");
+    let message = standard_error(&mut bench.tristack(&format!("{line} 0.1")));
+    assert!(!message.contains("ramp_time"), "{message}");
+}
+
+#[test]
+fn a_number_that_is_tiny_is_printed_with_an_exponent() {
+    let bench = Bench::without_codes();
+    for line in [
+        "theory --mu 1e-300 --mu-d 1e-300 --stiffness 100",
+        "sweep --code native --mu 1e-300 --stiffness 100",
+        "simulate --code native --mu 1e-300 --stiffness 100",
+        "predict --youngs 1MPa --mass 1g --radius 1cm --length 1cm --mu 1e-300",
+        "crosscheck --explain native/1e-300/100",
+    ] {
+        let output = bench.tristack(line).output().expect("it runs");
+        for text in [output.stdout, output.stderr] {
+            let text = String::from_utf8(text).expect("text");
+            assert!(!text.contains(&"0".repeat(30)), "{line}: {text}");
+        }
+    }
+}
+
+#[test]
+fn frictions_that_numbers_do_not_tell_apart_are_refused() {
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --stiffness 100 --mu 0.3:0.3000000000000003:1e-17";
+    let message = refusal(&bench, line, 1);
+    assert!(message.contains("do not differ by 1e-17"), "{message}");
+}

@@ -302,3 +302,24 @@ fn shortcuts_are_measured_and_refused_where_nobody_knows_them() {
         "{refusal}"
     );
 }
+
+/// The page is about runs with shortcuts, and so is the explanation that it names.
+#[test]
+fn a_page_names_the_command_that_explains_its_own_rows() {
+    let bench = Bench::without_codes();
+    let page = |options: &str| {
+        let line = format!("crosscheck --codes native {options} --out results");
+        bench.tristack(&line).assert().code(0);
+        fs::read_to_string(bench.path("results/crosscheck.md")).expect("the page")
+    };
+    let named = "`tristack crosscheck --shortcuts --explain CODE/MU/STIFFNESS`";
+    assert!(page("--shortcuts").contains(named));
+    assert!(page("").contains("`tristack crosscheck --explain CODE/MU/STIFFNESS`"));
+    let explain = "crosscheck --explain native/0.3/100";
+    let text = standard_output(&mut bench.tristack(&format!("{explain} --shortcuts")));
+    assert!(
+        text.contains("│   7 ┆"),
+        "the runs without shortcuts: {text}"
+    );
+    assert_ne!(text, standard_output(&mut bench.tristack(explain)));
+}

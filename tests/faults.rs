@@ -536,11 +536,55 @@ fn version_of_yade(bench: &Bench) -> String {
     version.expect("a version").to_owned()
 }
 
-#[test]
-fn a_code_that_dies_of_the_question_for_its_version_is_listed_without_one() {
+/// Recorded runs do not stand in for it, and no command takes it for one that is not installed.
+fn assert_broken(script: &str, reason: &str) {
     let bench = Bench::with_system_programs();
-    bench.install("yade", "kill -SEGV $$");
-    assert_eq!(version_of_yade(&bench), "unknown");
+    bench.install("yade", script);
+    for line in [
+        "codes",
+        "crosscheck --codes yade",
+        "simulate --code yade --mu 0.3 --stiffness 100",
+        "probe --codes yade",
+    ] {
+        let output = bench.tristack(line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{line}: {message}");
+        for part in ["programs/yade is installed, but broken: ", reason] {
+            assert!(message.contains(part), "{line}: {message} lacks {part}");
+        }
+        assert!(!message.contains("not installed"), "{line}: {message}");
+    }
+    assert_eq!(version_of_yade(&bench), "broken");
+}
+
+#[test]
+fn a_code_that_dies_of_the_question_for_its_version_is_broken() {
+    assert_broken("kill -SEGV $$", "it ended with signal: 11");
+}
+
+#[test]
+fn a_code_that_hangs_at_the_question_for_its_version_is_broken() {
+    assert_broken("sleep 600", "it gave no answer within 30s");
+}
+
+#[test]
+fn a_question_for_the_version_leaves_nothing_behind() {
+    let bench = Bench::with_system_programs();
+    let homes = bench.path("homes");
+    let script = format!(
+        "echo \"$HOME\" >> '{}'; touch \"$HOME/a\" b; echo Yade version: 1.2",
+        homes.display()
+    );
+    bench.install("yade", &script);
+    assert_eq!(version_of_yade(&bench), "1.2");
+    let homes = fs::read_to_string(homes).expect("the log");
+    for home in homes.lines() {
+        assert!(
+            home.starts_with(&bench.path("").display().to_string()),
+            "{home}"
+        );
+        assert!(!fs::exists(home).expect("readable"), "{home}");
+    }
 }
 
 #[test]
@@ -723,4 +767,99 @@ fn a_code_that_succeeds_without_output_fails() {
     let message = standard_error(&mut bench.tristack(line));
     bench.tristack(line).assert().code(3);
     assert!(message.contains("cannot read log.liggghts"), "{message}");
+}
+
+/// A thousandth too much force at mu = 0.3, and one crash elsewhere.
+fn wrong_and_crashed(bench: &Bench) {
+    replay::install(bench, |case| {
+        if is_victim(case) {
+            Disturbance::Instead("exit 7")
+        } else if case.stack.floor_friction == 0.3 {
+            Disturbance::Change(|series| scale_wall_force(&series, 1.001))
+        } else {
+            Disturbance::None
+        }
+    });
+}
+
+#[test]
+fn a_failure_hides_no_disagreement() {
+    let bench = Bench::with_system_programs();
+    wrong_and_crashed(&bench);
+    let outcome = crosscheck(&bench, "");
+    assert_eq!(outcome.count("differs"), 3, "{}", outcome.message);
+    assert_eq!(outcome.count("failed"), 1, "{}", outcome.message);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.message);
+    let line = "sweep --code yade --mu 0.2:0.3:0.1 --stiffness 100";
+    bench.tristack(line).assert().code(2);
+}
+
+#[test]
+fn a_failure_hides_no_contradicted_probe() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::Instead("exit 7"));
+    replay::install_probe(&bench, |mut row| {
+        row.wall_force *= 1.001;
+        row
+    });
+    let outcome = crosscheck(&bench, "");
+    assert_eq!(outcome.count("failed"), 18, "{}", outcome.message);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.message);
+}
+
+#[test]
+fn a_table_without_rows_has_its_header() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::Instead("exit 7"));
+    let outcome = crosscheck(&bench, "--out results");
+    assert_eq!(outcome.count("failed"), 18, "{}", outcome.message);
+    let budget = fs::read_to_string(bench.path("results/budget.csv")).expect("a table");
+    assert!(budget.starts_with("stiffness,mu,"), "{budget}");
+    assert_eq!(budget.lines().count(), 1);
+}
+
+/// What a program says of itself is text, and nothing else, wherever it is shown.
+#[test]
+fn a_version_is_no_markup() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let program = bench.path("programs/yade");
+    let script = fs::read_to_string(&program).expect("a script");
+    let hostile = "1|2 <script>alert(1)</script> \u{202e}\u{1b}[31m&";
+    fs::write(&program, script.replace("replayed", hostile)).expect("a script");
+    let output = bench
+        .tristack("crosscheck --codes yade --out results")
+        .output()
+        .expect("it runs");
+    let page = fs::read_to_string(bench.path("results/crosscheck.md")).expect("a page");
+    let terminal = String::from_utf8_lossy(&output.stdout);
+    for text in [&page, &*terminal] {
+        assert!(
+            !text.contains('\u{202e}') && !text.contains('\u{1b}'),
+            "{text}"
+        );
+    }
+    assert!(!page.contains("<script>"), "{page}");
+    let line = page.lines().find(|line| line.contains("script>alert"));
+    let line = line.expect("the version is there");
+    assert!(line.contains("1\\|2 &lt;script>"), "{line}");
+}
+
+#[test]
+fn what_a_failing_program_prints_is_no_markup() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |case| match is_victim(case) {
+        true => Disturbance::Instead("printf '<img src=x> \\033[2J \\342\\200\\256 x\\n'; exit 7"),
+        false => Disturbance::None,
+    });
+    let outcome = crosscheck(&bench, "--out results");
+    let page = fs::read_to_string(bench.path("results/crosscheck.md")).expect("a page");
+    for text in [&page, &outcome.message] {
+        assert!(text.contains("img src=x"), "{text}");
+        assert!(
+            !text.contains('\u{202e}') && !text.contains('\u{1b}'),
+            "{text}"
+        );
+    }
+    assert!(!page.contains("<img"), "{page}");
 }

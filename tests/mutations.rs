@@ -174,6 +174,8 @@ impl TwinEngine {
                     version: format!("{mutation:?}"),
                     package: None,
                     program_hash: None,
+                    files_hash: None,
+                    witness: None,
                 },
                 mutation,
             })),

@@ -1,7 +1,7 @@
 //! `tristack codes`.
 
-use super::options::Format;
-use super::{CliError, ExitStatus};
+use super::options::{Format, find_all};
+use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::output::inventory;
 use clap::Args;
@@ -15,9 +15,22 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-/// Prints every known code.
+/// Prints every known code, and fails if one that is installed is broken.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let tables = [inventory(&Code::all())];
+    let codes = find_all(&Code::all());
+    let tables = [inventory(&codes)];
     let people = || tables[0].shown().terminal();
-    Ok(arguments.format.print(&tables, command, people))
+    let printed = arguments.format.print(&tables, command, people);
+    let broken = codes.iter().filter_map(|selected| {
+        let reason = selected.code.as_ref()?.broken()?;
+        Some((selected.name, reason))
+    });
+    let broken: Vec<(Code, &str)> = broken.collect();
+    for (name, reason) in &broken {
+        tell!("{name} failed: {reason}");
+    }
+    Ok(match broken.is_empty() {
+        true => printed,
+        false => printed.max(ExitStatus::CodeFailed),
+    })
 }

@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
-    #[arg(long, conflicts_with = "explain")]
+    #[arg(long)]
     shortcuts: bool,
     #[command(flatten)]
     run: RunOptions,
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
 /// Runs the crosscheck, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if let Some(row) = &arguments.explain {
-        return explain(row, &arguments.run);
+        return explain(row, arguments.shortcuts, &arguments.run);
     }
     let codes = selected_codes(&arguments.codes.named)?;
     let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];

@@ -12,7 +12,8 @@ use crate::study::yield_force::{Judgement, NoYield};
 use std::path::Path;
 use thiserror::Error;
 
-/// The exit status of the program.
+/// The exit status of the program, from best to worst: of several rows the worst counts. A disagreement that was found
+/// is worse than a code that failed, which shows nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
     /// All rows agree, or there was nothing to judge.
@@ -21,10 +22,10 @@ pub enum ExitStatus {
     Inconclusive,
     /// A result could not be written, and no run is worse than inconclusive.
     NotWritten,
-    /// A disagreement was found.
-    Disagreement,
     /// A code failed, timed out or is missing.
     CodeFailed,
+    /// A disagreement was found.
+    Disagreement,
     /// The command line or an input is wrong.
     WrongInput,
     /// The user interrupted the program.
@@ -87,7 +88,7 @@ pub enum CliError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// A code that was named is not installed.
-    #[error("{0} is not installed: its program is not in the search path, or does not print its version within half a minute; install it with: {hint}", hint = .0.installation_hint())]
+    #[error("{0} is not installed: its program is not in the search path; install it with: {hint}", hint = .0.installation_hint())]
     MissingCode(Code),
     /// A run that the whole report depends on failed.
     #[error(transparent)]

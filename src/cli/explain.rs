@@ -39,9 +39,17 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
 }
 
 /// Measures one row and prints every step from its runs to its verdict.
-pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
+pub(super) fn explain(
+    row: &RowName,
+    shortcuts: bool,
+    options: &RunOptions,
+) -> Result<ExitStatus, CliError> {
     let codes = [SelectedCode::find(row.code)];
-    let measurements = vec![plan(row.code, &row.stack, row.code.convention())];
+    let measurement = plan(row.code, &row.stack, row.code.convention());
+    let measurements = vec![match shortcuts {
+        true => measurement.shortened(),
+        false => measurement,
+    }];
     let settings = options.settings()?;
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let Some(judgement) = judgements.first() else {
@@ -49,7 +57,8 @@ pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus,
     };
     let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
-    let printed = print(&explanation(judgement, twin.as_ref()));
+    let coverage = codes[0].code.as_ref().map(|code| code.coverage());
+    let printed = print(&explanation(judgement, twin.as_ref(), coverage.as_deref()));
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

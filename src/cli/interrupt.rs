@@ -1,7 +1,7 @@
 //! Interrupts by the user: Ctrl-C, `kill`, closing the terminal.
 
 use super::{ExitStatus, tell};
-use crate::code::Interrupt;
+use crate::code::{Interrupt, let_interrupt_questions};
 use crate::files::system_text;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
@@ -12,6 +12,7 @@ pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
 /// Starts to listen for interrupts. The first one stops the codes; finished runs are printed and kept in the store.
 /// A second one ends the program at once, and the guards of the codes with it.
 pub(super) fn listen() {
+    let_interrupt_questions(&INTERRUPT);
     match Signals::new(wanted()) {
         Ok(mut signals) => {
             std::thread::spawn(move || signals.forever().for_each(|_| interrupt()));

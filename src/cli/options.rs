@@ -317,7 +317,7 @@ pub(super) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliErr
 }
 
 /// The codes `names` as they are installed here, looked up at the same time.
-fn find_all(names: &[Code]) -> Vec<SelectedCode> {
+pub(super) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
     in_parallel(names, names.len(), |name| SelectedCode::find(*name))
 }
 

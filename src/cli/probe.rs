@@ -55,6 +55,14 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name} is not installed: its recorded answers stand in for it");
         }
     }
+    for (selected, result) in codes.iter().zip(probed) {
+        if let Ok(probe) = result
+            && let Some(digits) = probe.few_digits
+        {
+            let name = selected.name;
+            tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");
+        }
+    }
     let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(

@@ -108,6 +108,7 @@ fn replaced_by_case() -> Vec<Id> {
 /// Runs one case and prints both estimators.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let case = case(arguments)?;
+    tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;
     let code = arguments.code.find();
     let code = code.ok_or(CliError::MissingCode(arguments.code))?;
@@ -136,6 +137,15 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     };
     let drawn = draw(arguments, &run)?;
     Ok(printed.max(written).max(drawn))
+}
+
+/// Says which durations are not those of the case: rows lie at whole steps, and phases begin at rows.
+fn tell_changed_durations(case: &Case) {
+    for (key, asked, made) in case.protocol.changed_durations() {
+        tell!(
+            "`{key}` is {asked}, and carried out as {made}, a whole number of fine intervals in whole time steps"
+        );
+    }
 }
 
 /// Runs the case in a temporary directory, which stays if it helps to explain a failure.

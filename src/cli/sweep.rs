@@ -71,18 +71,33 @@ impl Frictions {
         };
         let number = |part: &str| friction(part).map_err(|_| accepted.to_owned());
         let (from, to, step) = (number(from)?, number(to)?, number(step)?);
-        let count = ((to - from) / step + 1e-9).floor();
+        // As far as the ends and the step are known.
+        let last_digits = 1e-9_f64.max(f64::EPSILON * (from.abs() + to.abs()) / step);
+        let count = ((to - from) / step + last_digits).floor();
         if !(step > 0.0 && (0.0..MOST_FRICTIONS).contains(&count)) {
             return Err(accepted.to_owned());
         }
-        let further = (1..=count as u32).map(|index| rounded(from + step * f64::from(index)));
-        Ok(Self(std::iter::once(from).chain(further).collect()))
+        let further = (1..=count as u32).map(|index| rounded(from + step * f64::from(index), step));
+        let values: Vec<f64> = std::iter::once(from).chain(further).collect();
+        match values.is_sorted_by(|left, right| left < right) {
+            true => Ok(Self(values)),
+            false => Err(format!(
+                "{accepted}; numbers near {to} do not differ by {step:e}"
+            )),
+        }
     }
 }
 
-/// `value` to twelve decimals, without round-off from the multiplication by the step (0.1 + 2 × 0.1 is not 0.3).
-fn rounded(value: f64) -> f64 {
-    (value * 1e12).round() / 1e12
+/// `value` to twelve decimals, or to as many as `step` has, without round-off from the multiplication by the step
+/// (0.1 + 2 × 0.1 is not 0.3).
+fn rounded(value: f64, step: f64) -> f64 {
+    const DECIMALS: f64 = 12.0;
+    let needed = 1.0 - libm::floor(libm::log10(step));
+    if needed <= DECIMALS {
+        return (value * 1e12).round() / 1e12;
+    }
+    let text = format!("{value:.*}", needed.min(30.0) as usize);
+    text.parse().unwrap_or(value)
 }
 
 /// `judgement` without its runs and their cases, which are not printed and would fill the memory.
@@ -136,6 +151,22 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_of_a_range_are_different_or_refused() {
+        let values = Frictions::parse("0.3:0.30000000000003:1e-14").unwrap();
+        assert_eq!(
+            values.0,
+            [0.3, 0.30000000000001, 0.30000000000002, 0.30000000000003]
+        );
+        for text in [
+            "0.3:0.3000000000000003:1e-17",
+            "0.3:0.3000000000000006:4e-17",
+        ] {
+            let message = Frictions::parse(text).unwrap_err();
+            assert!(message.contains("A:B:STEP"), "{text}: {message}");
+        }
+    }
 
     #[test]
     fn a_range_includes_both_ends_without_rounding_debris() {

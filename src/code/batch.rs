@@ -11,6 +11,7 @@ use super::written::{HOME, STANDARD_ERROR, STANDARD_OUTPUT};
 use crate::files::{
     FileError, create_anew, locked_directory, read_end, remove_abandoned, remove_older,
 };
+use crate::model::readable;
 use std::ffi::OsString;
 use std::fs;
 use std::io::Write;
@@ -248,6 +249,6 @@ fn tail(path: &Path) -> Vec<String> {
     let bytes = read_end(path, TAIL_BYTES).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);
     let lines = text.lines().filter(|line| !line.trim().is_empty());
-    let lines: Vec<String> = lines.map(str::to_owned).collect();
+    let lines: Vec<String> = lines.map(readable).collect();
     lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }

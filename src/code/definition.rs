@@ -4,7 +4,7 @@
 use super::format::ResultFormat;
 use super::manifest::{Definition, ResultFile, TaskKind};
 use crate::files::{Links, read_bounded};
-use crate::model::{InvalidValue, Preparation, sha256_hex, shown};
+use crate::model::{InvalidValue, Preparation, readable, sha256_hex, shown};
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 use thiserror::Error;
@@ -125,9 +125,26 @@ impl Definition {
             let accepted = "lower-case letters, digits and hyphens";
             return Err(refused("name", &self.name, accepted));
         }
+        self.check_texts()?;
         self.convention.validate()?;
         self.check_files()?;
         self.check_command()
+    }
+
+    /// Refuses texts that do not show in tables as they are.
+    fn check_texts(&self) -> Result<(), InvalidValue> {
+        let label = self.label.as_deref().unwrap_or_default();
+        for (key, text) in [
+            ("title", self.title.as_str()),
+            ("label", label),
+            ("install", &self.install),
+        ] {
+            if readable(text) != text {
+                let accepted = "one line without control characters";
+                return Err(refused(key, readable(text), accepted));
+            }
+        }
+        Ok(())
     }
 
     /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or

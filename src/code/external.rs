@@ -101,6 +101,10 @@ impl InstalledCode for ExternalCode {
         &self.identity
     }
 
+    fn coverage(&self) -> String {
+        self.described_coverage()
+    }
+
     fn batching(&self) -> Batching {
         match self.definition.runs_many() {
             true => Batching::FewCalls,

@@ -20,6 +20,9 @@ pub enum FailureKind {
     RunDirectory(#[from] FileError),
     #[error("cannot start the program: {0}")]
     Start(#[from] std::io::Error),
+    /// The program is installed and does not work.
+    #[error("{0}")]
+    Broken(String),
     /// It is no longer the one whose version and hash were taken at the start.
     #[error("{} was replaced while it was in use; start again", shown(.0))]
     Replaced(PathBuf),

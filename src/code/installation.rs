@@ -1,39 +1,22 @@
 //! The program of a code as it is installed here: its file and its version.
 
+use super::broken::BrokenCode;
+use super::covered::CoveredFiles;
 use super::definition::LONGEST_START;
 use super::failure::FailureKind;
+use super::installed::InstalledCode;
 use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestion};
-use super::process::{Interrupt, Job, run};
 use super::provenance::Identity;
+use super::question::answer;
 use super::registry::Code;
-use crate::files::{Links, read_bounded};
-use crate::model::sha256_hex;
-use nix::unistd::{AccessFlags, access};
+use super::search_path::in_search_path;
+use crate::model::{readable, shown};
 use std::ffi::OsString;
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-/// Attempts at a query that a signal ends: the answer becomes part of the address of every run.
-const TRIES: usize = 3;
-
-/// Largest file of a program that is read, in bytes.
-const LARGEST_PROGRAM: u64 = 1 << 32;
 /// Longest version in characters, as it is printed in tables.
 const LONGEST_VERSION: usize = 100;
 const UNKNOWN: &str = "unknown";
-
-/// Device and number of a file, and when it last changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stamp([i64; 4]);
-
-impl Stamp {
-    fn of(path: &Path) -> Option<Self> {
-        let data = std::fs::metadata(path).ok()?;
-        let place = [data.dev() as i64, data.ino() as i64];
-        Some(Self([place[0], place[1], data.ctime(), data.ctime_nsec()]))
-    }
-}
 
 /// An external code whose program is installed.
 pub(crate) struct ExternalCode {
@@ -45,47 +28,78 @@ pub(crate) struct ExternalCode {
     /// The file that was found.
     pub file: PathBuf,
     pub identity: Identity,
-    /// Changes when the file is written to or replaced.
-    stamp: Stamp,
+    /// The files that decide what it computes.
+    covered: CoveredFiles,
 }
 
 impl ExternalCode {
     /// The code `name` with the program `word`, looked for in the search path. The package manager or the program itself
-    /// is asked for the version; a program that gives none within [`LONGEST_START`] counts as not installed: its
-    /// runs would be kept under a wrong name.
-    pub fn find(name: Code, word: &str) -> Option<Self> {
-        let definition = name.definition();
-        let program = definition.program.as_ref()?;
-        let question = &program.version;
+    /// is asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
+    /// broken: its runs would be kept under a wrong name.
+    pub fn find(name: Code, word: &str) -> Option<Box<dyn InstalledCode>> {
+        let program = name.definition().program.as_ref()?;
         let file = in_search_path(word)?;
-        let stamp = Stamp::of(&file)?;
-        let package = owning_package(&file).ok()?;
-        let version = match &package {
-            Some((_, version)) if question.package => upstream(version).to_owned(),
-            _ => own_version(&file, question, &program.environment).ok()?,
-        };
-        let hash = sha256_hex(&read_bounded(&file, LARGEST_PROGRAM, Links::Followed).ok()?);
-        Some(Self {
-            name,
-            definition,
-            program,
-            word: word.to_owned(),
-            file,
-            identity: Identity {
-                code: name.as_str().to_owned(),
-                version,
-                package: package.map(|(package, version)| format!("{package} {version}")),
-                program_hash: Some(hash),
-            },
-            stamp,
+        Some(match identify(&file, program) {
+            Ok((version, package)) => Box::new(Self::identified(
+                name, program, word, file, version, package,
+            )),
+            Err(kind) => Box::new(BrokenCode::new(name, &file, &kind)),
         })
     }
 
-    /// Refuses a program that has been replaced since it was found.
+    fn identified(
+        name: Code,
+        program: &'static Program,
+        word: &str,
+        file: PathBuf,
+        version: String,
+        package: Option<String>,
+    ) -> Self {
+        let arguments = program.command.get(1..).unwrap_or_default();
+        let covered = CoveredFiles::of(&file, arguments, &program.environment);
+        let mut code = Self {
+            name,
+            definition: name.definition(),
+            program,
+            word: word.to_owned(),
+            identity: Identity {
+                code: name.as_str().to_owned(),
+                version,
+                package,
+                program_hash: covered.hash(&file).cloned(),
+                files_hash: Some(covered.digest()),
+                witness: None,
+            },
+            file,
+            covered,
+        };
+        code.identity.witness = code.witness();
+        code
+    }
+
+    /// Refuses a program that has been replaced, or of which a file has, since it was found.
     pub fn check_unchanged(&self) -> Result<(), FailureKind> {
-        let unchanged = Stamp::of(&self.file) == Some(self.stamp);
-        let replaced = || FailureKind::Replaced(self.file.clone());
-        unchanged.then_some(()).ok_or_else(replaced)
+        let changed = self.covered.changed().cloned();
+        changed.map_or(Ok(()), |path| Err(FailureKind::Replaced(path)))
+    }
+
+    /// What the identity covers and what it does not.
+    pub fn described_coverage(&self) -> String {
+        let (files, libraries) = self.covered.counts();
+        let witness = match &self.identity.witness {
+            Some(digest) => format!(
+                "a micro-test made in this session, to ten digits ({})",
+                &digest[..12]
+            ),
+            None => "no micro-test: the program takes too long to start, or has none".to_owned(),
+        };
+        format!(
+            "{}, and {} other files that it names or maps, {libraries} of them libraries; {witness}; all files of its \
+             folder. Not covered: what it finds only while it runs, such as plugins, the modules that come with an \
+             interpreter, and data",
+            shown(&self.file),
+            files.saturating_sub(1)
+        )
     }
 
     /// Program and arguments that carry out tasks of one kind in `directories`.
@@ -96,15 +110,22 @@ impl ExternalCode {
     }
 }
 
-fn in_search_path(program: &str) -> Option<PathBuf> {
-    let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path)
-        .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
-        .find(|candidate| candidate.is_file() && access(candidate, AccessFlags::X_OK).is_ok())
+/// The version of the program in `file`, and the package that it belongs to.
+fn identify(file: &Path, program: &Program) -> Result<(String, Option<String>), FailureKind> {
+    let question = &program.version;
+    let package = owning_package(file)?;
+    let version = match &package {
+        Some((_, version)) if question.package => upstream(version).to_owned(),
+        _ => own_version(file, question, &program.environment)?,
+    };
+    Ok((
+        version,
+        package.map(|(package, version)| format!("{package} {version}")),
+    ))
 }
 
 /// Debian package and version that the program, links followed, belongs to.
-fn owning_package(program: &Path) -> Result<Option<(String, String)>, TooSlow> {
+fn owning_package(program: &Path) -> Result<Option<(String, String)>, FailureKind> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
         command.extend(arguments);
@@ -138,7 +159,7 @@ fn own_version(
     program: &Path,
     question: &VersionQuestion,
     environment: &Environment,
-) -> Result<String, TooSlow> {
+) -> Result<String, FailureKind> {
     if question.arguments.is_empty() {
         return Ok(UNKNOWN.to_owned());
     }
@@ -155,45 +176,12 @@ pub fn version_in_answer(answer: &str, before: &str) -> String {
     let line = first.unwrap_or_default().trim();
     let rest = line.strip_prefix(before).unwrap_or(line);
     let version = rest.split(',').next().unwrap_or(rest);
-    let readable = version.chars().filter(|char| !char.is_control());
-    let version: String = readable.take(LONGEST_VERSION).collect();
+    let version: String = version.chars().filter(|char| !char.is_control()).collect();
+    let version: String = readable(&version).chars().take(LONGEST_VERSION).collect();
     match version.trim() {
         "" => UNKNOWN.to_owned(),
         version => version.to_owned(),
     }
-}
-
-/// There was no answer within the time limit.
-#[derive(Debug)]
-struct TooSlow;
-
-/// The standard output of `command`; `None` if it fails or cannot be started.
-fn answer(
-    command: &[OsString],
-    environment: &Environment,
-    time_limit: Duration,
-) -> Result<Option<String>, TooSlow> {
-    let job = Job {
-        command,
-        directory: Path::new("/"),
-        // A query leaves no files behind.
-        home: Path::new("/nonexistent"),
-        environment,
-        time_limit,
-        interrupt: &Interrupt::new(),
-    };
-    for _ in 0..TRIES {
-        match run(&job, Vec::new(), std::io::sink(), || false) {
-            Ok((status, text)) if status.code().is_some() => {
-                let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
-                return Ok(status.success().then_some(text));
-            }
-            Ok(_) => {}
-            Err(FailureKind::TimedOut(_)) => return Err(TooSlow),
-            Err(_) => return Ok(None),
-        }
-    }
-    Ok(None)
 }
 
 #[cfg(test)]
@@ -205,18 +193,6 @@ mod tests {
         assert_eq!(upstream("3.8.0+repack1-9+b2"), "3.8.0");
         assert_eq!(upstream("2023.02a-1"), "2023.02a");
         assert_eq!(upstream("1:29Sep2021+ds-1"), "29Sep2021");
-    }
-
-    fn ask(command: &[&str]) -> Result<Option<String>, TooSlow> {
-        let command: Vec<OsString> = command.iter().map(OsString::from).collect();
-        answer(&command, &Environment::new(), Duration::from_secs(1))
-    }
-
-    #[test]
-    fn only_a_program_that_ends_by_itself_has_answered() {
-        assert_eq!(ask(&["echo", "1.2"]).unwrap().as_deref(), Some("1.2\n"));
-        assert_eq!(ask(&["false"]).unwrap(), None);
-        assert!(ask(&["sleep", "60"]).is_err());
     }
 
     #[test]

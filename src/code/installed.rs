@@ -67,6 +67,16 @@ pub trait InstalledCode: Send + Sync {
     /// The program behind its numbers.
     fn identity(&self) -> &Identity;
 
+    /// Why it is installed, but does not work, if so.
+    fn broken(&self) -> Option<&str> {
+        None
+    }
+
+    /// What the identity covers and what it does not, in prose.
+    fn coverage(&self) -> String {
+        "the sources of this program".to_owned()
+    }
+
     /// The distribution of cases over calls.
     fn batching(&self) -> Batching;
 

@@ -2,7 +2,9 @@
 //! program.
 
 mod batch;
+mod broken;
 mod capture;
+mod covered;
 mod definition;
 mod external;
 mod failure;
@@ -15,8 +17,11 @@ mod native;
 mod parameters;
 mod process;
 mod provenance;
+mod question;
 mod registry;
+mod search_path;
 mod task;
+mod witness;
 mod written;
 
 pub(crate) use definition::ManifestError;
@@ -33,21 +38,20 @@ pub(crate) use native::observe;
 use native::{Arithmetic, Native};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
+pub use question::let_interrupt_questions;
 pub use registry::{Code, Declaration};
 pub use task::Task;
+pub use witness::witness_test;
 pub(crate) use written::{HOME, keep_evidence};
 
 impl Code {
-    /// The code as it is installed here; `None` if it is not.
+    /// The code as it is installed here, which may be broken; `None` if it is not installed.
     pub fn find(self) -> Option<Box<dyn InstalledCode>> {
         if self == Self::NATIVE {
             return Some(Box::new(Native::new(Arithmetic::Double)));
         }
         let program = self.definition().program.as_ref()?;
-        Some(Box::new(ExternalCode::find(
-            self,
-            program.command.first()?,
-        )?))
+        ExternalCode::find(self, program.command.first()?)
     }
 
     /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
@@ -57,7 +61,6 @@ impl Code {
             return Some(Box::new(Native::new(Arithmetic::DoubleDouble)));
         }
         let program = self.definition().program.as_ref()?;
-        let word = program.higher_precision.as_deref()?;
-        Some(Box::new(ExternalCode::find(self, word)?))
+        ExternalCode::find(self, program.higher_precision.as_deref()?)
     }
 }

@@ -17,9 +17,16 @@ pub struct Identity {
     pub version: String,
     /// Distribution package and its version, if the binary belongs to one.
     pub package: Option<String>,
-    /// SHA-256 of the program file, its libraries not included; absent for the native code, whose sources
-    /// are hashed like a deck.
+    /// SHA-256 of the program file; absent for the native code, whose sources are hashed like a deck.
     pub program_hash: Option<String>,
+    /// SHA-256 of the other files that decide what the program computes: its libraries, the interpreter of a script,
+    /// and the programs and modules that the script names; absent from older recordings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub files_hash: Option<String>,
+    /// SHA-256 of the motion of one micro-test to ten digits, where the program is quick enough to be asked in every
+    /// session; absent from older recordings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<String>,
 }
 
 impl Identity {
@@ -30,6 +37,8 @@ impl Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             package: None,
             program_hash: None,
+            files_hash: None,
+            witness: None,
         });
         &NATIVE
     }

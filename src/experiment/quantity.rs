@@ -13,13 +13,26 @@ use uom::si::pressure::pascal;
 /// The accepted units and an example, as for the other quantities.
 pub fn modulus(text: &str) -> Result<f64, String> {
     let accepted = "Pa, kPa, MPa, GPa, N/mm2 or psi, as in \"1 MPa\"";
-    quantity(text, accepted, |read: Pressure| read.get::<pascal>())
+    let units = &[
+        "Pa",
+        "kPa",
+        "MPa",
+        "GPa",
+        "N/mm²",
+        "psi",
+        "pascal",
+        "kilopascal",
+        "megapascal",
+        "gigapascal",
+    ];
+    quantity(text, units, accepted, |read: Pressure| read.get::<pascal>())
 }
 
 /// Reads a mass density, in kg/m³.
 pub fn density(text: &str) -> Result<f64, String> {
     let accepted = "kg/m3, g/cm3 or t/m3, as in \"1000 kg/m3\"";
-    quantity(text, accepted, |read: MassDensity| {
+    let units = &["kg/m³", "g/cm³", "t/m³"];
+    quantity(text, units, accepted, |read: MassDensity| {
         read.get::<kilogram_per_cubic_meter>()
     })
 }
@@ -27,17 +40,28 @@ pub fn density(text: &str) -> Result<f64, String> {
 /// Reads a length, in m.
 pub fn length(text: &str) -> Result<f64, String> {
     let accepted = "m, cm, mm, um or in, as in \"1 cm\"";
-    quantity(text, accepted, |read: Length| read.get::<meter>())
+    let units = &["m", "cm", "mm", "µm", "in"];
+    quantity(text, units, accepted, |read: Length| read.get::<meter>())
 }
 
 /// Reads a mass, in kg.
 pub fn mass(text: &str) -> Result<f64, String> {
     let accepted = "kg, g, mg or t, as in \"21.9 g\"";
-    quantity(text, accepted, |read: Mass| read.get::<kilogram>())
+    let units = &["kg", "g", "mg", "t"];
+    quantity(text, units, accepted, |read: Mass| read.get::<kilogram>())
 }
 
-fn quantity<Q: FromStr>(text: &str, accepted: &str, si: fn(Q) -> f64) -> Result<f64, String> {
-    let value = spelled_out(text).parse().ok().map(si);
+/// The quantity in `text` in one of `units`, as [`spelled_out`] writes them: case matters, and `uom` knows further ones
+/// that are easily taken for these, such as M, the nautical mile.
+fn quantity<Q: FromStr>(
+    text: &str,
+    units: &[&str],
+    accepted: &str,
+    si: fn(Q) -> f64,
+) -> Result<f64, String> {
+    let text = spelled_out(text);
+    let unit = text.split_once(' ').map_or("", |(_, unit)| unit);
+    let value = text.parse().ok().filter(|_| units.contains(&unit)).map(si);
     let value = value.filter(|value| value.is_finite() && *value > 0.0);
     value.ok_or_else(|| format!("accepted is a number above 0 and its unit: {accepted}"))
 }
@@ -94,6 +118,27 @@ mod tests {
             assert_relative_eq!(length(text).unwrap(), 0.02, max_relative = 1e-15);
         }
         assert_relative_eq!(mass("21.9 g").unwrap(), 0.0219, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn units_that_nobody_means_are_refused() {
+        for text in [
+            "1 M", "1 nmi", "1 MM", "1 Cm", "1 Mm", "1 ly", "1 pc", "1 a.u.", "1 IN",
+        ] {
+            let message = length(text).unwrap_err();
+            assert!(message.contains("m, cm, mm, um or in"), "{text}: {message}");
+        }
+        for text in ["1 G", "1 KG", "1 T", "1 Mg", "1 u", "1 gr", "1 oz"] {
+            assert!(mass(text).is_err(), "{text}");
+        }
+        for text in ["1 PA", "1 mPa", "1 Gpa", "1 atm", "1 bar", "1 PSI"] {
+            assert!(modulus(text).is_err(), "{text}");
+        }
+        for text in ["1 Kg/m3", "1 g/m3", "1 G/cm3", "1 kg/M3"] {
+            assert!(density(text).is_err(), "{text}");
+        }
+        assert_relative_eq!(length("1 in").unwrap(), 0.0254);
+        assert_relative_eq!(modulus("1 psi").unwrap(), 6894.757, max_relative = 1e-6);
     }
 
     #[test]

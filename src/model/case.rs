@@ -1,6 +1,8 @@
 //! A case: every input of one time series.
 
-use super::{ContactConvention, InvalidValue, Preparation, Protocol, Stack, sha256_hex, shown};
+use super::{
+    ContactConvention, InvalidValue, Preparation, Protocol, Stack, exact, sha256_hex, shown,
+};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -124,11 +126,16 @@ impl std::fmt::Display for Case {
         write!(
             formatter,
             "mu = {}, stiffness = {}, wall speed = {:e}, time step = {}",
-            stack.floor_friction, stack.stiffness, protocol.wall_speed, protocol.time_step
+            exact(stack.floor_friction),
+            stack.stiffness,
+            protocol.wall_speed,
+            protocol.time_step
         )?;
         match protocol.preparation {
             Preparation::GravityRamp { .. } => Ok(()),
-            Preparation::SideWalls(walls) => write!(formatter, ", side walls, A = {}", walls.push),
+            Preparation::SideWalls(walls) => {
+                write!(formatter, ", side walls, A = {}", exact(walls.push))
+            }
         }
     }
 }

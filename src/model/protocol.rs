@@ -13,6 +13,11 @@ const LONGEST_TRAVEL: f64 = 4.0;
 const LONGEST_TIME: f64 = 1e9;
 const MOST_STEPS: f64 = 1e11;
 const MOST_ROWS: u64 = 1_000_000;
+/// Largest relative change of a duration that is rounding alone.
+const ROUNDING: f64 = 1e-9;
+/// Largest relative change of a duration that is carried out: more than any time step makes of a ramp of 100 with rows
+/// at intervals of 2, which are those that `simulate` chooses.
+const MOST_CHANGED: f64 = 0.02;
 
 /// The way in which the stack is brought to rest under gravity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -78,6 +83,27 @@ impl Preparation {
         }
     }
 
+    /// The durations that are asked for, each with its key, and the steps that they take as in [`Self::steps`].
+    fn durations(&self, steps: &PreparationSteps) -> [(&'static str, f64, u64); 2] {
+        const RAMP: &str = "protocol.preparation.ramp_time";
+        const REST: &str = "protocol.preparation.rest_time";
+        const SETTLE: &str = "protocol.preparation.settle_time";
+        match (*self, *steps) {
+            (
+                Self::GravityRamp {
+                    ramp_time,
+                    rest_time,
+                },
+                PreparationSteps::GravityRamp { ramp, rest },
+            ) => [(RAMP, ramp_time, ramp), (REST, rest_time, rest)],
+            (Self::SideWalls(walls), PreparationSteps::SideWalls(steps)) => [
+                (SETTLE, walls.settle_time, steps.settle_steps),
+                (REST, walls.rest_time, steps.rest_steps),
+            ],
+            _ => [(RAMP, 0.0, 0), (REST, 0.0, 0)],
+        }
+    }
+
     /// Every value in its range, no phase longer than `longest`.
     fn validate(&self, longest: f64) -> Result<(), InvalidValue> {
         match *self {
@@ -91,6 +117,11 @@ impl Preparation {
             Self::SideWalls(walls) => walls.validate(longest),
         }
     }
+}
+
+/// `value` without the round-off of a product.
+fn ten_digits(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// x³(10 − 15x + 6x²) at x = step/steps, 1 beyond.
@@ -223,6 +254,36 @@ impl Protocol {
         }
     }
 
+    /// The durations of the preparation that are carried out otherwise than asked for, because they are no whole
+    /// multiples of the fine interval in whole steps: key, what was asked for, and what is carried out.
+    pub(crate) fn changed_durations(&self) -> Vec<(&'static str, f64, f64)> {
+        let durations = self.preparation.durations(&self.schedule().preparation);
+        let durations = durations
+            .map(|(key, asked, steps)| (key, asked, ten_digits(steps as f64 * self.time_step)));
+        let changed = |(_, asked, made): &(&str, f64, f64)| (made - asked).abs() > ROUNDING * asked;
+        durations.into_iter().filter(changed).collect()
+    }
+
+    /// Refuses durations that a fine interval changes by more than the time step might.
+    fn validate_durations(&self) -> Result<(), InvalidValue> {
+        let fine = self.schedule().fine_every as f64 * self.time_step;
+        for (key, asked, made) in self.changed_durations() {
+            if (made - asked).abs() > MOST_CHANGED * asked {
+                let below = (asked / fine).floor() * fine;
+                let below = if below > 0.0 { below } else { fine };
+                let accepted = format!(
+                    "a multiple of {}, the fine interval of the rows in whole time steps, such as {} or {}; a \
+                     smaller protocol.sampling.fine_interval accepts more",
+                    ten_digits(fine),
+                    ten_digits(below),
+                    ten_digits(below + fine)
+                );
+                return Err(InvalidValue::new(key, asked, accepted));
+            }
+        }
+        Ok(())
+    }
+
     /// Speed of the wall in the first [`Schedule::fast_steps`].
     pub(crate) fn fast_speed(&self) -> f64 {
         let factor = self
@@ -313,6 +374,7 @@ impl Protocol {
                 accepted,
             ));
         }
+        self.validate_durations()?;
         let rows = schedule.rows();
         if rows > MOST_ROWS {
             let key = "protocol.sampling";

@@ -1,4 +1,4 @@
-//! Paths in messages.
+//! Text from outside in messages and results.
 
 use std::path::Path;
 
@@ -7,18 +7,39 @@ use std::path::Path;
 pub fn shown(path: &Path) -> String {
     let mut text = String::new();
     for chunk in path.as_os_str().as_encoded_bytes().utf8_chunks() {
-        for char in chunk.valid().chars() {
-            if char.is_control() {
-                text.extend(char.escape_default());
-            } else {
-                text.push(char);
-            }
-        }
+        text += &readable(chunk.valid());
         for byte in chunk.invalid() {
             text += &format!("\\x{byte:02X}");
         }
     }
     text
+}
+
+/// `text` with every character escaped that a terminal, or a page, does not show as it is: control characters, those
+/// that turn the direction of writing or have no width, and other line ends, as in `\\u{202e}`.
+pub(crate) fn readable(text: &str) -> String {
+    let mut readable = String::with_capacity(text.len());
+    for char in text.chars() {
+        if is_shown(char) {
+            readable.push(char);
+        } else {
+            readable.extend(char.escape_default());
+        }
+    }
+    readable
+}
+
+/// The same for text of several lines.
+pub(crate) fn readable_lines(text: &str) -> String {
+    let lines: Vec<String> = text.split('\n').map(readable).collect();
+    lines.join("\n")
+}
+
+fn is_shown(char: char) -> bool {
+    let hidden = matches!(char,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+        | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
+    !char.is_control() && !hidden
 }
 
 #[cfg(test)]
@@ -35,6 +56,12 @@ mod tests {
     #[test]
     fn a_line_feed_and_an_escape_sequence_are_spelled_out() {
         assert_eq!(shown(Path::new("a\nb\x1b[31m")), "a\\nb\\u{1b}[31m");
+    }
+
+    #[test]
+    fn what_turns_the_direction_of_writing_is_spelled_out() {
+        assert_eq!(readable("1.\u{202e}2\u{200b}"), "1.\\u{202e}2\\u{200b}");
+        assert_eq!(readable_lines("a\n\tb"), "a\n\\tb");
     }
 
     #[cfg(unix)]

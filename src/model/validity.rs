@@ -43,6 +43,18 @@ pub(super) fn positive(key: &str, value: f64, highest: f64) -> Result<(), Invali
     Err(InvalidValue::new(key, value, accepted))
 }
 
+/// `value` with every digit, in plain notation unless that is longer than all digits of any number that is neither
+/// large nor small.
+pub(crate) fn exact(value: f64) -> String {
+    const LONGEST: usize = 24;
+    let plain = value.to_string();
+    if plain.len() > LONGEST {
+        format!("{value:e}")
+    } else {
+        plain
+    }
+}
+
 /// The shorter of plain and scientific notation.
 fn short(value: f64) -> String {
     let (plain, scientific) = (value.to_string(), format!("{value:e}"));

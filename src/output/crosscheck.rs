@@ -1,7 +1,7 @@
 //! The rows of a crosscheck.
 
 use super::number::{digits, friction, one_digit, relative, small};
-use super::table::{Columns, DataTable};
+use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
@@ -96,9 +96,10 @@ pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
 
 /// A page with the rows, their meaning, and the notes on rows that do not agree.
 pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
+    let command = markdown_code(command);
     let mut page = format!(
         "# Crosscheck of the three-cylinder stack\n\n\
-         Made by tristack {} with `{command}`.\n\n\
+         Made by tristack {} with {command}.\n\n\
          Yield force F = f/(m g) at vanishing wall speed, against the exact quasi-static limit under the \
          same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + 3. The tolerance \
          is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {MAX_TOLERANCE:e}. Model form is the distance of the \
@@ -110,7 +111,9 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page += &crosscheck(judgements).shown().markdown();
     page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
              the order with which the runs converge in the wall speed. How each part is computed, and all \
-             runs behind a row: `tristack crosscheck --explain CODE/MU/STIFFNESS`.\n\n";
+             runs behind a row: `";
+    page += explaining(judgements);
+    page += "`.\n\n";
     page += &budget(judgements).shown().markdown();
     page += &evidence();
     let noted = judgements.iter().filter(|row| !row.notes().is_empty());
@@ -121,10 +124,19 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page + &remarks
 }
 
+/// The command that explains one of the rows, from the same runs.
+fn explaining(judgements: &[Judgement]) -> &'static str {
+    let mut cases = judgements.iter().flat_map(|row| &row.study.cases);
+    match cases.any(|case| case.protocol.shortcuts.is_some()) {
+        true => "tristack crosscheck --shortcuts --explain CODE/MU/STIFFNESS",
+        false => "tristack crosscheck --explain CODE/MU/STIFFNESS",
+    }
+}
+
 fn remark(row: &Judgement) -> String {
     let (mu, stiffness) = (friction(row.mu()), row.stiffness());
     let (code, verdict) = (row.code, row.verdict());
-    let notes = row.notes().join("\n").replace('\n', "\n  ");
+    let notes = markdown_text(&row.notes().join("\n")).replace('\n', "\n  ");
     format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }
 

@@ -2,7 +2,7 @@
 
 use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
-use crate::model::{Case, Preparation};
+use crate::model::{Case, Preparation, exact};
 use crate::runs::RunSummary;
 use crate::series::Estimate;
 use crate::study::yield_force::{
@@ -10,8 +10,13 @@ use crate::study::yield_force::{
 };
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-/// The steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more digits.
-pub(crate) fn explanation(row: &Judgement, twin: Option<&Result<TwinForce, String>>) -> String {
+/// The steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more digits,
+/// `coverage` says what the identity of an installed code covers.
+pub(crate) fn explanation(
+    row: &Judgement,
+    twin: Option<&Result<TwinForce, String>>,
+    coverage: Option<&str>,
+) -> String {
     let mut text = reference(row);
     text += &runs(row);
     if let Some(slip) = row.slip() {
@@ -19,7 +24,13 @@ pub(crate) fn explanation(row: &Judgement, twin: Option<&Result<TwinForce, Strin
         text += &budget(row, slip);
         text += &round_off(slip, twin);
     }
-    text + &conclusion(row)
+    text += &conclusion(row);
+    if let Some(coverage) = coverage {
+        text += &format!(
+            "\n8. Identity: runs are taken from the store only where this has not changed: {coverage}.\n"
+        );
+    }
+    text
 }
 
 fn reference(row: &Judgement) -> String {
@@ -34,8 +45,8 @@ fn reference(row: &Judgement) -> String {
         row.source.as_str(),
         friction(row.mu()),
         row.stiffness(),
-        row.study.stack.stiffness_ratio,
-        row.study.stack.cylinder_friction,
+        exact(row.study.stack.stiffness_ratio),
+        exact(row.study.stack.cylinder_friction),
         arms.pair,
         arms.floor,
         if row.arms_are_measured {

@@ -3,6 +3,7 @@
 use super::number::{digits, friction, rounded, significant};
 use super::table::{Columns, DataTable};
 use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
+use crate::model::exact;
 
 type Row<'a> = (&'a Forecast, &'a Forecasted);
 
@@ -153,14 +154,14 @@ fn heading(forecast: &Forecast) -> String {
         friction(experiment.mu),
         plus_minus(experiment.mu_uncertainty),
         forecast.regime,
-        experiment.mu_d,
-        experiment.kappa,
+        exact(experiment.mu_d),
+        exact(experiment.kappa),
     )
 }
 
 fn plus_minus(uncertainty: f64) -> String {
     if uncertainty > 0.0 {
-        format!(" +- {uncertainty}")
+        format!(" +- {}", exact(uncertainty))
     } else {
         String::new()
     }

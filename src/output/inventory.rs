@@ -3,12 +3,13 @@
 use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity, TaskKind};
 use crate::model::ContactArms;
+use crate::runs::SelectedCode;
 
-/// Looks for `codes` on this machine: one row per code.
-pub(crate) fn inventory(codes: &[Code]) -> DataTable<'static> {
-    let rows = codes.iter().map(|&code| {
-        let found = code.find();
-        (code, found.map(|found| found.identity().clone()))
+/// One row per code of `codes`.
+pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
+    let rows = codes.iter().map(|selected| {
+        let found = selected.code.as_ref();
+        (selected.name, found.map(|found| found.identity().clone()))
     });
     Columns::<(Code, Option<Identity>)>::new(
         "codes",
@@ -17,7 +18,7 @@ pub(crate) fn inventory(codes: &[Code]) -> DataTable<'static> {
     )
     .code(|(code, _)| *code)
     .text("installed", |(_, identity)| identity.is_some())
-    .means("whether it can run here")
+    .means("whether its program is here; `broken` is its version if that does not work")
     .text("version", |(_, identity)| {
         Some(identity.as_ref()?.version.clone())
     })

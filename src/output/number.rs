@@ -1,6 +1,6 @@
 //! Numbers as people read them.
 
-use crate::model::CRITICAL_FRICTION;
+use crate::model::{CRITICAL_FRICTION, exact};
 
 /// `value` with `digits` significant digits, in plain notation where that is short.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
@@ -51,7 +51,7 @@ pub(crate) fn friction(value: f64) -> String {
     if value == CRITICAL_FRICTION {
         "mu_c".to_owned()
     } else {
-        value.to_string()
+        exact(value)
     }
 }
 
@@ -96,6 +96,8 @@ mod tests {
         assert_eq!(rounded(1e6), "1e6");
         assert_eq!(rounded(0.020_000_1), "0.02");
         assert_eq!(rounded(435.6891), "435.7");
+        assert_eq!(exact(1e-300), "1e-300");
+        assert_eq!(exact(0.300_000_000_000_000_04), "0.30000000000000004");
         assert_eq!(plain(2283.4), "2280");
         assert_eq!(plain(8.6399), "8.64");
     }

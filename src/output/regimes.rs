@@ -1,7 +1,7 @@
 //! The regime map, and its comparison with the DEM.
 
 use super::number::{digits, one_digit, optional, relative, significant};
-use super::table::{Columns, DataTable, Table};
+use super::table::{Columns, DataTable, Table, markdown_code};
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
@@ -157,9 +157,10 @@ pub(crate) const REGIMES_TITLE: &str = "# Which event comes first\n\nMade by tri
 
 /// A page with boundaries, largest forces, the effect of each event, and the figure.
 pub(crate) fn regimes_markdown(survey: &Survey, command: &str) -> String {
+    let command = markdown_code(command);
     let [friction, lines, forces] = tables(survey).map(|table| table.markdown());
     format!(
-        "{REGIMES_TITLE} {} with `{command}`.\n\n\
+        "{REGIMES_TITLE} {} with {command}.\n\n\
          ![The three maps](regimes.svg)\n\n\
          Colours say how a stack ends, full lines where another event comes first, dashed lines where the \
          end changes while the events come in the same order. A marker is a point with native DEM runs on \

@@ -2,6 +2,7 @@
 
 use super::number::{digits, friction, optional};
 use super::table::{Columns, DataTable, Table};
+use crate::model::exact;
 use crate::theory::Predictions;
 
 /// One row per stack.
@@ -73,8 +74,8 @@ pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
             "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
             friction(case.stack.floor_friction),
             case.stack.stiffness,
-            case.stack.stiffness_ratio,
-            case.stack.cylinder_friction,
+            exact(case.stack.stiffness_ratio),
+            exact(case.stack.cylinder_friction),
             case.convention
         );
         heading + &one_case(case).terminal()

@@ -1,7 +1,7 @@
 //! Trajectories of codes compared with those of native twins.
 
 use super::number::{optional, small};
-use super::table::{Columns, DataTable};
+use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::study::Verdict;
 use crate::study::trajectory::{
     Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
@@ -94,8 +94,9 @@ pub(crate) fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
 /// A page with the comparisons, their meaning, the reasons for their orders, and their limits.
 pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
+    let command = markdown_code(command);
     let mut page = format!(
-        "# Trajectories beside native twins\n\nMade by tristack {version} with `{command}`.\n\n"
+        "# Trajectories beside native twins\n\nMade by tristack {version} with {command}.\n\n"
     );
     page += &meaning();
     page += &codes(judgements).shown().markdown();
@@ -159,7 +160,7 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
 fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     let mut lines = String::new();
     for judgement in judgements {
-        let notes = judgement.notes().join("\n").replace('\n', "\n  ");
+        let notes = markdown_text(&judgement.notes().join("\n")).replace('\n', "\n  ");
         if !notes.is_empty() {
             let (code, verdict) = (judgement.code, judgement.verdict());
             lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");
@@ -167,6 +168,7 @@ fn remarks(judgements: &[TrajectoryJudgement]) -> String {
         for comparison in judgement.comparisons() {
             for note in comparison.grounds.notes() {
                 let (subject, verdict) = (subject(judgement, comparison), comparison.verdict());
+                let note = markdown_text(note);
                 lines += &format!("- **{subject}: {verdict}**: {note}\n");
             }
         }

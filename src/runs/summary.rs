@@ -13,6 +13,7 @@ pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
     let sources = [
         include_str!("../model/law.rs"),
         include_str!("../series/differences.rs"),
+        include_str!("../series/digits.rs"),
         include_str!("../series/drop.rs"),
         include_str!("../series/estimate.rs"),
         include_str!("../series/mechanics.rs"),

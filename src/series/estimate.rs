@@ -1,6 +1,7 @@
 //! The yield force read off a series, by the two estimators of the field.
 
 use super::differences::FiveRows;
+use super::digits::PrintedDigits;
 use super::pair_contact::PairContact;
 use super::polynomial::value_at_zero;
 use super::samples::{Sample, Series};
@@ -36,6 +37,9 @@ pub struct YieldEstimates {
     /// Largest |b|/a that the contacts of cylinder 1 surely carry, in steps of 1e-5: so much friction they have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_friction: Option<f64>,
+    /// The digits with which the code has printed the forces; absent if it has printed all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub printed: Option<PrintedDigits>,
 }
 
 /// A row in which a floor contact should slide, and does not.
@@ -76,6 +80,7 @@ impl YieldEstimates {
             sliding_friction,
             departure,
             pair_friction: beyond.and_then(|beyond| pair_friction(samples, beyond, case)),
+            printed: PrintedDigits::read(samples, stiffness),
         }
     }
 }

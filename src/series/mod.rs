@@ -2,6 +2,7 @@
 
 mod column;
 mod differences;
+mod digits;
 mod drop;
 mod estimate;
 mod frame;
@@ -13,6 +14,7 @@ mod pyramid_run;
 mod samples;
 
 pub(crate) use column::Column;
+pub use digits::PrintedDigits;
 pub use drop::DropWatch;
 pub use estimate::{Departure, Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};

@@ -2,6 +2,7 @@
 
 use super::SeriesError;
 use super::column::columns;
+use super::digits::most_digits;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
@@ -114,6 +115,13 @@ impl Motion {
         // One row too many is enough to refuse the motion.
         let rows = rows.take(planned_rows(steps).saturating_add(1));
         Self::new(rows.collect::<Result<_, _>>()?, steps)
+    }
+
+    /// The most significant digits with which a number is printed; 17 are all.
+    pub(crate) fn most_digits(&self) -> u32 {
+        let columns = MotionRow::COLUMNS.iter();
+        let rows = self.rows.iter();
+        most_digits(rows.flat_map(|row| columns.clone().map(move |column| (column.value)(row))))
     }
 
     /// The rows, step by step.

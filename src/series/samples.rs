@@ -2,7 +2,7 @@
 
 use super::column::columns;
 use super::drop::DropWatch;
-use crate::model::{Protocol, Schedule};
+use crate::model::{Protocol, Schedule, readable, readable_lines};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
@@ -74,13 +74,13 @@ pub enum SeriesError {
 impl SeriesError {
     /// There is no series at all: `message` names what is missing, and what was found instead.
     pub(crate) fn absent(message: impl Into<String>) -> Self {
-        let message = message.into();
+        let message = readable_lines(&message.into());
         Self::Absent { message }
     }
 
     /// `row` cannot be read.
     pub(crate) fn garbled(row: usize, message: impl ToString) -> Self {
-        let message = message.to_string();
+        let message = readable_lines(&message.to_string());
         Self::Garbled { row, message }
     }
 }
@@ -143,7 +143,7 @@ impl Series {
         let header = header.map_err(|error| SeriesError::garbled(0, error))?;
         if !header.iter().eq(Series::COLUMNS) {
             return Err(SeriesError::Columns {
-                found: header.iter().collect::<Vec<_>>().join(","),
+                found: readable(&header.iter().collect::<Vec<_>>().join(",")),
             });
         }
         let mut record = csv::ByteRecord::new();
@@ -163,6 +163,10 @@ impl Series {
     /// The series in the shared CSV format, every number in its shortest exact form.
     pub fn to_csv(&self) -> Vec<u8> {
         let mut writer = csv::Writer::from_writer(Vec::new());
+        if self.samples.is_empty() {
+            let header = writer.write_record(Self::COLUMNS);
+            header.expect("names are written to memory");
+        }
         for sample in &self.samples {
             writer
                 .serialize(sample)

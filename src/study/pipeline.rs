@@ -207,7 +207,13 @@ impl<'a> Campaign<'a> {
                     judged.grounds.hold_to_probe(probed, &identities);
                 }
             }
-            Err(missing) => judged.grounds = missing,
+            Err(missing) => {
+                judged.grounds = missing;
+                // What the probe has found is found, whatever the runs did.
+                if let Some(probed) = probed.filter(|probed| is_contradicted(probed)) {
+                    judged.grounds.hold_to_probe(probed, &identities);
+                }
+            }
         }
         Some(judged)
     }

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 use tristack::code::{Code, ParameterFormat, Task};
-use tristack::dem::compress_stack;
-use tristack::model::{Case, sha256_hex};
+use tristack::dem::{compress_stack, run_contact_test};
+use tristack::model::{Case, ContactTest, sha256_hex};
 use tristack::series::{MotionRow, Series};
 use tristack::study::yield_force::Profile;
 
@@ -91,12 +91,8 @@ pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let record = recording(yade()).probe.expect("it is there");
     for answer in record.answers {
         let parameters = ParameterFormat::Json.content(&answer.test.parameters());
-        let address = sha256_hex(parameters.as_bytes());
-        let mut writer =
-            csv::Writer::from_path(replay.join(format!("{address}.csv"))).expect("a file");
-        for row in answer.motion.rows() {
-            writer.serialize(change(*row)).expect("a row");
-        }
+        let rows = answer.motion.rows().iter();
+        write_motion(&replay, &parameters, rows.map(|row| change(*row)));
     }
 }
 
@@ -106,7 +102,24 @@ pub fn install_with_ending(bench: &Bench, ending: &str) {
     bench.install("yade", &script(&bench.path("replay"), ending));
 }
 
-fn script(replay: &Path, ending: &str) -> String {
+/// Puts the motion of `test`, by the native DEM, where the fake finds it when it is asked for `asked`.
+pub fn install_motion_as(replay: &Path, asked: &ContactTest, test: &ContactTest) {
+    let motion = run_contact_test(test).expect("a finite motion");
+    let parameters = ParameterFormat::Json.content(&asked.parameters());
+    write_motion(replay, &parameters, motion.rows().iter().copied());
+}
+
+fn write_motion(replay: &Path, parameters: &str, rows: impl Iterator<Item = MotionRow>) {
+    let address = sha256_hex(parameters.as_bytes());
+    let path = replay.join(format!("{address}.csv"));
+    let mut writer = csv::Writer::from_path(path).expect("a file");
+    for row in rows {
+        writer.serialize(row).expect("a row");
+    }
+}
+
+/// The body of a shell script that replays what is in `replay`, and does something after the last case.
+pub fn script(replay: &Path, ending: &str) -> String {
     let replay = replay.display();
     format!(
         r#"

@@ -97,6 +97,8 @@ impl Honest {
                     version: "lying".to_owned(),
                     package: None,
                     program_hash: None,
+                    files_hash: None,
+                    witness: None,
                 },
                 String::new(),
                 Vec::new(),

@@ -6,7 +6,7 @@ use super::style::{
     BODY, BODY_OUTLINE, HATCH, NORMAL_FORCE, ORIENTATION, ORIENTATION_AT_START, PLANE,
     TANGENTIAL_FORCE,
 };
-use crate::model::Case;
+use crate::model::{Case, exact};
 use crate::output::{friction, significant};
 use crate::paper::reproduction::Snapshots;
 use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};
@@ -86,8 +86,8 @@ pub fn run_svg(code: &str, case: &Case, frames: &Frames) -> String {
         "{code}: _μ_ = {}, _k_ₙ _r_/(_m_ _g_) = {}, _κ_ = {}, _μ__{{d}} = {}. Circles: undeformed cylinders, so that overlaps show compression; ticks: orientation now and (light) at the start.",
         friction(stack.floor_friction),
         stack.stiffness,
-        stack.stiffness_ratio,
-        stack.cylinder_friction,
+        exact(stack.stiffness_ratio),
+        exact(stack.cylinder_friction),
     )];
     if !frames.pair_forces_known {
         caption.push(format!(

@@ -1,11 +1,12 @@
 //! The report as Markdown, its figures in files beside it.
 
 use super::document::{Block, Document};
+use crate::output::table::markdown_text;
 
 pub(super) fn markdown(document: &Document) -> String {
     let mut page = format!("# {}\n", document.title);
     for line in &document.lead {
-        page += &format!("\n{line}\n");
+        page += &format!("\n{}\n", markdown_text(line));
     }
     for section in &document.sections {
         page += &format!("\n## {}\n", section.title);
@@ -18,9 +19,11 @@ pub(super) fn markdown(document: &Document) -> String {
 
 fn markdown_block(block: &Block) -> String {
     match block {
-        Block::Paragraph { text } => format!("\n{text}\n"),
+        Block::Paragraph { text } => format!("\n{}\n", markdown_text(text)),
         Block::List { items } => {
-            let items = items.iter().map(|item| format!("- {item}\n"));
+            let items = items
+                .iter()
+                .map(|item| format!("- {}\n", markdown_text(item)));
             format!("\n{}", items.collect::<String>())
         }
         Block::Table(data) => {

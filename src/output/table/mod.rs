@@ -9,6 +9,6 @@ mod value;
 pub(crate) use columns::Columns;
 pub use data::DataTable;
 pub(crate) use data::json;
-pub(crate) use escape::html_text;
+pub(crate) use escape::{html_text, markdown_code, markdown_text};
 pub use shown::Table;
 pub(crate) use value::Value;

@@ -1,6 +1,6 @@
 //! A table of text cells for people, in every format.
 
-use super::escape::{html_text, latex_text, markdown_cell};
+use super::escape::{html_text, latex_text, markdown_cell, terminal_cell};
 use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
 
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
@@ -35,7 +35,7 @@ impl Table {
 
     /// The table for a terminal.
     pub fn terminal(&self) -> String {
-        self.drawn(presets::UTF8_FULL_CONDENSED, str::to_owned)
+        self.drawn(presets::UTF8_FULL_CONDENSED, terminal_cell)
     }
 
     /// The table in Markdown.

@@ -35,7 +35,12 @@ pub struct Findings {
     pub identity: Identity,
     /// Its properties.
     pub findings: Vec<Finding>,
+    /// The digits with which it has printed the motions, if they are too few to contradict a declaration.
+    pub few_digits: Option<u32>,
 }
+
+/// Digits with which the rounding of motions is far below every tolerance, as the regressions amplify it.
+const ENOUGH_DIGITS: u32 = 13;
 
 /// The findings on one selected.
 pub type Probed = Result<Findings, ProbeError>;
@@ -72,13 +77,34 @@ fn findings(code: Code, record: ProbeRecord) -> Probed {
     let properties = probe(&code.declaration(), |tests| {
         record.answer(tests).ok_or(ProbeError::Outdated(code))
     })?;
-    let identity = record.provenance.identity;
+    let identity = record.provenance.identity.clone();
+    let digits = record
+        .answers
+        .iter()
+        .map(|answer| answer.motion.most_digits());
+    let few_digits = digits.min().filter(|digits| *digits < ENOUGH_DIGITS);
     let properties = properties.into_iter();
-    let findings = properties.map(|property| property.judge(code, &identity.version));
+    let findings = properties.map(|property| {
+        let finding = property.judge(code, &identity.version);
+        match few_digits {
+            Some(_) => undecided(finding),
+            None => finding,
+        }
+    });
     Ok(Findings {
         findings: findings.collect(),
         identity,
+        few_digits,
     })
+}
+
+/// `finding` without a disagreement, which may be that of rounding.
+fn undecided(finding: Finding) -> Finding {
+    let verdict = match finding.verdict {
+        Verdict::Differs => Verdict::Inconclusive,
+        other => other,
+    };
+    Finding { verdict, ..finding }
 }
 
 /// Whether the declaration is known to be wrong: a property that could not be measured well enough says
@@ -145,8 +171,11 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
                         Verdict::Differs => "contradicts its declaration",
                         _ => "decides nothing about its declaration",
                     };
+                    let digits = probe.few_digits.map_or_else(String::new, |digits| {
+                        format!(" (printed with {digits} digits)")
+                    });
                     format!(
-                        "its probe {says}: {} is {measured}, declared {}",
+                        "its probe {says}: {} is {measured}, declared {}{digits}",
                         finding.property, finding.declared
                     )
                 })
@@ -158,6 +187,10 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::code::Provenance;
+    use crate::dem::run_contact_test;
+    use crate::runs::Answer;
+    use crate::series::{Motion, MotionRow};
 
     fn probed(verdicts: &[Verdict]) -> Probed {
         let finding = |&verdict: &Verdict| Finding {
@@ -175,8 +208,11 @@ mod tests {
                 version: "1".to_owned(),
                 package: None,
                 program_hash: None,
+                files_hash: None,
+                witness: None,
             },
             findings: verdicts.iter().map(finding).collect(),
+            few_digits: None,
         })
     }
 
@@ -210,9 +246,69 @@ mod tests {
         assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
         let newer = Identity {
             program_hash: Some("00".to_owned()),
+            files_hash: None,
+            witness: None,
             ..own.clone()
         };
         let note = other_program(&probed, [&own, &newer].into_iter()).unwrap();
         assert!(note.contains("tristack record --codes yade"), "{note}");
+    }
+
+    /// A motion with every number rounded to so many digits.
+    fn rounded(motion: &Motion, decimals: usize) -> Motion {
+        let round = |row: &MotionRow| {
+            let mut row = serde_json::to_value(row).unwrap();
+            for (name, value) in row.as_object_mut().unwrap() {
+                if name != "step" {
+                    let text = format!("{:.decimals$e}", value.as_f64().unwrap());
+                    *value = text.parse::<f64>().unwrap().into();
+                }
+            }
+            serde_json::from_value(row).unwrap()
+        };
+        let rows: Vec<MotionRow> = motion.rows().iter().map(round).collect();
+        let steps = rows.len() as u64 - 1;
+        Motion::new(rows, steps).unwrap()
+    }
+
+    /// What is found of a code that is as declared, and prints so many digits.
+    fn probe_with_digits(digits: usize) -> Probed {
+        let code = Code::named("lammps").unwrap();
+        let mut answers = Vec::new();
+        let probed = probe(&code.declaration(), |tests| {
+            let motions = tests.iter().map(|test| {
+                let motion = rounded(&run_contact_test(test).unwrap(), digits - 1);
+                answers.push(Answer {
+                    test: *test,
+                    input_hash: String::new(),
+                    motion: motion.clone(),
+                });
+                motion
+            });
+            Ok::<_, ProbeError>(motions.collect())
+        });
+        probed.unwrap();
+        let identity = Identity {
+            code: code.as_str().to_owned(),
+            ..Identity::native().clone()
+        };
+        let provenance = Provenance::now(identity, String::new(), Vec::new(), 1, 1.0);
+        findings(
+            code,
+            ProbeRecord {
+                provenance,
+                answers,
+            },
+        )
+    }
+
+    #[test]
+    fn few_digits_contradict_nothing_and_are_named() {
+        let probed = probe_with_digits(6);
+        assert!(!is_contradicted(&probed));
+        let first = &contradictions(&probed)[0];
+        assert!(first.ends_with("(printed with 6 digits)"), "{first}");
+        let property = &probe_with_digits(17).unwrap();
+        assert_eq!(property.few_digits, None);
     }
 }

@@ -174,5 +174,6 @@ fn estimates(observation: &Observation) -> YieldEstimates {
         sliding_friction: None,
         departure: None,
         pair_friction: None,
+        printed: None,
     }
 }

@@ -1,7 +1,7 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
 use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
-use crate::series::{Estimate, YieldEstimates, value_at_zero, weights_at_zero};
+use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
 
 /// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,8 @@ pub struct Budget {
     /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
     /// times less (tests/round_off.rs).
     pub round_off: f64,
-    /// Half a unit of the seventeenth digit, with which every code prints, amplified in the same way.
+    /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth, unless the
+    /// series has fewer.
     pub print_precision: f64,
     /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
     /// Their error is mostly linear in the wall speed, and vanishes with it.
@@ -76,7 +77,7 @@ impl Budget {
         BudgetPart {
             name: "print_precision",
             heading: "print precision",
-            how: "half a unit of the 17th digit, amplified, weighted",
+            how: "half a unit of the last digit printed, amplified, weighted",
             value: |budget| budget.print_precision,
         },
         BudgetPart {
@@ -154,6 +155,9 @@ pub(super) const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
 const ROUNDING: f64 = 0.288_675_134_594_812_9;
 /// Half a unit of the seventeenth significant digit.
 const PRINTED: f64 = 0.5e-16;
+/// Largest sum of the magnitudes of the weights with which the slip onset follows from four rows: it comes two
+/// spacings after the last of them at most, 10 + 20 + 15 + 4; and the measured friction counts once more.
+const ROW_WEIGHTS: f64 = 50.0;
 
 /// Extrapolates one estimator over the runs of a measurement, in the order of its cases, which take so many
 /// `steps` each. `None` if it is absent from any of them.
@@ -170,14 +174,19 @@ pub fn extrapolate(
     let force = value_at_zero(&SPEEDS, &forces);
     let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
     let weights = weights_at_zero(&SPEEDS);
-    let amplified = |error: &dyn Fn(&Estimate, u64) -> f64| -> f64 {
-        let terms = weights.iter().zip(by_speed.iter().zip(steps));
-        let terms = terms.map(|(weight, (estimate, &steps))| weight.abs() * error(estimate, steps));
+    let amplified = |error: &dyn Fn(&Estimate, usize) -> f64| -> f64 {
+        let terms = weights.iter().zip(by_speed).enumerate();
+        let terms = terms.map(|(run, (weight, estimate))| weight.abs() * error(estimate, run));
         terms.sum()
     };
-    let rounded = |estimate: &Estimate, steps| round_off(estimate, steps, stiffness);
-    let printed =
-        |estimate: &Estimate, _| PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity;
+    let rounded = |estimate: &Estimate, run: usize| round_off(estimate, steps[run], stiffness);
+    let printed = |estimate: &Estimate, run: usize| {
+        let few_digits = estimates[run].printed;
+        few_digits.map_or(
+            PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity,
+            |printed| printing_error(&printed, estimate),
+        )
+    };
     let budget = Budget {
         wall_speed: (force - first_order).abs(),
         time_step: change_from_middle(COARSE_TIME_STEP_RUN)?,
@@ -187,9 +196,16 @@ pub fn extrapolate(
         print_precision: amplified(&printed),
         shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
     };
-    let noise =
-        |(estimate, &steps): (&Estimate, &u64)| estimate.sampling + rounded(estimate, steps);
-    let noise = by_speed.iter().zip(steps).map(noise).fold(0.0, f64::max);
+    let coarse = |run: usize| estimates[run].printed.is_some();
+    let noise = |(run, estimate): (usize, &Estimate)| {
+        let printing = if coarse(run) {
+            printed(estimate, run)
+        } else {
+            0.0
+        };
+        estimate.sampling + rounded(estimate, run) + printing
+    };
+    let noise = by_speed.iter().enumerate().map(noise).fold(0.0, f64::max);
     Some(Extrapolation {
         force,
         first_order,
@@ -202,6 +218,12 @@ pub fn extrapolate(
 fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
     let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
     per_step * (steps as f64).sqrt() * estimate.sensitivity
+}
+
+/// Largest error of an estimate in m g from rows with few `printed` digits. The margin μ n − |t| of a friction below 1
+/// is off by two half units.
+pub(super) fn printing_error(printed: &PrintedDigits, estimate: &Estimate) -> f64 {
+    ROW_WEIGHTS * printed.half_unit * (1.0 + 2.0 * estimate.sensitivity)
 }
 
 /// Change of the straight line through the two faster runs without their shortcuts; `None` if there are no such runs.
@@ -234,6 +256,7 @@ mod tests {
                 sliding_friction: None,
                 departure: None,
                 pair_friction: None,
+                printed: None,
             })
             .to_vec()
     }
@@ -352,6 +375,7 @@ mod tests {
                 sliding_friction: None,
                 departure: None,
                 pair_friction: None,
+                printed: None,
             })
             .to_vec();
         let budget = |count: usize| {

@@ -1,6 +1,6 @@
 //! The yield force that the runs of a measurement show, compared with the exact limit.
 
-use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE};
+use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error};
 use super::plan::{Measurement, Method};
 use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
 use crate::code::Code;
@@ -152,10 +152,12 @@ impl<'a> Reader<'a> {
         let peak_uncertainty = peak.budget.total() + allowance;
         let Some(slip) = slip else {
             self.compare(peak.force, peak_uncertainty, reference);
+            self.doubt_few_digits(peak.budget.print_precision, reference);
             self.doubt(self.missing_onset());
             return self.doubt_deep_wall(reference);
         };
         self.compare(slip.force, slip.budget.total(), reference);
+        self.doubt_few_digits(slip.budget.print_precision, reference);
         self.doubt_friction();
         self.doubt_pair_friction();
         self.doubt_equal_runs();
@@ -173,8 +175,12 @@ impl<'a> Reader<'a> {
             return self.find_no_yield();
         };
         let change = (fast.force - slow.force).abs();
-        let uncertainty = TWO_GRIDS * change + slow.sampling + allowance;
+        let printed = self.estimates.iter().filter_map(|run| run.printed);
+        let printing = printed.map(|printed| printing_error(&printed, slow));
+        let printing = printing.fold(0.0, f64::max);
+        let uncertainty = TWO_GRIDS * change + slow.sampling + allowance + printing;
         self.compare(slow.force, uncertainty, reference);
+        self.doubt_few_digits(printing, reference);
         self.doubt_friction();
         if self.grounds.verdict() == Verdict::Inconclusive {
             let excess = (slow.force - reference) / reference;
@@ -203,17 +209,42 @@ impl<'a> Reader<'a> {
     fn find_no_yield(&mut self) {
         let last = self.finding.runs.iter().map(|run| run.last_force);
         let highest = last.fold(0.0, f64::max);
+        let printed = self.estimates.iter().filter_map(|run| run.printed);
+        let mut coarse = printed.filter(|printed| printed.finest < DIGITS_TO_SEE_A_YIELD);
+        if let Some(printed) = coarse.next() {
+            let digits = printed.digits;
+            let note = format!("printed with {digits} digits, too few to show a yield");
+            self.grounds.add(Ground::Undecidable(note));
+        }
         self.grounds.add(Ground::NoYield(Some(format!(
             "no slip followed by a peak within the planned wall travel; the wall force ends at {highest:.6}"
         ))));
     }
 
+    /// The fewest digits with which a run is printed; `None` if all of them are printed in full.
+    fn digits(&self) -> Option<u32> {
+        let printed = self.estimates.iter().filter_map(|run| run.printed);
+        printed.map(|printed| printed.digits).min()
+    }
+
+    /// Digits that are missing are no error of the code. `uncertainty` in m g is what they leave open.
+    fn doubt_few_digits(&mut self, uncertainty: f64, reference: f64) {
+        let too_large = uncertainty > MAX_TOLERANCE * (reference + 3.0);
+        if let Some(digits) = self.digits().filter(|_| too_large) {
+            self.doubt(format!(
+                "printed with {digits} digits, by which the yield force may be off by {uncertainty:.1e}; 17 are needed"
+            ));
+        }
+    }
+
     fn doubt_friction(&mut self) {
         let asked = self.measurement.stack.floor_friction;
+        // Two half units of numbers that may be ten times smaller than the largest of their column.
+        let same = self.digits().map_or(SAME_FRICTION, |digits| {
+            SAME_FRICTION.max(libm::exp10(2.0 - f64::from(digits)))
+        });
         let mut measured = self.estimates.iter().filter_map(|run| run.sliding_friction);
-        if let Some(other) =
-            measured.find(|friction| (friction / asked - 1.0).abs() > SAME_FRICTION)
-        {
+        if let Some(other) = measured.find(|friction| (friction / asked - 1.0).abs() > same) {
             self.doubt(format!(
                 "the floor slides at |t|/n = {other}, not at mu = {asked}"
             ));
@@ -363,6 +394,9 @@ const TWO_GRIDS: f64 = 3.0;
 /// A friction measured this close, relatively, to the one asked for is the same: codes cap the force at
 /// μ n itself, some through tan(atan μ), so that only roundings of 1e-16 are between them.
 const SAME_FRICTION: f64 = 1e-9;
+
+/// With fewer digits a force changes in steps of a hundredth of itself, between which it may rise and fall.
+const DIGITS_TO_SEE_A_YIELD: u32 = 4;
 
 /// The peak is grainy: it comes while the floor slips and sticks from step to step, which may hide up to
 /// two steps of load in each run. The extrapolation adds them up with the weights 1/3, 2 and 8/3 at speeds

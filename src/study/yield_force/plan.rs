@@ -4,7 +4,9 @@ use super::extrapolate::{Extrapolation, extrapolate};
 use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
+use crate::model::{
+    Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
+};
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Event, Limit, quasistatic_limit};
 use std::collections::BTreeMap;
@@ -34,7 +36,7 @@ const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// Refusal to run a stack that does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("`--mu` is {}, but nothing yields there: {reason}{}", stack.floor_friction, accepted(*range))]
+#[error("`--mu` is {}, but nothing yields there: {reason}{}", exact(stack.floor_friction), accepted(*range))]
 pub struct NoYield {
     /// The stack.
     pub stack: Stack,

@@ -1,0 +1,373 @@
+//! The files on which the numbers of a program depend, as far as they can be found without running it: the program, the
+//! interpreter of a script and the programs and modules that the script names, and the libraries that the loader maps.
+
+use super::definition::LONGEST_START;
+use super::manifest::Environment;
+use super::question::answer;
+use super::search_path::in_search_path;
+use crate::files::{Links, open_regular, read_bounded};
+use crate::model::sha256_hex;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
+use std::fs::OpenOptions;
+use std::io::Read;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Longest script that is searched for names, in bytes.
+const LONGEST_SCRIPT: u64 = 1 << 20;
+/// Most modules in a directory; one with more is not a directory of modules.
+const MOST_MODULES: usize = 5000;
+const MOST_LEVELS: usize = 8;
+
+/// Identity of a file's content without reading it: device, number, size, and when it last changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Stamp([i64; 5]);
+
+impl Stamp {
+    /// The stamp of the file at `path`, links followed; `None` if there is none.
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        let data = std::fs::metadata(path).ok()?;
+        let place = [data.dev() as i64, data.ino() as i64, data.size() as i64];
+        let [device, number, size] = place;
+        let (seconds, fraction) = (data.ctime(), data.ctime_nsec());
+        Some(Self([device, number, size, seconds, fraction]))
+    }
+}
+
+/// The files that decide what a program computes, with their content as it was when they were found.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CoveredFiles {
+    /// SHA-256 of each.
+    hashes: BTreeMap<PathBuf, String>,
+    stamps: Vec<(PathBuf, Stamp)>,
+}
+
+impl CoveredFiles {
+    /// The files behind `program`, which gets `words` as arguments in its `environment`.
+    pub fn of(program: &Path, words: &[String], environment: &Environment) -> Self {
+        let mut search = Search::default();
+        search.add_program(program);
+        for word in words.iter().map(Path::new) {
+            if word.is_absolute() && word.is_file() {
+                search.add_program(word);
+            }
+        }
+        let (files, libraries) = (search.files.clone(), search.libraries.clone());
+        let mapped = search.loaders.iter().flat_map(|(program, loader)| {
+            // Extensions of an interpreter are mapped into it as soon as they are imported.
+            mapped_by_loader(loader, program, &libraries, environment)
+        });
+        let all: BTreeSet<PathBuf> = mapped.chain(files).chain(libraries.clone()).collect();
+        Self::hashed(all)
+    }
+
+    fn hashed(files: BTreeSet<PathBuf>) -> Self {
+        let files: Vec<PathBuf> = files.into_iter().collect();
+        let known: Vec<_> = files
+            .into_par_iter()
+            .filter_map(|path| {
+                let stamp = Stamp::of(&path)?;
+                let hash = hash_of(&path, stamp)?;
+                Some((path, stamp, hash))
+            })
+            .collect();
+        let stamps = known.iter().map(|(path, stamp, _)| (path.clone(), *stamp));
+        Self {
+            stamps: stamps.collect(),
+            hashes: known
+                .into_iter()
+                .map(|(path, _, hash)| (path, hash))
+                .collect(),
+        }
+    }
+
+    /// SHA-256 of `path`, if it is among them.
+    pub fn hash(&self, path: &Path) -> Option<&String> {
+        self.hashes.get(path)
+    }
+
+    /// One SHA-256 for all of them, places and contents.
+    pub fn digest(&self) -> String {
+        let lines = self.hashes.iter();
+        let lines = lines.map(|(path, hash)| format!("{hash}  {path:?}\n"));
+        sha256_hex(lines.collect::<String>().as_bytes())
+    }
+
+    /// One of them that has changed since it was read.
+    pub fn changed(&self) -> Option<&PathBuf> {
+        let mut stamps = self.stamps.iter();
+        let changed = stamps.find(|(path, stamp)| Stamp::of(path) != Some(*stamp));
+        changed.map(|(path, _)| path)
+    }
+
+    /// The number of files, and how many of them are shared libraries.
+    pub fn counts(&self) -> (usize, usize) {
+        let libraries = self.hashes.keys().filter(|path| is_library(path));
+        (self.hashes.len(), libraries.count())
+    }
+}
+
+/// Largest program or library that is read, in bytes.
+const LARGEST_PROGRAM: u64 = 1 << 32;
+
+type Hashes = BTreeMap<(PathBuf, Stamp), Arc<OnceLock<Option<String>>>>;
+
+/// SHA-256 of a file; one that has not changed is read once, since several codes share libraries.
+fn hash_of(path: &Path, stamp: Stamp) -> Option<String> {
+    static KNOWN: Mutex<Hashes> = Mutex::new(BTreeMap::new());
+    let hash = {
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(known.entry((path.to_owned(), stamp)).or_default())
+    };
+    let read = || {
+        let content = read_bounded(path, LARGEST_PROGRAM, Links::Followed).ok()?;
+        Some(sha256_hex(&content))
+    };
+    hash.get_or_init(read).clone()
+}
+
+/// The files that were found, and those in which more may be named.
+#[derive(Default)]
+struct Search {
+    files: BTreeSet<PathBuf>,
+    libraries: BTreeSet<PathBuf>,
+    /// Programs with the loader that each of them names.
+    loaders: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Search {
+    /// Adds a program or script with everything that it names.
+    fn add_program(&mut self, path: &Path) {
+        if !path.is_file() || !self.files.insert(path.to_owned()) {
+            return;
+        }
+        let content = beginning(path);
+        if let Some(line) = content.strip_prefix(b"#!") {
+            self.add_script(path, line, &String::from_utf8_lossy(&content));
+        } else if let Some(loader) = loader_in(&content) {
+            self.loaders.push((path.to_owned(), loader));
+        }
+    }
+
+    /// Adds the interpreter in the first `line` of the script at `path`, and what its `text` names.
+    fn add_script(&mut self, path: &Path, line: &[u8], text: &str) {
+        let line = line.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let line = String::from_utf8_lossy(line).into_owned();
+        let mut words = line.split_whitespace();
+        let Some(interpreter) = words.next() else {
+            return;
+        };
+        self.add_program(Path::new(interpreter));
+        let mut name = file_name(interpreter);
+        if interpreter.ends_with("/env") {
+            let real = words.find(|word| !word.starts_with('-') && !word.contains('='));
+            name = real.map_or_else(String::new, file_name);
+            if let Some(real) = real.and_then(in_search_path) {
+                self.add_program(&real);
+            }
+        }
+        match name.starts_with("python") {
+            true => self.add_python(path, text),
+            false => self.add_shell(path, text),
+        }
+    }
+
+    /// Adds programs that a shell script names, by path, in the search path, or beside it.
+    fn add_shell(&mut self, script: &Path, text: &str) {
+        for word in words(text) {
+            self.add_named(script, word);
+            if !word.contains('/')
+                && let Some(program) = in_search_path(word)
+            {
+                self.add_program(&program);
+            }
+        }
+    }
+
+    /// Adds what a `word` of a script names by its path, or by its name in the directory of the script.
+    fn add_named(&mut self, script: &Path, word: &str) {
+        let path = Path::new(word);
+        let beside = script.parent().map(|parent| parent.join(file_name(word)));
+        let places = [path.is_absolute().then(|| path.to_owned()), beside];
+        for place in places.into_iter().flatten() {
+            if place.is_file() && (is_executable(&place) || is_source(&place)) {
+                self.add_file(&place);
+            }
+        }
+    }
+
+    fn add_file(&mut self, path: &Path) {
+        match is_library(path) {
+            true => _ = self.libraries.insert(path.to_owned()),
+            false => self.add_program(path),
+        }
+    }
+
+    /// Adds modules that a Python script or module imports from its own directory, and those in directories that it
+    /// names.
+    fn add_python(&mut self, script: &Path, text: &str) {
+        for word in words(text).filter(|word| word.starts_with('/')) {
+            self.add_named(script, word);
+            if is_module_directory(Path::new(word)) {
+                self.add_modules(Path::new(word));
+            }
+        }
+        let imports = text
+            .lines()
+            .map(str::trim_start)
+            .filter(|line| line.starts_with("import ") || line.starts_with("from "));
+        for name in imports.flat_map(words) {
+            let Some(directory) = script.parent() else {
+                return;
+            };
+            let name = name
+                .trim_start_matches('.')
+                .split('.')
+                .next()
+                .unwrap_or_default();
+            self.add_module(&directory.join(format!("{name}.py")));
+            let package = directory.join(name);
+            if !name.is_empty() && package.join("__init__.py").is_file() {
+                self.add_modules(&package);
+            }
+        }
+    }
+
+    fn add_module(&mut self, path: &Path) {
+        if path.is_file() && self.files.insert(path.to_owned()) {
+            let text = beginning(path);
+            self.add_python(path, &String::from_utf8_lossy(&text));
+        }
+    }
+
+    /// Adds all modules and extensions below `directory`, unless there are too many.
+    fn add_modules(&mut self, directory: &Path) {
+        let mut found = Vec::new();
+        if modules_below(directory, MOST_LEVELS, &mut found) {
+            for path in found {
+                match is_library(&path) {
+                    true => _ = self.libraries.insert(path),
+                    false => _ = self.files.insert(path),
+                }
+            }
+        }
+    }
+}
+
+/// Collects modules and extensions; returns whether there are few enough.
+fn modules_below(directory: &Path, levels: usize, found: &mut Vec<PathBuf>) -> bool {
+    let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    for entry in entries {
+        let path = entry.path();
+        let is_directory = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_directory && levels > 0 {
+            if !modules_below(&path, levels - 1, found) {
+                return false;
+            }
+        } else if path.is_file() && is_source(&path) {
+            found.push(path);
+        }
+        if found.len() > MOST_MODULES {
+            return false;
+        }
+    }
+    true
+}
+
+/// Whether a module or a package lies in `directory` itself.
+fn is_module_directory(directory: &Path) -> bool {
+    let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    let mut paths = entries.map(|entry| entry.path());
+    paths.any(|path| {
+        path.extension().is_some_and(|end| end == "py") || path.join("__init__.py").is_file()
+    })
+}
+
+/// The words of a script, without its punctuation, each of them once.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let words =
+        text.split(|char: char| char.is_whitespace() || "\"'`;(){}[]=,:&|<>$".contains(char));
+    let words: BTreeSet<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.into_iter()
+}
+
+fn file_name(path: &str) -> String {
+    let name = Path::new(path).file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}
+
+fn is_executable(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|data| data.mode() & 0o111 != 0)
+}
+
+fn is_library(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.ends_with(".so") || name.contains(".so.")
+}
+
+/// Whether it is one of the files that scripts read and execute.
+fn is_source(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.ends_with(".py") || name.ends_with(".sh") || is_library(path)
+}
+
+/// The content of a script, or the head of a program.
+fn beginning(path: &Path) -> Vec<u8> {
+    let mut content = Vec::new();
+    let file = open_regular(path, Links::Followed, OpenOptions::new().read(true));
+    let read = file.and_then(|file| file.take(LONGEST_SCRIPT).read_to_end(&mut content));
+    read.map_or_else(|_| Vec::new(), |_| content)
+}
+
+/// The loader that an ELF program names (PT_INTERP of its program headers), of 64 bits and little-endian.
+fn loader_in(program: &[u8]) -> Option<PathBuf> {
+    const INTERPRETER: u64 = 3;
+    if !program.starts_with(b"\x7fELF\x02\x01") {
+        return None;
+    }
+    let number = |offset: usize, length: usize| -> Option<u64> {
+        let bytes = program.get(offset..offset.checked_add(length)?)?;
+        Some(
+            bytes
+                .iter()
+                .rev()
+                .fold(0, |number, byte| number << 8 | u64::from(*byte)),
+        )
+    };
+    let (table, size, count) = (number(0x20, 8)?, number(0x36, 2)?, number(0x38, 2)?);
+    let header = (0..count).find_map(|index| {
+        let header = usize::try_from(table.checked_add(index * size)?).ok()?;
+        (number(header, 4)? == INTERPRETER).then_some(header)
+    })?;
+    let start = usize::try_from(number(header + 0x08, 8)?).ok()?;
+    let length = usize::try_from(number(header + 0x20, 8)?).ok()?;
+    let name = program.get(start..start.checked_add(length)?)?;
+    let name = String::from_utf8_lossy(name);
+    Some(PathBuf::from(name.trim_end_matches('\0')))
+}
+
+/// The libraries that `loader` maps for `program` and for `extensions` that are loaded into it.
+fn mapped_by_loader(
+    loader: &Path,
+    program: &Path,
+    extensions: &BTreeSet<PathBuf>,
+    environment: &Environment,
+) -> Vec<PathBuf> {
+    let mut command = vec![loader.as_os_str().to_owned()];
+    if !extensions.is_empty() {
+        let names: Vec<&str> = extensions.iter().filter_map(|path| path.to_str()).collect();
+        command.extend(["--preload".into(), OsString::from(names.join(":"))]);
+    }
+    command.extend(["--list".into(), program.as_os_str().to_owned()]);
+    let list = answer(&command, environment, LONGEST_START);
+    let list = list.ok().flatten().unwrap_or_default();
+    let paths = list.lines().filter_map(|line| {
+        let line = line.split(" => ").last()?.trim();
+        let path = line.split(" (0x").next()?;
+        path.starts_with('/').then(|| PathBuf::from(path))
+    });
+    paths.collect()
+}

@@ -1,0 +1,79 @@
+//! Questions to programs, whose answer is what they print.
+
+use super::failure::FailureKind;
+use super::manifest::Environment;
+use super::process::{Interrupt, Job, run};
+use std::ffi::OsString;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+/// Attempts at a question that a signal ends: the answer becomes part of the address of every run.
+const TRIES: usize = 3;
+
+static NEVER: Interrupt = Interrupt::new();
+static INTERRUPT: OnceLock<&Interrupt> = OnceLock::new();
+
+/// Lets `interrupt` end questions from now on.
+pub fn let_interrupt_questions(interrupt: &'static Interrupt) {
+    let _ = INTERRUPT.set(interrupt);
+}
+
+/// The interrupt of questions.
+pub(super) fn interrupt() -> &'static Interrupt {
+    INTERRUPT.get().copied().unwrap_or(&NEVER)
+}
+
+/// The standard output of `command`; `None` if it ends with an error status.
+///
+/// The program gets an empty directory as its home and working directory, which is removed afterwards: some write where
+/// they are asked, or where they take their home to be.
+///
+/// # Errors
+/// If it cannot be started, takes longer than `time_limit`, or is ended by a signal at every attempt.
+pub(super) fn answer(
+    command: &[OsString],
+    environment: &Environment,
+    time_limit: Duration,
+) -> Result<Option<String>, FailureKind> {
+    let home = tempfile::tempdir()?;
+    let job = Job {
+        command,
+        directory: home.path(),
+        home: home.path(),
+        environment,
+        time_limit,
+        interrupt: interrupt(),
+    };
+    let mut tries = 0;
+    loop {
+        let (status, text) = run(&job, Vec::new(), std::io::sink(), || false)?;
+        tries += 1;
+        if status.code().is_some() {
+            let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
+            return Ok(status.success().then_some(text));
+        }
+        if tries == TRIES {
+            return Err(FailureKind::Ended(status));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ask(command: &[&str]) -> Result<Option<String>, FailureKind> {
+        let command: Vec<OsString> = command.iter().map(OsString::from).collect();
+        answer(&command, &Environment::new(), Duration::from_secs(1))
+    }
+
+    #[test]
+    fn only_a_program_that_ends_by_itself_has_answered() {
+        assert_eq!(ask(&["echo", "1.2"]).unwrap().as_deref(), Some("1.2\n"));
+        assert_eq!(ask(&["false"]).unwrap(), None);
+        assert!(matches!(
+            ask(&["sleep", "60"]),
+            Err(FailureKind::TimedOut(_))
+        ));
+    }
+}

@@ -6,7 +6,7 @@ use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Event, Limit, quasistatic_limit};
+use crate::theory::{Limit, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
@@ -19,9 +19,9 @@ const REST_TIME: f64 = 100.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
-/// Fraction of the predicted wall travel from which rows are fine.
+/// Fraction of the predicted wall travel to the slip onset from which rows are fine.
 const FINE_FROM: f64 = 0.98;
-/// Fraction of the predicted wall travel that is run in any case …
+/// Fraction of the predicted wall travel to the peak that is run in any case …
 const TRAVEL_MARGIN: f64 = 1.05;
 /// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
@@ -225,20 +225,25 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     protocols.into_iter().collect()
 }
 
-/// The displacement by which wall speeds are measured: z at the predicted yield, or the predicted travel of
-/// the wall where that is smaller, so that no yield comes too soon after the start; less where the fastest
-/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. `None`
-/// where nothing yields.
+/// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
+/// the wall where that is smaller, so that no onset comes too soon after the start; less where the fastest
+/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. The peak takes
+/// the place of an onset under own weight. `None` where nothing yields.
 fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
-    let travel = limit.wall_travel?;
-    let scale = limit.z?.min(travel);
+    let travel = limit.peak_travel?;
+    let scale = limit.z.or(limit.peak_z)?.min(onset_travel(limit)?);
     if is_surely_gentle(fastest * scale, stack) {
         return Some(scale);
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
     Some(scale.min(gentle.max(affordable)))
+}
+
+/// Wall travel to the slip onset, or to the peak of a stack that began to slide under its own weight.
+fn onset_travel(limit: &Limit) -> Option<f64> {
+    limit.wall_travel.or(limit.peak_travel)
 }
 
 /// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
@@ -262,8 +267,8 @@ pub(crate) fn planned_protocol(
 /// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
 pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
     limit.yield_force?;
-    let travel = limit.wall_travel?;
-    let fine_from_travel = FINE_FROM * travel;
+    let fine_from_travel = FINE_FROM * onset_travel(limit)?;
+    let travel = limit.peak_travel?;
     Some(Protocol {
         preparation: Preparation::GravityRamp {
             ramp_time: RAMP_TIME,
@@ -284,7 +289,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
 /// Duration of the compression beyond the planned travel. The force that drives the collapse of a stack near μ_c falls
 /// with the square root of ε, so that stiff stacks take longer.
 fn time_margin(limit: &Limit) -> f64 {
-    let stiffness = limit.yield_force.zip(limit.z);
+    let stiffness = limit.yield_force.zip(limit.peak_z);
     let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
     TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
 }
@@ -318,8 +323,7 @@ fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(
             floor_friction,
             ..*stack
         };
-        let limit = quasistatic_limit(&stack, convention);
-        limit.event == Event::FloorSlip && limit.yield_force.is_some()
+        quasistatic_limit(&stack, convention).yield_force.is_some()
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
     let first = grid.iter().position(|&friction| yields(friction))?;

@@ -1,6 +1,6 @@
 //! `tristack crosscheck --explain ROW`.
 
-use super::options::{RunOptions, as_flag, friction};
+use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
@@ -38,10 +38,15 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     Ok(RowName { code, stack })
 }
 
-/// Measures one row and prints every step from its runs to its verdict.
-pub(super) fn explain(row: &RowName, options: &RunOptions) -> Result<ExitStatus, CliError> {
+/// Measures one row, of a stack with the parameters of `others`, and prints every step from its runs to its verdict.
+pub(super) fn explain(
+    row: &RowName,
+    others: &StackOptions,
+    options: &RunOptions,
+) -> Result<ExitStatus, CliError> {
+    let stack = others.stack(row.stack.floor_friction, row.stack.stiffness)?;
     let codes = [SelectedCode::find(row.code)];
-    let measurements = vec![plan(row.code, &row.stack, row.code.convention())];
+    let measurements = vec![plan(row.code, &stack, row.code.convention())];
     let settings = options.settings()?;
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let Some(judgement) = judgements.first() else {

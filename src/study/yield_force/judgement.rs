@@ -17,6 +17,8 @@ pub struct YieldForce {
     pub slip: Option<Extrapolation>,
     /// The peak at vanishing wall speed.
     pub peak: Option<Extrapolation>,
+    /// The uncertainty of that peak, in m g.
+    pub peak_uncertainty: Option<f64>,
     /// F with its uncertainty, in m g: by slip onset; by the peak where there is none or where the force rises beyond
     /// it; or by the peak of one run where the paper is followed literally.
     pub force: Option<(f64, f64)>,
@@ -124,9 +126,8 @@ impl Judgement {
 
     /// The peak at vanishing wall speed, with its uncertainty in m g.
     pub fn peak(&self) -> Option<(f64, f64)> {
-        let peak = self.finding.as_ref()?.peak.as_ref()?;
-        let allowance = peak_allowance(&self.study, self.reference_force()?)?;
-        Some((peak.force, peak.budget.total() + allowance))
+        let finding = self.finding.as_ref()?;
+        Some((finding.peak?.force, finding.peak_uncertainty?))
     }
 }
 
@@ -147,6 +148,7 @@ impl<'a> Reader<'a> {
                 runs,
                 slip: None,
                 peak: None,
+                peak_uncertainty: None,
                 force: None,
             },
             grounds: Grounds::new(),
@@ -165,6 +167,7 @@ impl<'a> Reader<'a> {
             return self.find_no_yield();
         };
         let peak_uncertainty = peak.budget.total() + allowance;
+        self.finding.peak_uncertainty = Some(peak_uncertainty);
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
             if onset.is_none() {

@@ -27,7 +27,8 @@ const TRAVEL_MARGIN: f64 = 1.05;
 const TIME_MARGIN: f64 = 80.0;
 /// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
 const STIFF: f64 = 2e4;
-/// Longest duration of a compression that is slowed down for a gentle touch: 2.9 × 10⁶ steps.
+/// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
+/// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
 /// Planned speeds have six digits.
 const LEAST_DIGITS: f64 = 1.0 + 1e-5;
@@ -227,17 +228,22 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 
 /// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
 /// the wall where that is smaller, so that no onset comes too soon after the start; less where the fastest
-/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. The peak takes
-/// the place of an onset under own weight. `None` where nothing yields.
+/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
+/// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
+/// yields.
 fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
-    let scale = limit.z.or(limit.peak_z)?.min(onset_travel(limit)?);
+    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
+    let near = limit.z.or(limit.peak_z)?.min(onset_travel(limit)?);
+    let scale = match limit.rises_after_onset() {
+        true => near.max(affordable),
+        false => near,
+    };
     if is_surely_gentle(fastest * scale, stack) {
         return Some(scale);
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
-    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
     Some(scale.min(gentle.max(affordable)))
 }
 

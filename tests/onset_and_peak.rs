@@ -1,5 +1,8 @@
 //! Slip onset and peak of stacks whose bottom cylinders touch, κ < 1.077: two forces, and one answer everywhere.
 
+mod common;
+
+use common::{Bench, json_rows, standard_output};
 use proptest::prelude::*;
 use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
 use tristack::theory::{Event, Limit, LoadingOutcome, bracketed_root, quasistatic_limit};
@@ -161,6 +164,109 @@ fn peak_is_the_largest_force_of_the_unreduced_balances() {
             "{arms:?}: {highest} {peak}"
         );
     }
+}
+
+/// Every command gives the same onset and the same peak; the measured ones agree.
+#[test]
+fn all_commands_give_one_answer() {
+    let bench = Bench::without_codes();
+    let row = |line: &str| {
+        let text = standard_output(&mut bench.tristack(&format!("{line} --format json")));
+        json_rows(&text)[0].clone()
+    };
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64().expect("a number");
+    let options = "--mu 0.3 --stiffness 1e2 --kappa 0.6";
+    let theory = row(&format!("theory {options}"));
+    let (onset, peak) = (
+        number(&theory, "quasistatic.slip_onset"),
+        number(&theory, "quasistatic.peak_force"),
+    );
+    assert!((onset - 12.972_667_35).abs() < 1e-8 && (peak - 47.605_934_92).abs() < 1e-8);
+    assert_eq!(
+        theory["quasistatic.yield_force"],
+        theory["quasistatic.peak_force"]
+    );
+    assert_eq!(theory["quasistatic"], theory["quasistatic.peak_force"]);
+    assert!((number(&theory, "quasistatic.c") - 0.9956).abs() < 1e-4);
+    let outcome = LoadingOutcome::of(&stack(0.3, 1e2, 0.6)).unwrap();
+    assert!((outcome.largest_force.unwrap() / peak - 1.0).abs() < 1e-12);
+    for line in ["sweep --code native", "crosscheck --codes native"] {
+        let row = row(&format!("{line} {options}"));
+        assert_eq!(row["verdict"], "agrees");
+        assert_eq!(row["reference_onset"], theory["quasistatic.slip_onset"]);
+        assert_eq!(row["reference_force"], theory["quasistatic.peak_force"]);
+        assert!((number(&row, "slip_onset") / onset - 1.0).abs() < 1e-6);
+        let uncertainty = number(&row, "peak_uncertainty");
+        assert!((number(&row, "peak_force") - peak).abs() < uncertainty && uncertainty < 0.01);
+        assert_eq!(row["yield_force"], row["peak_force"]);
+    }
+    let run = row(&format!("simulate --code native {options}"));
+    assert!(
+        (number(&run, "slip_force") / onset - 1.0).abs() < 1e-3,
+        "{run}"
+    );
+    assert!((number(&run, "peak_force") / peak - 1.0).abs() < 1e-2, "{run}");
+}
+
+/// With c = 0 onset and peak are one number, to the bit.
+#[test]
+fn onset_is_the_peak_where_nothing_presses_the_bottom_cylinders() {
+    for (mu, stiffness) in [(0.12, 1e2), (0.2, 1e4), (0.3, 1e6), (0.5, 1e2)] {
+        let limit = limit(mu, stiffness, 2.5);
+        assert_eq!([limit.slip_onset, limit.peak_force], [limit.yield_force; 2]);
+        assert_eq!(limit.peak_travel, limit.wall_travel);
+        assert_eq!(limit.bottom_force, Some(0.0));
+        assert!(!limit.rises_after_onset());
+    }
+}
+
+/// What ends the sliding is said, as in `regimes`: there is an onset, but no yield force.
+#[test]
+fn a_wall_that_arrives_while_the_floor_slides_leaves_an_onset_and_a_reason() {
+    let limit = limit(0.4, 1e2, 0.6);
+    assert!(limit.slip_onset.is_some());
+    assert_eq!([limit.yield_force, limit.peak_force], [None; 2]);
+    assert!(
+        limit
+            .reason
+            .unwrap()
+            .contains("the top wall reaches the bottom cylinders")
+    );
+    let outcome = LoadingOutcome::of(&stack(0.4, 1e2, 0.6)).unwrap();
+    assert_eq!(outcome.largest_force, None);
+}
+
+/// Slip under own weight while the bottom cylinders touch: the stack stands, without an onset under the wall.
+#[test]
+fn a_stack_that_slid_under_its_own_weight_and_stands_has_a_peak_alone() {
+    let stack = Stack {
+        stiffness_ratio: 0.3,
+        ..Stack::paper(0.12, 1e2)
+    };
+    let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+    assert_eq!([limit.slip_onset, limit.wall_travel], [None; 2]);
+    assert!((limit.yield_force.unwrap() - 0.608_582_4).abs() < 1e-6);
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.12 --stiffness 1e2 --kappa 0.3 --format json";
+    let output = bench.tristack(line).output().expect("it runs");
+    let row = json_rows(&String::from_utf8(output.stdout).expect("text"))[0].clone();
+    let number = |key: &str| row[key].as_f64().expect("a number");
+    let apart = (number("yield_force") - limit.yield_force.unwrap()).abs();
+    assert!(apart <= number("uncertainty"), "{row}");
+    assert_ne!(row["verdict"], "differs");
+}
+
+/// The wall of the plan touches so gently that the floor does not slide in any step of the three speeds.
+#[test]
+fn a_stiff_stack_above_the_critical_friction_is_judged() {
+    let bench = Bench::without_codes();
+    let line = "sweep --code native --mu 0.3 --stiffness 1e6 --format json";
+    let row = json_rows(&standard_output(&mut bench.tristack(line)))[0].clone();
+    assert_eq!(row["verdict"], "agrees");
+    assert!(
+        row["error"].as_f64().expect("a number").abs() < 1e-9,
+        "{row}"
+    );
 }
 
 proptest! {

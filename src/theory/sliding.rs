@@ -14,8 +14,6 @@ use nalgebra::{Matrix2, Vector2};
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 /// With arms 0 the equations are linear, and one step is enough; a second one mends its rounding.
 const MOST_STEPS: usize = 60;
-/// States between start and peak at which other events are looked for.
-const STATIONS: usize = 16;
 
 /// The sliding branch of one stack.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +27,7 @@ pub(super) struct SlidingBranch {
 pub(super) enum SlidingEnd {
     /// The load has a maximum.
     Peak(PathPoint),
-    /// Something else comes before that.
+    /// Something else is there before that.
     Other(Event),
 }
 
@@ -41,7 +39,8 @@ impl SlidingBranch {
         }
     }
 
-    /// The peak beyond the state at T − μ_c = `start`, or what comes before it.
+    /// The peak beyond the state at T − μ_c = `start`, or what comes before it. The wall is lowest at the peak; and
+    /// cylinders that slip meanwhile with c > 0 end nothing either, as long as they would stick at the peak.
     pub(super) fn end(&self, start: f64) -> SlidingEnd {
         let Some(opening) = self.opening(start) else {
             return SlidingEnd::Other(Event::None);
@@ -52,9 +51,11 @@ impl SlidingBranch {
             true => highest,
             false => opening,
         };
-        match self.other_event(start, peak) {
+        let peak = self.point(peak);
+        let mut others = [Event::CylinderSlip, Event::WallContact].into_iter();
+        match others.find(|&event| peak.margin(event, &self.stack) < 0.0) {
             Some(event) => SlidingEnd::Other(event),
-            None => SlidingEnd::Peak(self.point(peak)),
+            None => SlidingEnd::Peak(peak),
         }
     }
 
@@ -74,19 +75,6 @@ impl SlidingBranch {
             .into_iter()
             .flatten()
             .find(|&beyond| beyond > start)
-    }
-
-    fn other_event(&self, start: f64, peak: f64) -> Option<Event> {
-        let points = (1..=STATIONS).map(|station| {
-            let part = station as f64 / STATIONS as f64;
-            self.point(start + part * (peak - start))
-        });
-        let others = [Event::CylinderSlip, Event::WallContact];
-        let passed = |point: PathPoint| {
-            let mut others = others.into_iter();
-            others.find(|&event| point.margin(event, &self.stack) < 0.0)
-        };
-        points.into_iter().find_map(passed)
     }
 
     /// The state at T = μ_c + `beyond` under the wall; not a number where there is none.

@@ -205,7 +205,10 @@ fn all_commands_give_one_answer() {
         (number(&run, "slip_force") / onset - 1.0).abs() < 1e-3,
         "{run}"
     );
-    assert!((number(&run, "peak_force") / peak - 1.0).abs() < 1e-2, "{run}");
+    assert!(
+        (number(&run, "peak_force") / peak - 1.0).abs() < 1e-2,
+        "{run}"
+    );
 }
 
 /// With c = 0 onset and peak are one number, to the bit.

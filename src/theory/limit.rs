@@ -88,6 +88,11 @@ impl Limit {
         }
     }
 
+    /// Wall travel to the slip onset, or to the peak of a stack that began to slide under its own weight.
+    pub(crate) fn travel_to_watch(&self) -> Option<f64> {
+        self.wall_travel.or(self.peak_travel)
+    }
+
     /// Whether the force rises further once the floor slips.
     pub fn rises_after_onset(&self) -> bool {
         self.slip_onset != self.peak_force

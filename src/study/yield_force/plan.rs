@@ -204,11 +204,12 @@ fn planned_protocols(
     convention: &ContactConvention,
 ) -> Option<Vec<Protocol>> {
     let scale = speed_scale(limit, stack, convention)?;
-    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, TIME_STEP));
+    let time_step = stable_time_step(stack, convention);
+    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, time_step));
     let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
     let middle = protocols[MIDDLE_RUN];
     protocols.push(Protocol {
-        time_step: 2.0 * TIME_STEP,
+        time_step: 2.0 * time_step,
         ..middle
     });
     protocols.push(Protocol {
@@ -219,6 +220,16 @@ fn planned_protocols(
         ..middle
     });
     Some(protocols)
+}
+
+/// The usual time step, halved until twice of it is stable: below κ = 0.375 tangential springs are too stiff for it.
+fn stable_time_step(stack: &Stack, convention: &ContactConvention) -> f64 {
+    let longest = stack.longest_time_step(convention);
+    let mut time_step = TIME_STEP;
+    while 2.0 * time_step > longest {
+        time_step *= 0.5;
+    }
+    time_step
 }
 
 fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
@@ -235,7 +246,7 @@ fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> 
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
-    let near = limit.z.or(limit.peak_z)?.min(onset_travel(limit)?);
+    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?);
     let scale = match limit.rises_after_onset() {
         true => near.max(affordable),
         false => near,
@@ -245,11 +256,6 @@ fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> 
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
-}
-
-/// Wall travel to the slip onset, or to the peak of a stack that began to slide under its own weight.
-fn onset_travel(limit: &Limit) -> Option<f64> {
-    limit.wall_travel.or(limit.peak_travel)
 }
 
 /// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
@@ -273,7 +279,7 @@ pub(crate) fn planned_protocol(
 /// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
 pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
     limit.yield_force?;
-    let fine_from_travel = FINE_FROM * onset_travel(limit)?;
+    let fine_from_travel = FINE_FROM * limit.travel_to_watch()?;
     let travel = limit.peak_travel?;
     Some(Protocol {
         preparation: Preparation::GravityRamp {
@@ -416,6 +422,26 @@ mod tests {
         assert!(slowed.cases[0].protocol.wall_speed < 9e-5);
         for case in slowed.cases.iter().chain(&rough.cases) {
             assert!(case.total_steps() < 3_000_000, "{}", case.total_steps());
+        }
+    }
+
+    #[test]
+    fn a_peak_far_beyond_the_onset_is_reached_at_a_bearable_cost_with_fine_rows_from_the_onset_on()
+    {
+        for (stiffness, kappa) in [(1e2, 1.0), (1e2, 0.3), (1e4, 0.6), (1e6, 0.6)] {
+            let stack = Stack {
+                stiffness_ratio: kappa,
+                ..Stack::paper(0.3, stiffness)
+            };
+            let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
+            let limit = &measurement.limit;
+            assert!(limit.rises_after_onset() && !measurement.cases.is_empty());
+            for case in &measurement.cases {
+                case.validate().unwrap();
+                assert!(case.total_steps() < 6_400_000, "{}", case.total_steps());
+                assert!(case.protocol.sampling.fine_from_travel < limit.wall_travel.unwrap());
+                assert!(case.protocol.wall_travel > limit.peak_travel.unwrap());
+            }
         }
     }
 

@@ -11,7 +11,10 @@ use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     let path = followed_path(stack, convention, BottomContact::Followed);
     let slip = locate(&path, Event::FloorSlip, stack);
-    let ends = [Event::CylinderSlip, Event::WallContact];
+    let ends = match slip == Some(0.0) && floor_lacks_more(&path, stack) {
+        true => [Event::WallContact; 2],
+        false => [Event::CylinderSlip, Event::WallContact],
+    };
     let limit = Limit::before(ends, &path, slip, stack);
     let limit = match slip.filter(|_| limit.event == Event::FloorSlip) {
         Some(slip) => SlidingStack { stack, path, slip }.limit(limit, convention),
@@ -21,6 +24,13 @@ pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Li
         event: Event::ContactCloses,
         ..limit
     }
+}
+
+/// Whether the floor lacks more of the friction that the first state needs than the cylinders do: it slides then, and
+/// limits b = e to less than they bear.
+fn floor_lacks_more(path: &FollowedPath, stack: &Stack) -> bool {
+    let point = path.point(path.stations()[0]);
+    stack.floor_friction * point.pair_ratio <= stack.cylinder_friction * point.floor_ratio
 }
 
 /// A stack whose floor slips before anything else, at the parameter `slip` of its path.

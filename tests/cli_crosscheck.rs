@@ -156,8 +156,8 @@ fn csv_has_the_agreed_columns() {
         text.lines().next(),
         Some(
             "stiffness,mu,mu_d,kappa,code,version,source,pair_torque_arm,pair_kinematic_arm,\
-             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,error,\
-             tolerance,model_form,verdict"
+             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,slip_onset,\
+             slip_onset_uncertainty,reference_onset,peak_force,peak_uncertainty,error,tolerance,model_form,verdict"
         )
     );
     assert_eq!(text.lines().count(), 19);

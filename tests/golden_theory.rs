@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
-use tristack::theory::{Event, Predictions, followed_limit};
+use tristack::theory::{Event, Predictions, closed_form_limit, followed_limit};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
     let path = format!("{}/reference/golden/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -136,7 +136,7 @@ fn closed_form_matches_to_1e_9_and_names_the_same_event() {
             cylinder_friction: golden.mu_d,
             ..stack(golden.mu, golden.stiffness, golden.kappa)
         };
-        let limit = Predictions::new(&stack, &ContactConvention::PAPER).quasistatic;
+        let limit = closed_form_limit(&stack);
         force.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
         tangent.compare(limit.tangent, golden.tangent, &name);
         outward.compare(limit.y, golden.y, &name);

@@ -77,6 +77,38 @@ fn assert_live_agreement((bench, output): &(Bench, Output), installed: &[Code]) 
     assert_only(&bench.path("store/work"), &[]);
 }
 
+/// Contact 2–3 is closed when the floor begins to slip: onset and peak are two forces, and every code has both.
+#[test]
+fn all_installed_codes_have_onset_and_peak_of_a_stack_whose_bottom_cylinders_touch() {
+    let installed = installed();
+    if installed.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let bench = Bench::with_system_programs();
+    let line = format!(
+        "crosscheck --codes {} --mu 0.2,0.3 --stiffness 1e2 --kappa 0.6 --format json",
+        names.join(",")
+    );
+    let output = bench.tristack(&line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    assert_eq!(rows.len(), 2 * installed.len());
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().expect("a number");
+        assert!(
+            number("reference_onset") < 0.5 * number("reference_force"),
+            "{row}"
+        );
+        let apart = (number("peak_force") - number("reference_force")).abs();
+        assert!(
+            apart <= number("peak_uncertainty") + number("slip_onset_uncertainty"),
+            "{row}"
+        );
+    }
+}
+
 #[test]
 fn all_installed_codes_follow_their_native_twins() {
     let installed = installed();

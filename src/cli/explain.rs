@@ -1,6 +1,6 @@
 //! `tristack crosscheck --explain ROW`.
 
-use super::options::{RunOptions, as_flag, friction};
+use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
@@ -38,14 +38,16 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     Ok(RowName { code, stack })
 }
 
-/// Measures one row and prints every step from its runs to its verdict.
+/// Measures one row, of a stack with the parameters of `others`, and prints every step from its runs to its verdict.
 pub(super) fn explain(
     row: &RowName,
+    others: &StackOptions,
     shortcuts: bool,
     options: &RunOptions,
 ) -> Result<ExitStatus, CliError> {
+    let stack = others.stack(row.stack.floor_friction, row.stack.stiffness)?;
     let codes = [SelectedCode::find(row.code)];
-    let measurement = plan(row.code, &row.stack, row.code.convention());
+    let measurement = plan(row.code, &stack, row.code.convention());
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

@@ -72,8 +72,10 @@ pub struct Forecasted {
     pub reason: Option<String>,
     /// Overlap of the contacts between the cylinders at that event, in r.
     pub overlap: f64,
-    /// The exact quasi-static yield force; absent when something else than floor slip comes first.
+    /// The exact quasi-static yield force, which is the peak; absent when something else than floor slip comes first.
     pub yield_force: Option<Force>,
+    /// The force at which the floor begins to slip, less than the peak where the bottom cylinders touch then.
+    pub slip_onset: Option<Force>,
     /// The paper's perturbation result, absent where it gives none.
     pub perturbation: Option<Force>,
     /// The paper's f = m g/ε, meant for μ > μ_c.
@@ -202,6 +204,7 @@ fn forecasted(
         event: limit.event,
         overlap,
         yield_force: limit.yield_force.map(force),
+        slip_onset: limit.slip_onset.map(force),
         perturbation: perturbation_load(&stack).map(|load| force(load - 3.0)),
         paper_formula: force(stack.stiffness),
         largest_force: largest_force(&limit, &stack).map(force),
@@ -221,11 +224,11 @@ fn check_stiffness(contact: ContactEstimate, stiffness: f64) -> Result<(), Inval
     Err(InvalidValue::new(&key, stiffness, accepted))
 }
 
-/// G when the first event comes: from the force where the floor slips, G = ε (F + 1)/2 (docs/theory.md,
+/// G when the first event comes: from the peak, or the force where the floor slips, G = ε (F + 1)/2 (docs/theory.md,
 /// Eq. 14), from T = μ_d where the cylinders do, and under own weight, ε/2, where nothing else is known.
 fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
     let beyond = stack.cylinder_friction - CRITICAL_FRICTION;
-    match (limit.event, limit.floor_slip_force) {
+    match (limit.event, limit.peak_force.or(limit.floor_slip_force)) {
         (Event::CylinderSlip, _) if beyond > 0.0 => pair_overlap(beyond, stack.stiffness_ratio),
         (_, Some(force)) => 0.5 * stack.epsilon() * (force + 1.0),
         _ => 0.5 * stack.epsilon(),
@@ -240,7 +243,9 @@ fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     {
         return match outcome.failure_mode {
             FailureMode::Collapses => Some(0.0),
-            FailureMode::Yields => limit.yield_force.or(outcome.largest_force),
+            FailureMode::Yields | FailureMode::Shares => {
+                limit.yield_force.or(outcome.largest_force)
+            }
             _ => outcome.largest_force,
         };
     }

@@ -25,7 +25,10 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .shown("source")
     .convention(|row| row.study.convention)
     .number("yield_force", "m g", |row| row.yield_force())
-    .means("yield force F at vanishing wall speed")
+    .means(
+        "yield force F at vanishing wall speed: the slip onset, or the peak where the force rises \
+         beyond that",
+    )
     .shown_as("yield force", digits::<9>)
     .number("uncertainty", "m g", |row| row.uncertainty())
     .means("its numerical uncertainty (see `budget`)")
@@ -35,8 +38,23 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .number("reference_force", "m g", |row| row.reference_force())
     .means("F by that theory, with the arms of the code")
     .shown_as("exact limit", digits::<9>)
+    .number("slip_onset", "m g", |row| Some(row.slip()?.force))
+    .means("F at which the floor begins to slip, at vanishing wall speed")
+    .number("slip_onset_uncertainty", "m g", |row| {
+        Some(row.slip()?.budget.total())
+    })
+    .means("its numerical uncertainty")
+    .number("reference_onset", "m g", |row| row.study.limit.slip_onset)
+    .means("the onset by theory; below reference_force where contact 2–3 is closed then")
+    .number("peak_force", "m g", |row| Some(row.peak()?.0))
+    .means("the largest F, at vanishing wall speed")
+    .number("peak_uncertainty", "m g", |row| Some(row.peak()?.1))
+    .means("its numerical uncertainty")
     .number("error", "1", |row| row.error())
-    .means("(yield_force − reference_force)/(reference_force + 3)")
+    .means(
+        "(slip_onset − reference_onset)/(reference_onset + 3), by which the row is judged; of the peak \
+         where there is no onset",
+    )
     .shown_as("error", relative)
     .number("tolerance", "1", |row| row.tolerance())
     .means("largest error that agrees")

@@ -35,7 +35,8 @@ pub(crate) fn explanation(
 
 fn reference(row: &Judgement) -> String {
     let arms = row.study.convention.arms;
-    format!(
+    let limit = &row.study.limit;
+    let text = format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
          1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
          (guaranteed to {MIN_TOLERANCE:e} of F + 3; docs/theory.md). Model form, its distance from the paper's \
@@ -54,8 +55,21 @@ fn reference(row: &Judgement) -> String {
         } else {
             "declared"
         },
-        optional(row.reference_force(), digits::<12>),
+        optional(row.judged_reference(), digits::<12>),
         optional(row.model_form(), relative),
+    );
+    if !limit.rises_after_onset() {
+        return text;
+    }
+    text + &format!(
+        "   It is the slip onset. There the bottom cylinders press on each other with c = {} m g, and the force rises\n   \
+         further, to the peak, which is the yield force: {}. Measured: {}\n\n",
+        optional(limit.bottom_force, digits::<4>),
+        optional(limit.peak_force, digits::<12>),
+        optional(row.peak(), |(force, uncertainty)| format!(
+            "{} +- {uncertainty:.0e}",
+            significant(force, 9)
+        )),
     )
 }
 
@@ -113,7 +127,7 @@ fn extrapolation(slip: &Extrapolation) -> String {
 }
 
 fn budget(row: &Judgement, slip: &Extrapolation) -> String {
-    let reference = row.reference_force();
+    let reference = row.judged_reference();
     let load = reference.map_or(f64::NAN, |force| force + 3.0);
     let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
     let total = ("total", "sum, as if all conspired", slip.budget.total());

@@ -52,6 +52,12 @@ pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     })
     .means("the same")
     .shown_as("yield force, exact limit", digits::<4>)
+    .number("slip_onset", "m g", move |(_, own)| weights(own.slip_onset))
+    .means("exact force at which the floor begins to slip; below yield_force where the bottom cylinders touch then")
+    .number("slip_onset_newton", "N", move |(_, own)| {
+        newton(own.slip_onset)
+    })
+    .means("the same")
     .number("perturbation", "m g", move |(_, own)| {
         weights(own.perturbation)
     })
@@ -173,7 +179,15 @@ fn conclusion(forecast: &Forecast) -> String {
     let chosen = estimates.find(|estimate| estimate.contact == forecast.contact);
     let reason = chosen.and_then(|estimate| estimate.reason.as_deref());
     let said = match (forecast.yield_force, reason) {
-        (Some(force), _) => format!("yield force {} N", significant(force.newton, 4)),
+        (Some(force), _) => {
+            let onset = chosen.and_then(|estimate| estimate.slip_onset);
+            let onset = onset.filter(|onset| onset.newton < force.newton);
+            let slips = onset.map_or_else(String::new, |onset| {
+                let newton = significant(onset.newton, 4);
+                format!(" (the floor begins to slip at {newton} N)")
+            });
+            format!("yield force {} N{slips}", significant(force.newton, 4))
+        }
         (None, Some(reason)) => format!("no yield force: {reason}"),
         (None, None) => "no yield force".to_owned(),
     };

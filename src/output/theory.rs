@@ -47,6 +47,20 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .means("an assumption that its root contradicts")
     .number("quasistatic", "m g", |own| own.quasistatic.yield_force)
     .means("exact quasi-static limit of a DEM with these arms")
+    .number("quasistatic.slip_onset", "m g", |own| {
+        own.quasistatic.slip_onset
+    })
+    .means("F at which the floor begins to slip under the wall")
+    .number("quasistatic.peak_force", "m g", |own| {
+        own.quasistatic.peak_force
+    })
+    .means("the largest F: larger where contact 2–3 is closed at the onset, c > 0, and the same where c = 0")
+    .number("quasistatic.yield_force", "m g", |own| {
+        own.quasistatic.yield_force
+    })
+    .means("the peak, as `quasistatic`")
+    .number("quasistatic.c", "m g", |own| own.quasistatic.bottom_force)
+    .means("force c between the bottom cylinders where the floor slips")
     .text("reason", |own| own.quasistatic.reason.clone())
     .means("why there is no quasi-static limit")
     .text("event", |own| own.quasistatic.event.to_string())
@@ -54,7 +68,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .number("floor_slip_force", "m g", |own| {
         own.quasistatic.floor_slip_force
     })
-    .means("F at which the floor slips if other events are ignored")
+    .means("F at which the floor slips if other events are ignored; the closing of contact 2–3 is not")
     .convention(|own| own.convention)
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
@@ -64,6 +78,8 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .means("overlap of cylinder 2 and the floor where the floor slips")
     .number("wall_travel", "r", |own| own.quasistatic.wall_travel)
     .means("how far the wall has moved when the floor slips")
+    .number("peak_travel", "r", |own| own.quasistatic.peak_travel)
+    .means("the same at the peak")
     .rows(predictions)
 }
 
@@ -92,6 +108,10 @@ fn one_case(case: &Predictions) -> Table {
     let (elastic, exact) = (&case.elastic, &case.quasistatic);
     let elastic_caution = case.elastic_root.and_then(|root| root.caution());
     let exact_remark = exact.reason.clone().unwrap_or_else(|| "exact".to_owned());
+    let exact_remark = match exact.rises_after_onset() && exact.reason.is_none() {
+        true => format!("{exact_remark}; the peak, where contact 2-3 opens or shortly before"),
+        false => exact_remark,
+    };
     let mut lines: Vec<Line> = vec![
         ("rigid", case.rigid.yield_force, text(rigid_remark)),
         ("naive", case.naive.yield_force, text(case.naive.reason)),
@@ -107,7 +127,13 @@ fn one_case(case: &Predictions) -> Table {
         ),
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];
-    if exact.yield_force.is_none() && exact.floor_slip_force.is_some() {
+    if exact.rises_after_onset()
+        && let Some(onset) = exact.slip_onset
+    {
+        let force = exact.bottom_force.unwrap_or_default();
+        let remark = format!("slip onset, with c = {} m g", digits::<4>(force));
+        lines.push(("", Some(onset), remark));
+    } else if exact.yield_force.is_none() && exact.floor_slip_force.is_some() {
         let remark = format!("if {} is ignored", exact.event);
         lines.push(("", exact.floor_slip_force, remark));
     }

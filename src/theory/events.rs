@@ -76,7 +76,7 @@ impl PathPoint {
     }
 
     /// Distance to `event`, in its own units; negative once it has happened.
-    fn margin(&self, event: Event, stack: &Stack) -> f64 {
+    pub(super) fn margin(&self, event: Event, stack: &Stack) -> f64 {
         match event {
             Event::FloorSlip => stack.floor_friction - self.floor_ratio,
             Event::CylinderSlip => stack.cylinder_friction - self.pair_ratio,

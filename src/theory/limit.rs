@@ -4,13 +4,21 @@ use super::events::{Event, Path, PathPoint, locate_each};
 use crate::model::Stack;
 
 /// The quasi-static limit of a stack.
+///
+/// While contact 2–3 is closed, a floor that slides relieves it, and the force goes on rising until it opens:
+/// onset and peak are two forces then. Where c = 0 at the onset they are one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
-    /// F = f/(m g) at which the floor slips; absent when something else comes first.
+    /// The yield force F = f/(m g), which is the peak; absent when something else comes first.
     pub yield_force: Option<f64>,
+    /// F at which the floor begins to slip under the wall.
+    pub slip_onset: Option<f64>,
+    /// The largest F.
+    pub peak_force: Option<f64>,
     /// The first event on the path.
     pub event: Event,
-    /// F at which the floor slips if the other events are ignored.
+    /// F at which the floor slips if the other events are ignored; the closing of contact 2–3 is not, where the
+    /// path beyond it was followed.
     pub floor_slip_force: Option<f64>,
     /// T = tan(ψ/2) where the floor slips.
     pub tangent: Option<f64>,
@@ -18,8 +26,14 @@ pub struct Limit {
     pub y: Option<f64>,
     /// z, how far cylinder 2 has sunk into the floor, in r, where the floor slips.
     pub z: Option<f64>,
+    /// c, force between the bottom cylinders, in m g, where the floor slips.
+    pub bottom_force: Option<f64>,
     /// Wall travel, in r, when the floor slips (docs/theory.md, Eq. 34).
     pub wall_travel: Option<f64>,
+    /// Wall travel, in r, at the peak.
+    pub peak_travel: Option<f64>,
+    /// z at the peak.
+    pub peak_z: Option<f64>,
     /// b/a where the floor slips: so much friction the cylinders need.
     pub pair_ratio: Option<f64>,
     /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand.
@@ -29,40 +43,74 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// The limit of `stack` along `path`, on which the floor slips at the parameter `slip`: under its own
-    /// weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 d/ε − 3 (Eq. 23).
+    /// The limit of `stack` along `path` with c = 0, on which the floor slips at the parameter `slip`: under its
+    /// own weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 d/ε − 3 (Eq. 23).
     pub(super) fn of(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Self {
+        let others = [
+            Event::CylinderSlip,
+            Event::ContactCloses,
+            Event::WallContact,
+        ];
+        Self::before(others, path, slip, stack)
+    }
+
+    /// The same with the events that end the path.
+    pub(super) fn before<const N: usize>(
+        others: [Event; N],
+        path: &impl Path,
+        slip: Option<f64>,
+        stack: &Stack,
+    ) -> Self {
         let settled = path.settled();
         let own_weight = slip.is_some_and(|slip| slip < settled);
         let force_at = |point: PathPoint| 2.0 * point.floor_force * stack.stiffness - 3.0;
         // A wall cannot pull: where its force has fallen below 0 it has left the stack.
         let slip = slip.filter(|&slip| own_weight || force_at(path.point(slip)) >= 0.0);
         let under_the_wall = slip.filter(|_| !own_weight);
-        let event = first_event(path, slip, stack);
+        let event = first_event(others, path, slip, stack);
         let yields = under_the_wall.is_some() && event == Event::FloorSlip;
         let point = under_the_wall.map(|slip| path.point(slip));
         let force = point.map(force_at);
+        let yield_force = force.filter(|_| yields);
+        let wall_travel =
+            point.map(|point| path.point(settled).wall_height() - point.wall_height());
+        let z = point.map(|point| point.floor_overlap);
         Self {
-            yield_force: force.filter(|_| yields),
+            yield_force,
+            slip_onset: yield_force,
+            peak_force: yield_force,
             event,
             floor_slip_force: force,
             tangent: point.map(|point| point.tangent),
             y: point.map(|point| point.outward),
-            z: point.map(|point| point.floor_overlap),
-            wall_travel: point.map(|point| path.point(settled).wall_height() - point.wall_height()),
+            z,
+            bottom_force: point.map(|point| point.bottom_force * stack.stiffness),
+            wall_travel,
+            peak_travel: wall_travel.filter(|_| yields),
+            peak_z: z.filter(|_| yields),
             pair_ratio: point.map(|point| point.pair_ratio),
             rest: settled.is_finite().then(|| path.point(settled).positions()),
             reason: (!yields).then(|| explanation(event, own_weight)),
         }
     }
+
+    /// Wall travel to the slip onset, or to the peak of a stack that began to slide under its own weight.
+    pub(crate) fn travel_to_watch(&self) -> Option<f64> {
+        self.wall_travel.or(self.peak_travel)
+    }
+
+    /// Whether the force rises further once the floor slips.
+    pub fn rises_after_onset(&self) -> bool {
+        self.slip_onset != self.peak_force
+    }
 }
 
-fn first_event(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Event {
-    let others = [
-        Event::CylinderSlip,
-        Event::ContactCloses,
-        Event::WallContact,
-    ];
+fn first_event<const N: usize>(
+    others: [Event; N],
+    path: &impl Path,
+    slip: Option<f64>,
+    stack: &Stack,
+) -> Event {
     let located = locate_each(path, others, stack).into_iter().zip(others);
     let candidates = located.chain([(slip, Event::FloorSlip)]);
     candidates

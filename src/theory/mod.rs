@@ -1,5 +1,6 @@
 //! The yield force without time stepping: the paper's theories, and the exact quasi-static limit.
 
+mod closing;
 mod events;
 mod floor_slip;
 mod limit;
@@ -10,8 +11,10 @@ mod quasistatic;
 mod regimes;
 mod root;
 mod side_walls;
+mod sliding;
 mod small_displacement;
 
+use closing::closing_limit;
 pub use events::Event;
 pub use floor_slip::{floor_slip_force, floor_slip_forces};
 pub use limit::Limit;
@@ -31,12 +34,16 @@ pub(crate) use small_displacement::{elastic_root, naive_load, perturbation_load}
 use crate::model::{ContactConvention, Stack};
 
 /// The exact quasi-static limit of `stack` under `convention`: by the closed form where there is one, by the
-/// path follower otherwise.
+/// path follower otherwise. Both leave c = 0; where the bottom cylinders touch before the floor slips, the path
+/// is followed with c > 0.
 pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    if convention.has_closed_form() {
-        closed_form_limit(stack)
-    } else {
-        followed_limit(stack, convention)
+    let limit = match convention.has_closed_form() {
+        true => closed_form_limit(stack),
+        false => followed_limit(stack, convention),
+    };
+    match limit.event {
+        Event::ContactCloses => closing_limit(stack, convention),
+        _ => limit,
     }
 }
 

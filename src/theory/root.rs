@@ -48,6 +48,22 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     None
 }
 
+/// The argument of the only maximum of `function` between `low` and `high`, by golden sections; the error of the
+/// maximum is of second order in the width that is left.
+pub(super) fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const SECTIONS: usize = 40;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..SECTIONS {
+        let width = golden * (high - low);
+        if function(high - width) < function(low + width) {
+            low = high - width;
+        } else {
+            high = low + width;
+        }
+    }
+    0.5 * (low + high)
+}
+
 /// Where to look next between x1 and x2, as a fraction of the way.
 fn next_fraction([x1, x2, x3]: [f64; 3], [f1, f2, f3]: [f64; 3]) -> f64 {
     let position = (x1 - x2) / (x3 - x2);
@@ -136,5 +152,16 @@ mod tests {
         assert_eq!(next_fraction([0.3, 0.0, 1.0], [0.4, -0.5, 0.5]), 0.5);
         let straight = next_fraction([0.6, 0.0, 1.0], [0.1, -0.5, 0.5]);
         assert!((straight - 1.0 / 6.0).abs() < 1e-15, "{straight}");
+    }
+
+    #[test]
+    fn golden_sections_find_a_maximum_inside_and_at_the_ends() {
+        let highest =
+            |function: fn(f64) -> f64, low, high| function(maximum_between(function, low, high));
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-15;
+        assert!(near(highest(|x| x * (1.0 - x), 0.0, 1.0), 0.25));
+        assert!(near(highest(|x| x * x * (1.0 - x), 0.2, 1.0), 4.0 / 27.0));
+        assert!((highest(|x| x, 0.0, 2.0) - 2.0).abs() < 1e-8);
+        assert!((highest(|x| -x, 1.0, 2.0) + 1.0).abs() < 1e-8);
     }
 }

@@ -33,6 +33,7 @@ fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
             runs: Vec::new(),
             slip: None,
             peak: None,
+            peak_uncertainty: None,
             force: yield_force.map(|force| (force, 1e-7 * force)),
         }),
         grounds,

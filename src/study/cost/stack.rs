@@ -221,7 +221,7 @@ fn yield_force_error(plan: &Measurement, summaries: impl Iterator<Item = RunSumm
     let estimates: Vec<YieldEstimates> = summaries.map(|summary| summary.estimates).collect();
     let steps: Vec<u64> = plan.cases.iter().map(Case::total_steps).collect();
     let slip = extrapolate(&estimates, &steps, plan.stack.stiffness, |run| run.slip);
-    let error = slip.zip(plan.limit.yield_force);
+    let error = slip.zip(plan.limit.slip_onset);
     error.map_or(f64::INFINITY, |(slip, exact)| {
         (slip.force - exact).abs() / (exact + 3.0)
     })

@@ -130,7 +130,7 @@ fn twin_runs(twin: Twin, cases: Vec<Case>) -> Option<TwinRuns> {
 /// One protocol per time step; none where nothing yields.
 fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
     let limit = quasistatic_limit(stack, convention);
-    let Some(travel) = limit.yield_force.and(limit.wall_travel) else {
+    let Some(travel) = limit.yield_force.and(limit.peak_travel) else {
         return Vec::new();
     };
     // Whole rows: a plan must not see the last digits of the limit, which may differ between machines.

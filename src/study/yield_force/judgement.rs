@@ -19,8 +19,10 @@ pub struct YieldForce {
     pub slip: Option<Extrapolation>,
     /// The peak at vanishing wall speed.
     pub peak: Option<Extrapolation>,
-    /// F with its uncertainty, in m g: by slip onset, by the peak where there is none, or by the peak of one run
-    /// where the paper is followed literally.
+    /// The uncertainty of that peak, in m g.
+    pub peak_uncertainty: Option<f64>,
+    /// F with its uncertainty, in m g: by slip onset; by the peak where there is none or where the force rises beyond
+    /// it; or by the peak of one run where the paper is followed literally.
     pub force: Option<(f64, f64)>,
 }
 
@@ -91,12 +93,21 @@ impl Judgement {
             .map(|(_, uncertainty)| uncertainty)
     }
 
-    /// The exact limit under the convention of the code, in m g.
+    /// The exact yield force under the convention of the code, in m g.
     pub fn reference_force(&self) -> Option<f64> {
         self.study.limit.yield_force
     }
 
-    /// (yield force − reference force)/(reference force + 3); `None` where that is not judged.
+    /// The exact force by which the code is judged, in m g: the slip onset if there is one under the wall.
+    pub fn judged_reference(&self) -> Option<f64> {
+        let limit = &self.study.limit;
+        limit
+            .yield_force
+            .and(limit.slip_onset.or(limit.yield_force))
+    }
+
+    /// (slip onset − exact onset)/(exact onset + 3), or the same of the peak where that is judged; `None` where
+    /// nothing is.
     pub fn error(&self) -> Option<f64> {
         self.grounds.deviation().map(|(error, _)| error)
     }
@@ -114,6 +125,12 @@ impl Judgement {
     /// The slip onset at vanishing wall speed.
     pub fn slip(&self) -> Option<&Extrapolation> {
         self.finding.as_ref()?.slip.as_ref()
+    }
+
+    /// The peak at vanishing wall speed, with its uncertainty in m g.
+    pub fn peak(&self) -> Option<(f64, f64)> {
+        let finding = self.finding.as_ref()?;
+        Some((finding.peak?.force, finding.peak_uncertainty?))
     }
 }
 
@@ -134,15 +151,18 @@ impl<'a> Reader<'a> {
                 runs,
                 slip: None,
                 peak: None,
+                peak_uncertainty: None,
                 force: None,
             },
             grounds: Grounds::new(),
         }
     }
 
-    /// The yield force at vanishing wall speed, by slip onset, which the peak must not contradict.
+    /// The yield force at vanishing wall speed, judged by slip onset, which the peak must not contradict. A stack that
+    /// began to slide under its own weight has no onset under the wall, and is judged by the peak.
     fn extrapolate(&mut self, reference: f64) {
         let measurement = self.measurement;
+        let onset = measurement.limit.slip_onset;
         let slip = measurement.extrapolate(&self.estimates, |run| run.slip);
         let peak = measurement.extrapolate(&self.estimates, |run| run.peak);
         (self.finding.slip, self.finding.peak) = (slip, peak);
@@ -150,20 +170,27 @@ impl<'a> Reader<'a> {
             return self.find_no_yield();
         };
         let peak_uncertainty = peak.budget.total() + allowance;
-        let Some(slip) = slip else {
+        self.finding.peak_uncertainty = Some(peak_uncertainty);
+        let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
             self.doubt_few_digits(peak.budget.print_precision, reference);
+            if onset.is_none() {
+                return self.grounds.add(Ground::Remark(SLIDES_AT_REST.to_owned()));
+            }
             self.doubt(self.missing_onset());
             return self.doubt_deep_wall(reference);
         };
-        self.compare(slip.force, slip.budget.total(), reference);
-        self.doubt_few_digits(slip.budget.print_precision, reference);
+        self.compare(slip.force, slip.budget.total(), onset);
+        self.doubt_few_digits(slip.budget.print_precision, onset);
+        if reference != onset {
+            self.finding.force = Some((peak.force, peak_uncertainty));
+        }
         self.doubt_friction();
         self.doubt_pair_friction();
         self.doubt_equal_runs();
         self.doubt_rough_touch();
         self.doubt_order(&slip);
-        self.hold_to_peak(&slip, &peak, peak_uncertainty);
+        self.hold_to_peak(&slip, &peak, peak_uncertainty, reference - onset);
     }
 
     /// The yield force as the paper reads it: the peak at one wall speed. A second run, twice as fast, shows the error
@@ -355,9 +382,23 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn hold_to_peak(&mut self, slip: &Extrapolation, peak: &Extrapolation, peak_uncertainty: f64) {
+    /// Onset and peak must be `rise` apart.
+    fn hold_to_peak(
+        &mut self,
+        slip: &Extrapolation,
+        peak: &Extrapolation,
+        peak_uncertainty: f64,
+        rise: f64,
+    ) {
         let together = slip.budget.total() + peak_uncertainty;
-        if (peak.force - slip.force).abs() > together {
+        if (peak.force - slip.force - rise).abs() > together {
+            if rise > 0.0 {
+                return self.doubt(format!(
+                    "from slip onset {:.6} to peak {:.6} the force rises by another amount than {rise:.6}: beyond \
+                     their uncertainties {together:.1e}",
+                    slip.force, peak.force
+                ));
+            }
             self.doubt(format!(
                 "slip onset gives {:.6}, the peak {:.6}: further apart than their uncertainties {together:.1e}",
                 slip.force, peak.force
@@ -383,6 +424,10 @@ impl<'a> Reader<'a> {
 /// so that half of it shifts the start by at least as much as the whole is away from rest; twice that is allowed.
 const SAFETY_OF_REST: f64 = 2.0;
 
+/// Note on rows without an onset under the wall.
+const SLIDES_AT_REST: &str = "the floor slides under the stack's own weight until contact 2-3 bears it: there is no \
+                              slip onset under the wall, and the peak is compared";
+
 /// Note on rows whose planned walls are too fast.
 const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor slides for a moment, and a gentle \
                            wall would take more than 3e6 steps";
@@ -406,7 +451,7 @@ const GRAINY_STEPS: f64 = 4.0;
 /// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
 /// `reference`; `None` where nothing is planned.
 pub(crate) fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
-    let travel = measurement.limit.wall_travel?;
+    let travel = measurement.limit.peak_travel?;
     let fastest = &measurement.cases.first()?.protocol;
     let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
     Some(GRAINY_STEPS * load_per_step)

@@ -8,7 +8,7 @@ use crate::model::{
     Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
 };
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Event, Limit, quasistatic_limit};
+use crate::theory::{Limit, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
@@ -21,15 +21,16 @@ const REST_TIME: f64 = 100.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
-/// Fraction of the predicted wall travel from which rows are fine.
+/// Fraction of the predicted wall travel to the slip onset from which rows are fine.
 const FINE_FROM: f64 = 0.98;
-/// Fraction of the predicted wall travel that is run in any case …
+/// Fraction of the predicted wall travel to the peak that is run in any case …
 const TRAVEL_MARGIN: f64 = 1.05;
 /// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
 /// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
 const STIFF: f64 = 2e4;
-/// Longest duration of a compression that is slowed down for a gentle touch: 2.9 × 10⁶ steps.
+/// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
+/// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
 /// Planned speeds have six digits.
 const LEAST_DIGITS: f64 = 1.0 + 1e-5;
@@ -205,11 +206,12 @@ fn planned_protocols(
     convention: &ContactConvention,
 ) -> Option<Vec<Protocol>> {
     let scale = speed_scale(limit, stack, convention)?;
-    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, TIME_STEP));
+    let time_step = stable_time_step(stack, convention);
+    let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, time_step));
     let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
     let middle = protocols[MIDDLE_RUN];
     protocols.push(Protocol {
-        time_step: 2.0 * TIME_STEP,
+        time_step: 2.0 * time_step,
         ..middle
     });
     protocols.push(Protocol {
@@ -222,24 +224,39 @@ fn planned_protocols(
     Some(protocols)
 }
 
+/// The usual time step, halved until twice of it is stable: below κ = 0.375 tangential springs are too stiff for it.
+fn stable_time_step(stack: &Stack, convention: &ContactConvention) -> f64 {
+    let longest = stack.longest_time_step(convention);
+    let mut time_step = TIME_STEP;
+    while 2.0 * time_step > longest {
+        time_step *= 0.5;
+    }
+    time_step
+}
+
 fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     let protocols = LITERAL_SPEEDS.map(|speed| protocol_at_speed(limit, speed, PAPER_TIME_STEP));
     protocols.into_iter().collect()
 }
 
-/// The displacement by which wall speeds are measured: z at the predicted yield, or the predicted travel of
-/// the wall where that is smaller, so that no yield comes too soon after the start; less where the fastest
-/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable. `None`
-/// where nothing yields.
+/// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
+/// the wall where that is smaller, so that no onset comes too soon after the start; less where the fastest
+/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
+/// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
+/// yields.
 fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
-    let travel = limit.wall_travel?;
-    let scale = limit.z?.min(travel);
+    let travel = limit.peak_travel?;
+    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
+    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?);
+    let scale = match limit.rises_after_onset() {
+        true => near.max(affordable),
+        false => near,
+    };
     if is_surely_gentle(fastest * scale, stack) {
         return Some(scale);
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
-    let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
     Some(scale.min(gentle.max(affordable)))
 }
 
@@ -264,8 +281,8 @@ pub(crate) fn planned_protocol(
 /// The protocol of a run with a given wall speed in r √(k_n/m); `None` where nothing yields.
 pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Option<Protocol> {
     limit.yield_force?;
-    let travel = limit.wall_travel?;
-    let fine_from_travel = FINE_FROM * travel;
+    let fine_from_travel = FINE_FROM * limit.travel_to_watch()?;
+    let travel = limit.peak_travel?;
     Some(Protocol {
         preparation: Preparation::GravityRamp {
             ramp_time: RAMP_TIME,
@@ -286,7 +303,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
 /// Duration of the compression beyond the planned travel. The force that drives the collapse of a stack near μ_c falls
 /// with the square root of ε, so that stiff stacks take longer.
 fn time_margin(limit: &Limit) -> f64 {
-    let stiffness = limit.yield_force.zip(limit.z);
+    let stiffness = limit.yield_force.zip(limit.peak_z);
     let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
     TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
 }
@@ -320,8 +337,7 @@ fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(
             floor_friction,
             ..*stack
         };
-        let limit = quasistatic_limit(&stack, convention);
-        limit.event == Event::FloorSlip && limit.yield_force.is_some()
+        quasistatic_limit(&stack, convention).yield_force.is_some()
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
     let first = grid.iter().position(|&friction| yields(friction))?;
@@ -408,6 +424,26 @@ mod tests {
         assert!(slowed.cases[0].protocol.wall_speed < 9e-5);
         for case in slowed.cases.iter().chain(&rough.cases) {
             assert!(case.total_steps() < 3_000_000, "{}", case.total_steps());
+        }
+    }
+
+    #[test]
+    fn a_peak_far_beyond_the_onset_is_reached_at_a_bearable_cost_with_fine_rows_from_the_onset_on()
+    {
+        for (stiffness, kappa) in [(1e2, 1.0), (1e2, 0.3), (1e4, 0.6), (1e6, 0.6)] {
+            let stack = Stack {
+                stiffness_ratio: kappa,
+                ..Stack::paper(0.3, stiffness)
+            };
+            let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
+            let limit = &measurement.limit;
+            assert!(limit.rises_after_onset() && !measurement.cases.is_empty());
+            for case in &measurement.cases {
+                case.validate().unwrap();
+                assert!(case.total_steps() < 6_400_000, "{}", case.total_steps());
+                assert!(case.protocol.sampling.fine_from_travel < limit.wall_travel.unwrap());
+                assert!(case.protocol.wall_travel > limit.peak_travel.unwrap());
+            }
         }
     }
 

@@ -71,10 +71,15 @@ impl Profile {
         .collect()
     }
 
-    /// The measurements by each of the `codes`, stack by stack.
+    /// The measurements of its stacks by each of the `codes`, stack by stack.
     pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
+        self.measurements_of(&self.stacks(), codes)
+    }
+
+    /// Measurements of other `stacks` in its way.
+    pub(crate) fn measurements_of(self, stacks: &[Stack], codes: &[Code]) -> Vec<Measurement> {
         let mut measurements = Vec::new();
-        for stack in self.stacks() {
+        for &stack in stacks {
             for &code in codes {
                 let convention = code.convention();
                 match self {

@@ -3,6 +3,7 @@
 use super::super::events::{Event, Path, PathPoint, locate};
 use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
+use super::super::root::maximum_between;
 use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{ContactConvention, Stack};
 
@@ -106,7 +107,7 @@ impl EquilibriumPath {
         match highest {
             Some(index) if index > 0 && index + 1 < values.len() => {
                 let inside = maximum_between(at, stations[index - 1], stations[index + 1]);
-                inside.max(values[index])
+                at(inside).max(values[index])
             }
             Some(index) => values[index],
             None => f64::NEG_INFINITY,
@@ -144,22 +145,6 @@ impl PathKind {
             Self::Closing(path) => path,
         }
     }
-}
-
-/// The maximum of a function with a single one between `low` and `high`, by golden sections; its error is of
-/// second order in the width that is left.
-fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    const SECTIONS: usize = 40;
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    for _ in 0..SECTIONS {
-        let width = golden * (high - low);
-        if function(high - width) < function(low + width) {
-            low = high - width;
-        } else {
-            high = low + width;
-        }
-    }
-    function(0.5 * (low + high))
 }
 
 #[cfg(test)]
@@ -261,18 +246,6 @@ mod tests {
         assert!(!path(CLOSING_STIFFNESS_RATIO * (1.0 + 1e-4)).closes());
         let defined = (2.0 + 3f64.sqrt()) / (2.0 * 3f64.sqrt());
         assert!((CLOSING_STIFFNESS_RATIO - defined).abs() < 1e-15);
-    }
-
-    #[test]
-    fn golden_sections_find_a_maximum_inside_and_at_the_ends() {
-        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-15;
-        assert!(near(maximum_between(|x| x * (1.0 - x), 0.0, 1.0), 0.25));
-        assert!(near(
-            maximum_between(|x| x * x * (1.0 - x), 0.2, 1.0),
-            4.0 / 27.0
-        ));
-        assert!((maximum_between(|x| x, 0.0, 2.0) - 2.0).abs() < 1e-8);
-        assert!((maximum_between(|x| -x, 1.0, 2.0) + 1.0).abs() < 1e-8);
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use super::samples::Sample;
 use serde::{Deserialize, Serialize};
 
+/// Digits with which the rounding of numbers is far below every tolerance for micro-tests and trajectories.
+pub(crate) const ENOUGH_DIGITS: u32 = 13;
 /// Digits that give a number of double precision back exactly.
 const EXACT: u32 = 17;
 /// Rows after the peak whose friction is read.
@@ -60,7 +62,7 @@ impl PrintedDigits {
 }
 
 /// Significant digits of the longest of `values`, up to those that give every number back.
-pub(super) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
+pub(crate) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     let mut most = 0;
     for value in values.filter(|value| *value != 0.0) {
         most = most.max(decimal(value).0);

@@ -189,3 +189,39 @@ fn with_wall_force_times(factor: f64, series: &Series, case: &Case) -> Series {
     let changed = Series::new(samples, &case.protocol);
     changed.expect("the same rows")
 }
+
+/// `series` of `case` with six digits.
+fn with_six_digits(series: &Series, case: &Case) -> Series {
+    let text = String::from_utf8(series.to_csv()).expect("text");
+    let lines = text.lines().enumerate().map(|(row, line)| {
+        let cells = line.split(',').enumerate().map(|(column, cell)| {
+            let number: Option<f64> = cell.parse().ok().filter(|_| row > 0 && column > 1);
+            number.map_or(cell.to_owned(), |number| format!("{number:.5e}"))
+        });
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    });
+    let lines: String = lines.collect();
+    Series::read(lines.as_bytes(), &case.protocol).expect("the same rows")
+}
+
+#[test]
+fn six_digits_tell_no_code_from_its_twin() {
+    let bench = Bench::without_codes();
+    let lammps = Code::named("lammps").expect("it is built in");
+    let reference = bench.path("reference");
+    save_recording(&reference, lammps, |recording| {
+        for run in &mut recording.runs {
+            let case = run.summary.case;
+            run.series = run.series.as_ref().map(|own| with_six_digits(own, &case));
+        }
+    });
+    let mut command = bench.tristack("trajectories --format json");
+    let output = command.env("TRISTACK_REFERENCE", &reference).output();
+    let output = output.expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let mut own = rows.iter().filter(|row| row["code"] == "lammps");
+    assert!(own.clone().count() > 0, "{message}");
+    assert!(own.all(|row| row["verdict"] != "differs"), "{message}");
+    assert!(message.contains("printed with 6 digits"), "{message}");
+}

@@ -20,34 +20,47 @@ pub(super) struct Rates {
 
 /// Five rows at equal distances in time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FiveRows<'a>(pub(super) &'a [Sample; 5]);
+pub(super) struct FiveRows<'a> {
+    pub(super) rows: &'a [Sample; 5],
+    /// Rounding of a coordinate.
+    unit: f64,
+}
 
 impl<'a> FiveRows<'a> {
     /// The rows around `row`, two on either side. The first row of a series is left out: forces of some codes belong
-    /// to another moment there. `None` if there are none, or at other distances.
-    pub(super) fn around(samples: &'a [Sample], row: usize) -> Option<Self> {
+    /// to another moment there. Coordinates are rounded by `unit`. `None` if there are none, or at other distances.
+    pub(super) fn around(samples: &'a [Sample], row: usize, unit: f64) -> Option<Self> {
         let first = row.checked_sub(2).filter(|&first| first > 0)?;
-        let five: &[Sample; 5] = samples.get(first..first + 5)?.try_into().ok()?;
-        let mut steps = five.windows(2).map(|pair| pair[1].step - pair[0].step);
+        let rows: &[Sample; 5] = samples.get(first..first + 5)?.try_into().ok()?;
+        let mut steps = rows.windows(2).map(|pair| pair[1].step - pair[0].step);
         let every = steps.next()?;
-        steps.all(|step| step == every).then_some(Self(five))
+        steps
+            .all(|step| step == every)
+            .then_some(Self { rows, unit })
+    }
+
+    /// Rounding of a coordinate.
+    pub(super) fn unit(self) -> f64 {
+        self.unit
     }
 
     /// Time between two of them.
     pub(super) fn interval(self) -> f64 {
-        self.0[3].time - self.0[2].time
+        self.rows[3].time - self.rows[2].time
     }
 
     /// Noise of a coordinate: it rounds in every step, and the stack remembers each rounding while it rings.
     pub(super) fn rounding(self) -> f64 {
-        let time_step = self.0[3].time / self.0[3].step as f64;
-        COORDINATE * (RINGING_TIME / time_step).max(1.0).sqrt()
+        let time_step = self.rows[3].time / self.rows[3].step as f64;
+        self.unit
+            .max(COORDINATE * (RINGING_TIME / time_step).max(1.0).sqrt())
     }
 
     /// Central differences in the middle.
     pub(super) fn rates(self, coordinate: impl Fn(&Sample) -> f64) -> Rates {
-        let middle = coordinate(&self.0[2]);
-        let [before, left, _, right, after] = self.0.each_ref().map(|row| coordinate(row) - middle);
+        let middle = coordinate(&self.rows[2]);
+        let [before, left, _, right, after] =
+            self.rows.each_ref().map(|row| coordinate(row) - middle);
         let interval = self.interval();
         let square = interval * interval;
         let velocity = (8.0 * (right - left) - (after - before)) / (12.0 * interval);
@@ -89,7 +102,7 @@ mod tests {
     #[test]
     fn a_quartic_has_exact_rates_and_the_error_of_second_order_shows() {
         let rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
-        let five = FiveRows::around(&rows, 4).unwrap();
+        let five = FiveRows::around(&rows, 4, COORDINATE).unwrap();
         let rates = five.rates(|row| row.time.powi(3) - 2.0 * row.time);
         assert!((rates.velocity - (3.0 * 4.0 - 2.0)).abs() < 1e-12);
         assert!((rates.acceleration - 12.0).abs() < 1e-12);
@@ -100,10 +113,10 @@ mod tests {
     #[test]
     fn rows_at_other_distances_and_the_first_one_have_no_rates() {
         let mut rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
-        assert!(FiveRows::around(&rows, 2).is_none());
-        assert!(FiveRows::around(&rows, 3).is_some());
-        assert!(FiveRows::around(&rows, 7).is_none());
+        assert!(FiveRows::around(&rows, 2, COORDINATE).is_none());
+        assert!(FiveRows::around(&rows, 3, COORDINATE).is_some());
+        assert!(FiveRows::around(&rows, 7, COORDINATE).is_none());
         rows[8].step = 9;
-        assert!(FiveRows::around(&rows, 6).is_none());
+        assert!(FiveRows::around(&rows, 6, COORDINATE).is_none());
     }
 }

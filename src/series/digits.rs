@@ -1,8 +1,11 @@
 //! The digits with which a code has printed a series, read off its numbers.
 
+use super::differences::COORDINATE;
 use super::samples::Sample;
 use serde::{Deserialize, Serialize};
 
+/// Digits with which the rounding of numbers is far below every tolerance for micro-tests and trajectories.
+pub(crate) const ENOUGH_DIGITS: u32 = 13;
 /// Digits that give a number of double precision back exactly.
 const EXACT: u32 = 17;
 /// Rows after the peak whose friction is read.
@@ -15,6 +18,39 @@ const DECISIVE: [fn(&Sample) -> f64; 5] = [
     |sample| sample.floor_n3,
     |sample| sample.floor_t3,
 ];
+
+const COORDINATES: [fn(&Sample) -> f64; 6] = [
+    |sample| sample.y1,
+    |sample| sample.x2,
+    |sample| sample.y2,
+    |sample| sample.theta2,
+    |sample| sample.x3,
+    |sample| sample.y3,
+];
+
+/// Largest rounding of the numbers of a series, in its own units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rounding {
+    /// Of a coordinate.
+    pub(super) coordinate: f64,
+    /// Of a force.
+    pub(super) force: f64,
+}
+
+impl Rounding {
+    /// The rounding in `samples`: that of double precision, or that of printing.
+    pub(super) fn read(samples: &[Sample]) -> Self {
+        let printed = |columns: &[fn(&Sample) -> f64]| {
+            let columns = columns.iter();
+            let units = columns.filter_map(|value| precision(samples.iter().map(value)));
+            units.map(|column| column.half_unit).fold(0.0, f64::max)
+        };
+        Self {
+            coordinate: printed(&COORDINATES).max(COORDINATE),
+            force: printed(&DECISIVE),
+        }
+    }
+}
 
 /// The precision of a series that was printed with fewer digits than its numbers have.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -60,7 +96,7 @@ impl PrintedDigits {
 }
 
 /// Significant digits of the longest of `values`, up to those that give every number back.
-pub(super) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
+pub(crate) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     let mut most = 0;
     for value in values.filter(|value| *value != 0.0) {
         most = most.max(decimal(value).0);

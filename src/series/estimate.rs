@@ -1,7 +1,7 @@
 //! The yield force read off a series, by the two estimators of the field.
 
 use super::differences::FiveRows;
-use super::digits::PrintedDigits;
+use super::digits::{PrintedDigits, Rounding};
 use super::pair_contact::PairContact;
 use super::polynomial::value_at_zero;
 use super::samples::{Sample, Series};
@@ -62,6 +62,7 @@ impl YieldEstimates {
             ..estimate
         };
         let samples = series.samples();
+        let rounding = Rounding::read(samples);
         let peak_row = peak_row(samples);
         let sliding_friction = peak_row.and_then(|row| sliding_friction(samples, row));
         let sliding = peak_row.zip(sliding_friction);
@@ -69,7 +70,7 @@ impl YieldEstimates {
         let slides = beyond.zip(sliding);
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
         let departure = slides.and_then(|(beyond, row, friction)| {
-            Sliding::of(case, friction).departure(samples, beyond, row)
+            Sliding::of(case, friction, rounding).departure(samples, beyond, row)
         });
         let slip = slides.filter(|_| departure.is_none());
         let slip =
@@ -79,7 +80,7 @@ impl YieldEstimates {
             peak: peak_row.map(|row| in_weights(peak(samples, row))),
             sliding_friction,
             departure,
-            pair_friction: beyond.and_then(|beyond| pair_friction(samples, beyond, case)),
+            pair_friction: beyond.and_then(|beyond| pair_friction(samples, beyond, case, rounding)),
             printed: PrintedDigits::read(samples, stiffness),
         }
     }
@@ -152,15 +153,17 @@ struct Sliding<'a> {
     case: &'a Case,
     law: ContactLaw,
     friction: f64,
+    rounding: Rounding,
 }
 
 impl<'a> Sliding<'a> {
-    fn of(case: &'a Case, friction: f64) -> Self {
+    fn of(case: &'a Case, friction: f64, rounding: Rounding) -> Self {
         let law = case.convention.law(case.stack.stiffness_ratio);
         Self {
             case,
             law,
             friction,
+            rounding,
         }
     }
 
@@ -173,7 +176,8 @@ impl<'a> Sliding<'a> {
             let excesses = floor_contacts(sample)
                 .map(|(normal, tangential)| (tangential / normal - self.friction) / self.friction);
             let [below, above] = self.allowed(samples, row, has_slid);
-            has_slid |= excesses.iter().all(|excess| excess.abs() <= AT_THE_LIMIT);
+            let exact = self.at_the_limit(sample);
+            has_slid |= excesses.iter().all(|excess| excess.abs() <= exact);
             let away = excesses
                 .into_iter()
                 .find(|excess| !(-below..=above).contains(excess));
@@ -182,6 +186,12 @@ impl<'a> Sliding<'a> {
                 ratio: self.friction * (1.0 + excess),
             })
         })
+    }
+
+    /// Distance of |t|/n from the friction that rounding explains, relative to it.
+    fn at_the_limit(&self, sample: &Sample) -> f64 {
+        let printed = (1.0 + self.friction) * self.rounding.force;
+        AT_THE_LIMIT + 2.0 * printed / (self.friction * sample.floor_n2)
     }
 
     /// How far |t|/n may be below and above the friction in `row`, relative to it.
@@ -198,7 +208,8 @@ impl<'a> Sliding<'a> {
             CoulombOperand::Spring if !has_slid => self.damping(samples, row),
             CoulombOperand::Spring | CoulombOperand::SpringAndDamping => 0.0,
         };
-        [below, above].map(|allowed| allowed + AT_THE_LIMIT)
+        let exact = self.at_the_limit(&samples[row]);
+        [below, above].map(|allowed| allowed + exact)
     }
 
     /// Growth of the normal force of the floor in one step, relative to it.
@@ -218,7 +229,7 @@ impl<'a> Sliding<'a> {
     /// Damping of the floor contact, relative to its limit.
     fn damping(&self, samples: &[Sample], row: usize) -> f64 {
         let sample = &samples[row];
-        let speed = FiveRows::around(samples, row).map(|five| {
+        let speed = FiveRows::around(samples, row, self.rounding.coordinate).map(|five| {
             let (x2, turn) = (five.rates(|row| row.x2), five.rates(|row| row.theta2));
             let radius = 1.0 + self.case.convention.arms.floor.kinematic * (1.0 - sample.y2);
             let speed = |x: f64, turn: f64| (x + radius * turn).abs();
@@ -237,11 +248,16 @@ const ROWS_BEYOND_A_KINK: usize = 6;
 
 /// Largest ratio b/a that is surely carried in some successive rows from `beyond` on, while the top wall presses and
 /// cylinder 2 stands on the floor.
-fn pair_friction(samples: &[Sample], beyond: usize, case: &Case) -> Option<f64> {
+fn pair_friction(
+    samples: &[Sample],
+    beyond: usize,
+    case: &Case,
+    rounding: Rounding,
+) -> Option<f64> {
     let law = case.convention.law(case.stack.stiffness_ratio);
     let ratios = (beyond..samples.len()).map_while(|row| {
         let bears = samples[row].wall_force > 0.0 && samples[row].floor_n2 > 0.0;
-        let five = FiveRows::around(samples, row).filter(|_| bears)?;
+        let five = FiveRows::around(samples, row, rounding.coordinate).filter(|_| bears)?;
         Some(PairContact::of(case, &law, five).carried_ratio())
     });
     let ratios: Vec<f64> = ratios.collect();

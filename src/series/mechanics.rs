@@ -6,6 +6,7 @@
 //! positions (docs/verdicts.md).
 
 use super::differences::{COORDINATE, FiveRows, Rates};
+use super::digits::Rounding;
 use super::estimate::sticking_rows;
 use super::pair_contact::PairContact;
 use super::samples::{Sample, Series};
@@ -145,6 +146,7 @@ struct Stack<'a> {
     /// Largest frequency of the stack with all its contacts.
     frequency: f64,
     schedule: Schedule,
+    rounding: Rounding,
     /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
     is_smooth: bool,
 }
@@ -158,6 +160,7 @@ impl<'a> Stack<'a> {
             start: samples.first().map_or(0.0, |first| first.y1),
             frequency: case.stack.highest_frequency(&case.convention),
             schedule: case.protocol.schedule(),
+            rounding: Rounding::read(samples),
             is_smooth: matches!(case.protocol.preparation, Preparation::GravityRamp { .. }),
         }
     }
@@ -165,7 +168,8 @@ impl<'a> Stack<'a> {
     /// The laws that can be looked at in `row` of `samples`.
     fn sides(&self, samples: &[Sample], row: usize) -> Vec<(Law, Sides)> {
         let sample = &samples[row];
-        let five = FiveRows::around(samples, row).filter(|_| self.is_smooth);
+        let five =
+            FiveRows::around(samples, row, self.rounding.coordinate).filter(|_| self.is_smooth);
         let mut sides = vec![
             (Law::VerticalBalance, self.vertical(sample, five)),
             (Law::MirrorSymmetry, self.mirror(sample)),
@@ -185,6 +189,11 @@ impl<'a> Stack<'a> {
         (self.schedule.preparation.total() + sample.step) as f64 * COORDINATE
     }
 
+    /// Rounding of a force and of the overlap behind it by printing.
+    fn printed(&self) -> f64 {
+        self.rounding.force + 2.0 * self.rounding.coordinate
+    }
+
     /// What is not known of a damping force: its velocity may belong to a moment up to a step away, is a difference of
     /// rows, and rounds.
     fn damping_error(&self, rates: &[Rates], five: FiveRows<'_>) -> f64 {
@@ -199,7 +208,7 @@ impl<'a> Stack<'a> {
 
     /// The largest force by which the floor and the wall are out of balance in `five` rows.
     fn ringing(&self, five: FiveRows<'_>) -> f64 {
-        let unbalanced = five.0.iter().map(|sample| self.unbalanced(sample).abs());
+        let unbalanced = five.rows.iter().map(|sample| self.unbalanced(sample).abs());
         unbalanced.fold(0.0, f64::max)
     }
 
@@ -221,7 +230,7 @@ impl<'a> Stack<'a> {
                 let square = resolved.max(0.25 * self.frequency * self.frequency);
                 square
                     * five
-                        .0
+                        .rows
                         .windows(3)
                         .map(bend)
                         .fold(4.0 * five.rounding(), f64::max)
@@ -232,7 +241,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found: sample.floor_n2 + sample.floor_n3,
             expected: sample.wall_force + 3.0 * self.case.stack.epsilon(),
-            bound: inertia + 6.0 * COORDINATE,
+            bound: inertia + 6.0 * COORDINATE + 3.0 * self.rounding.force,
         }
     }
 
@@ -256,7 +265,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found,
             expected,
-            bound: 4.0 * self.rounded(sample),
+            bound: 4.0 * self.rounded(sample) + 2.0 * self.printed(),
         }
     }
 
@@ -276,7 +285,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found: sample.wall_force,
             expected: self.law.force(overlap) + self.law.damping_normal * speed,
-            bound: error + self.rounded(sample),
+            bound: error + self.rounded(sample) + self.printed(),
         }
     }
 
@@ -302,7 +311,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found: force,
             expected: self.law.force(1.0 - height(sample)) + self.law.damping_normal * speed,
-            bound: error + 4.0 * COORDINATE,
+            bound: error + 4.0 * COORDINATE + self.printed(),
         }
     }
 
@@ -327,7 +336,8 @@ impl<'a> Stack<'a> {
         let known_to = self.damping_error(&[x2, y1, y2], five)
             + second_difference
             + pair.acceleration_error
-            + 8.0 * COORDINATE;
+            + 8.0 * COORDINATE
+            + 4.0 * self.printed();
         let bottom = self.bottom_force(sample, five);
         let top = Sides {
             step: sample.step,
@@ -348,7 +358,7 @@ impl<'a> Stack<'a> {
 /// Whether the contact of cylinders 2 and 3 neither opens nor closes in these rows.
 fn keeps_its_contacts(five: &FiveRows<'_>) -> bool {
     let is_open = |sample: &Sample| sample.x2 - sample.x3 > 2.0;
-    five.0
+    five.rows
         .iter()
-        .all(|sample| is_open(sample) == is_open(&five.0[0]))
+        .all(|sample| is_open(sample) == is_open(&five.rows[0]))
 }

@@ -15,6 +15,7 @@ mod samples;
 
 pub(crate) use column::Column;
 pub use digits::PrintedDigits;
+pub(crate) use digits::{ENOUGH_DIGITS, most_digits};
 pub use drop::DropWatch;
 pub use estimate::{Departure, Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedCylinder};

@@ -1,6 +1,6 @@
 //! The contact of cylinders 1 and 2, whose forces no code reports: from positions and the torque of the floor.
 
-use super::differences::{COORDINATE, FiveRows, Rates};
+use super::differences::{FiveRows, Rates};
 use crate::model::{Case, ContactLaw, CoulombOperand};
 
 /// Safety factor of an error that is the distance of two orders (ASME V&V 20, section 2-4.1).
@@ -25,7 +25,7 @@ pub(super) struct PairContact {
 impl PairContact {
     pub(super) fn of(case: &Case, law: &ContactLaw, five: FiveRows<'_>) -> Self {
         let convention = &case.convention;
-        let sample = &five.0[2];
+        let sample = &five.rows[2];
         let (x1, x2) = (five.rates(|row| row.x1), five.rates(|row| row.x2));
         let (y1, y2) = (five.rates(|row| row.y1), five.rates(|row| row.y2));
         let turn = five.rates(|row| row.theta2);
@@ -48,13 +48,16 @@ impl PairContact {
             CoulombOperand::Spring => law.damping_tangential * sliding.abs(),
             CoulombOperand::SpringAndDamping => 0.0,
         };
-        let shear_error = inertia * turn.acceleration_error / pair_lever + on_top;
+        let turning = turn.acceleration_error + 6.0 * five.unit() / five.interval().powi(2);
+        let shear_error = inertia * turning / pair_lever + on_top;
         // Damping may belong to a moment up to a step away.
         let known_to = |rates: Rates| {
-            rates.velocity_error + case.protocol.time_step * rates.acceleration.abs()
+            rates.velocity_error
+                + case.protocol.time_step * rates.acceleration.abs()
+                + 2.0 * five.unit() / five.interval()
         };
         let velocity_errors: f64 = [x1, x2, y1, y2].map(known_to).iter().sum();
-        let normal_error = law.damping_normal * velocity_errors + 4.0 * COORDINATE;
+        let normal_error = law.damping_normal * velocity_errors + 4.0 * five.unit();
         let accelerations = [x2, y1, y2, turn].map(|rates| rates.acceleration_error);
         Self {
             rates: [x2, y1, y2],

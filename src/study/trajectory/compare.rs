@@ -8,7 +8,7 @@ use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::code::{Code, Identity, Run};
 use crate::model::Case;
 use crate::runs::{Reading, Workload};
-use crate::series::{Mechanics, Sample};
+use crate::series::{ENOUGH_DIGITS, Mechanics, Sample, most_digits};
 use crate::study::{Evaluation, Ground, Grounds, Study, Verdict};
 
 /// The rows of a run, and the program that made it.
@@ -73,6 +73,7 @@ impl Study for Trajectory {
                 finding.times = pairs.first().map(Pair::times);
                 finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();
                 hold_full_twin_to_the_other(&mut finding.comparisons);
+                doubt_few_digits(&mut finding.comparisons, samples.first());
             }
             None => grounds.add(Ground::NoYield(Some(
                 "a twin shows no peak of the wall force followed by a landing of cylinder 1"
@@ -109,6 +110,26 @@ fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
             comparison.grounds.add(Ground::Violation(format!(
                 "the twin is further away, {own:.1e}, than one whose springs turn with the contact, {other:.1e}"
             )));
+        }
+    }
+}
+
+/// Withdraws disagreements of series, those of the code in `own`, that are printed with too few digits for them.
+fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>) {
+    let digits = own.into_iter().flatten().map(|samples| {
+        let numbers = samples.iter().flat_map(|sample| {
+            let quantities = Quantity::ALL.iter();
+            quantities.map(move |quantity| quantity.of(sample))
+        });
+        most_digits(numbers)
+    });
+    let Some(digits) = digits.max().filter(|digits| *digits < ENOUGH_DIGITS) else {
+        return;
+    };
+    for comparison in comparisons {
+        if comparison.verdict() == Verdict::Differs {
+            let note = format!("printed with {digits} digits, too few to tell code and twin apart");
+            comparison.grounds.add(Ground::Undecidable(note));
         }
     }
 }

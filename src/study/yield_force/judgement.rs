@@ -340,7 +340,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Accuracy of the state of rest, in r: that of the limit, and the rounding of every step.
+    /// Accuracy of the state of rest, in r: that of the limit, the rounding of every step, and that of printing.
     fn rest_accuracy(&self) -> f64 {
         let steps = self
             .measurement
@@ -349,6 +349,14 @@ impl<'a> Reader<'a> {
             .map_or(0, |case| case.protocol.schedule().preparation.total());
         MIN_TOLERANCE * self.measurement.stack.epsilon()
             + steps as f64 * LARGEST_COORDINATE * f64::EPSILON
+            + self.printed_coordinate()
+    }
+
+    /// Rounding of a coordinate that is printed with few digits, in r.
+    fn printed_coordinate(&self) -> f64 {
+        let printed = self.estimates.iter().filter_map(|run| run.printed);
+        let half_units = printed.map(|printed| 5.0 * libm::exp10(-f64::from(printed.digits)));
+        half_units.fold(0.0, f64::max)
     }
 
     fn doubt_equal_runs(&mut self) {

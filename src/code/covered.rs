@@ -5,13 +5,11 @@ use super::definition::LONGEST_START;
 use super::manifest::Environment;
 use super::question::answer;
 use super::search_path::in_search_path;
-use crate::files::{Links, open_regular, read_bounded};
+use crate::files::{Links, read_beginning, read_bounded};
 use crate::model::sha256_hex;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
-use std::fs::OpenOptions;
-use std::io::Read;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -316,10 +314,7 @@ fn is_source(path: &Path) -> bool {
 
 /// The content of a script, or the head of a program.
 fn beginning(path: &Path) -> Vec<u8> {
-    let mut content = Vec::new();
-    let file = open_regular(path, Links::Followed, OpenOptions::new().read(true));
-    let read = file.and_then(|file| file.take(LONGEST_SCRIPT).read_to_end(&mut content));
-    read.map_or_else(|_| Vec::new(), |_| content)
+    read_beginning(path, LONGEST_SCRIPT).unwrap_or_default()
 }
 
 /// The loader that an ELF program names (PT_INTERP of its program headers), of 64 bits and little-endian.

@@ -16,5 +16,7 @@ pub(crate) use draft::{
 };
 pub use error::FileError;
 pub(crate) use error::parse_json;
-pub(crate) use read::{Links, kind, open_regular, read_bounded, read_end, system_text};
+pub(crate) use read::{
+    Links, kind, open_regular, read_beginning, read_bounded, read_end, system_text,
+};
 pub(crate) use results::Layout;

@@ -39,6 +39,14 @@ pub(crate) fn read_bounded(path: &Path, limit: u64, links: Links) -> std::io::Re
     Ok(content)
 }
 
+/// The first `count` bytes of the regular file at `path`.
+pub(crate) fn read_beginning(path: &Path, count: u64) -> std::io::Result<Vec<u8>> {
+    let file = open_regular(path, Links::Followed, OpenOptions::new().read(true))?;
+    let mut content = Vec::new();
+    file.take(count).read_to_end(&mut content)?;
+    Ok(content)
+}
+
 /// The last `count` bytes of the regular file at `path`, which must not be a symbolic link.
 pub(crate) fn read_end(path: &Path, count: u64) -> std::io::Result<Vec<u8>> {
     let mut file = open_regular(path, Links::Refused, OpenOptions::new().read(true))?;

@@ -34,7 +34,7 @@ pub struct YieldEstimates {
     /// The first row between slip and peak in which a floor contact does not slide: there is no onset then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub departure: Option<Departure>,
-    /// Largest |b|/a that the contacts of cylinder 1 surely carry, in steps of 1e-5: so much friction they have.
+    /// Largest |b|/a that the contacts of cylinder 1 surely carry, in steps of 1e-9: so much friction they have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_friction: Option<f64>,
     /// The digits with which the code has printed the forces; absent if it has printed all of them.
@@ -264,7 +264,7 @@ fn pair_friction(
     let least = |rows: &[f64]| rows.iter().copied().fold(f64::INFINITY, f64::min);
     let sustained = ratios.windows(ROWS_BEYOND_A_KINK).map(least);
     let largest = sustained.fold(0.0, f64::max);
-    (largest > 0.0).then(|| (1e5 * largest).floor() * 1e-5)
+    (largest > 0.0).then(|| (1e9 * largest).floor() / 1e9)
 }
 
 /// Wall force as a function of the slip margin, extrapolated to margin 0 from four rows that certainly

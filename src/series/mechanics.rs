@@ -3,7 +3,7 @@
 //! Each law compares two sides in every row from the first after the start to the last before the floor slips. A side
 //! that needs a velocity takes it from five rows at equal distances where there are such, and is known to what the
 //! wall's speed can do to it elsewhere. The bounds follow from the contact law, the time step and the rounding of
-//! positions (docs/verdicts.md).
+//! positions (docs/theory.md, section 8.6).
 
 use super::differences::{COORDINATE, FiveRows, Rates};
 use super::digits::Rounding;
@@ -168,8 +168,8 @@ impl<'a> Stack<'a> {
     /// The laws that can be looked at in `row` of `samples`.
     fn sides(&self, samples: &[Sample], row: usize) -> Vec<(Law, Sides)> {
         let sample = &samples[row];
-        let five =
-            FiveRows::around(samples, row, self.rounding.coordinate).filter(|_| self.is_smooth);
+        let five = FiveRows::around(samples, row, self.rounding.coordinate)
+            .filter(|five| self.is_smooth && self.has_its_speed(five));
         let mut sides = vec![
             (Law::VerticalBalance, self.vertical(sample, five)),
             (Law::MirrorSymmetry, self.mirror(sample)),
@@ -182,6 +182,11 @@ impl<'a> Stack<'a> {
             sides.extend(cylinders.map(|balance| (Law::PairOverlap, balance)));
         }
         sides
+    }
+
+    /// Whether the wall has its last speed in these rows: while it slows down, differences of rows are no rates.
+    fn has_its_speed(&self, five: &FiveRows<'_>) -> bool {
+        five.rows[0].step >= self.schedule.fast_steps + self.schedule.slowing_steps
     }
 
     /// Rounding of a position that is advanced in every step, at worst.

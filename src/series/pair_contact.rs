@@ -18,7 +18,9 @@ pub(super) struct PairContact {
     pub(super) shear: f64,
     /// Error of the accelerations behind the balances of its forces.
     pub(super) acceleration_error: f64,
-    /// Largest error of |b|/a.
+    /// Damping on top of the limit, as a part of a.
+    on_top: f64,
+    /// Error of |b|/a by differences.
     ratio_error: f64,
 }
 
@@ -49,7 +51,7 @@ impl PairContact {
             CoulombOperand::SpringAndDamping => 0.0,
         };
         let turning = turn.acceleration_error + 6.0 * five.unit() / five.interval().powi(2);
-        let shear_error = inertia * turning / pair_lever + on_top;
+        let shear_error = inertia * turning / pair_lever;
         // Damping may belong to a moment up to a step away.
         let known_to = |rates: Rates| {
             rates.velocity_error
@@ -65,12 +67,13 @@ impl PairContact {
             direction: [sine, cosine],
             normal,
             shear,
+            on_top: on_top / normal,
             ratio_error: (shear_error + (shear / normal).abs() * normal_error) / normal,
         }
     }
 
     /// |b|/a, less its largest error: so much friction there is between the cylinders.
     pub(super) fn carried_ratio(&self) -> f64 {
-        (self.shear / self.normal).abs() - TWO_ORDERS * self.ratio_error
+        (self.shear / self.normal).abs() - TWO_ORDERS * self.ratio_error - self.on_top
     }
 }

@@ -304,7 +304,7 @@ impl<'a> Reader<'a> {
         let carried = carried.fold(0.0, f64::max);
         if carried <= needed {
             self.doubt(format!(
-                "the cylinders are not seen to carry more than b/a = {carried}, but {needed:.5} is needed until the floor \
+                "the cylinders are not seen to carry more than b/a = {carried}, but {needed:.9} is needed until the floor \
                  slips: they may slip on each other before"
             ));
         }

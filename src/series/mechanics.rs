@@ -19,28 +19,25 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
-    /// The floor bears the wall force and three weights.
-    VerticalBalance,
+    /// The floor bears the wall force and three weights. Cylinders 2 and 3 bear cylinder 1, and are not pushed aside,
+    /// with the normal force of their overlaps and the shear that lets them turn as they do.
+    ForceBalance,
     /// The right half of the stack mirrors the left one.
     MirrorSymmetry,
     /// The wall force is that of the overlap of cylinder 1 with the wall.
     WallOverlap,
     /// The normal force of the floor is that of the overlap of cylinders 2 and 3 with it.
     FloorOverlap,
-    /// Cylinders 2 and 3 bear cylinder 1, and are not pushed aside, with the normal force of their overlaps and the
-    /// shear that lets them turn as they do.
-    PairOverlap,
 }
 
 impl Law {
     /// The words in messages.
     pub const fn as_str(self) -> &'static str {
         match self {
-            Self::VerticalBalance => "the vertical balance of forces",
+            Self::ForceBalance => "the balance of forces",
             Self::MirrorSymmetry => "the mirror symmetry",
             Self::WallOverlap => "wall force against overlap",
             Self::FloorOverlap => "floor force against overlap",
-            Self::PairOverlap => "the balance of forces between the cylinders",
         }
     }
 }
@@ -171,7 +168,7 @@ impl<'a> Stack<'a> {
         let five = FiveRows::around(samples, row, self.rounding.coordinate)
             .filter(|five| self.is_smooth && self.has_its_speed(five));
         let mut sides = vec![
-            (Law::VerticalBalance, self.vertical(sample, five)),
+            (Law::ForceBalance, self.vertical(sample, five)),
             (Law::MirrorSymmetry, self.mirror(sample)),
             (Law::WallOverlap, self.wall(sample, five)),
         ];
@@ -179,7 +176,7 @@ impl<'a> Stack<'a> {
         sides.extend(halves.map(|floor| (Law::FloorOverlap, floor)));
         if let Some(five) = five.filter(keeps_its_contacts) {
             let cylinders = self.cylinders(sample, five);
-            sides.extend(cylinders.map(|balance| (Law::PairOverlap, balance)));
+            sides.extend(cylinders.map(|balance| (Law::ForceBalance, balance)));
         }
         sides
     }

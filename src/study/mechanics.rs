@@ -14,7 +14,7 @@ impl Grounds {
                 Some(mechanics) => {
                     let violations = mechanics.violations();
                     let notes = violations.map(|(law, deviation)| violation(run, law, deviation));
-                    notes.for_each(|note| self.add(Ground::Failed(note)));
+                    notes.for_each(|note| self.add(Ground::Violation(note)));
                 }
                 None => self.add(Ground::Doubt(format!(
                     "run {run} was recorded before series were held to mechanics"

@@ -21,6 +21,8 @@ pub struct Said {
     pub verdict: Verdict,
     pub notes: Vec<String>,
     pub tolerance: Option<f64>,
+    /// Whether the yield force itself is further off than the tolerance.
+    pub is_off: bool,
 }
 
 /// The stacks at which engines lie: below, at and above the critical friction.
@@ -64,6 +66,9 @@ impl Honest {
         Said {
             verdict: grounds.verdict(),
             notes: grounds.notes().into_iter().map(str::to_owned).collect(),
+            is_off: grounds
+                .deviation()
+                .is_some_and(|(error, tolerance)| error.abs() > tolerance),
             tolerance: grounds.deviation().map(|(_, tolerance)| tolerance),
         }
     }

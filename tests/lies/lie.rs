@@ -41,11 +41,12 @@ pub enum Kind {
     Displacement,
     Spread,
     Start,
+    FirstRow,
     MadeUp,
 }
 
 impl Kind {
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::FloorFriction,
         Self::FrictionUntilThePeak,
         Self::StaticFriction,
@@ -74,6 +75,7 @@ impl Kind {
         Self::Displacement,
         Self::Spread,
         Self::Start,
+        Self::FirstRow,
         Self::MadeUp,
     ];
 }
@@ -208,7 +210,8 @@ impl Lie {
             | Kind::BothSides
             | Kind::Height
             | Kind::WallForceNoise
-            | Kind::Start => self.size.abs(),
+            | Kind::Start
+            | Kind::FirstRow => self.size.abs(),
             // Displacements are of the order of the load, and the wall goes with its speed.
             Kind::FloorShears | Kind::Displacement | Kind::Spread | Kind::WallSpeed => {
                 0.1 * self.size.abs()
@@ -258,6 +261,10 @@ impl Lie {
                     for height in [&mut row.y1, &mut row.y2, &mut row.y3] {
                         *height += shift;
                     }
+                }
+                Kind::FirstRow if row.step == 0 => {
+                    row.x2 += shift;
+                    row.x3 -= shift;
                 }
                 Kind::MadeUp => {
                     *row = Sample {

@@ -65,15 +65,13 @@ impl Study for Trajectory {
             comparisons: Vec::new(),
         };
         let mut grounds = Grounds::new();
-        let own = runs.first().into_iter().flatten();
-        grounds.hold_to_mechanics(own.map(|run| Some(&run.mechanics)));
         match self.pairs(&samples) {
-            _ if grounds.verdict() == Verdict::Failed => {}
             Some(pairs) => {
                 finding.times = pairs.first().map(Pair::times);
                 finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();
                 hold_full_twin_to_the_other(&mut finding.comparisons);
                 doubt_few_digits(&mut finding.comparisons, samples.first());
+                hold_to_mechanics(&mut finding.comparisons, runs.first());
             }
             None => grounds.add(Ground::NoYield(Some(
                 "a twin shows no peak of the wall force followed by a landing of cylinder 1"
@@ -92,6 +90,16 @@ impl Trajectory {
         let pairs = pairs.map(|(runs, twin)| Pair::new(self.code, runs, own, twin));
         let pairs: Vec<Pair> = pairs.collect::<Option<_>>()?;
         (!pairs.is_empty()).then_some(pairs)
+    }
+}
+
+/// Holds the runs of the code to mechanics in every comparison before the slip.
+fn hold_to_mechanics(comparisons: &mut [Comparison], own: Option<&Vec<Rows>>) {
+    let comparisons = comparisons.iter_mut();
+    for comparison in comparisons.filter(|one| one.branch == Branch::Compression) {
+        let runs = own.into_iter().flatten();
+        let mechanics = runs.map(|run| Some(&run.mechanics));
+        comparison.grounds.hold_to_mechanics(mechanics);
     }
 }
 

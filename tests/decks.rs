@@ -154,7 +154,7 @@ fn is_typed(parameters: &serde_json::Value) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, max_global_rejects: 10_000, ..ProptestConfig::with_cases(500) })]
 
     #[test]
     fn parameters_of_every_valid_case_are_plain_numbers(case in cases()) {

@@ -124,8 +124,7 @@ on neither sign agrees, and by how much of F + 3 the yield force is moved there,
 relative; of arms absolute; of cylinder friction relative to b/a at the yield; of offsets and positions in units of the load. What
 moves the yield force not at all may pass: that is no lie about it. A smallest size that moves the force by more than
 the tolerance needs a word, and there is one: *static friction*, which falls as soon as the floor slides, leaves no trace in rows
-that are wider apart than the fall takes, and passes until it delays the slip by a row. One stack alone shows this; the
-micro-tests of the probe do, if the code does not lie there as well.
+that are wider apart than the fall takes, and passes until it delays the slip by a row.
 
 | altered | mu, stiffness | smallest size that is seen | moves F by, of F + 3 | tolerance |
 |---|---|---|---|---|

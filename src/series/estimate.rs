@@ -212,7 +212,8 @@ impl<'a> Sliding<'a> {
         [below, above].map(|allowed| allowed + exact)
     }
 
-    /// Growth of the normal force of the floor in one step, relative to it.
+    /// Growth of the normal force of the floor in one step, relative to it; between two rows where cylinders 2 and 3
+    /// touch: the floor slides no faster than the load grows then, and its spring takes many steps to catch up.
     fn growth_in_a_step(&self, samples: &[Sample], row: usize) -> f64 {
         let (before, after) = (
             &samples[row - 1],
@@ -220,7 +221,10 @@ impl<'a> Sliding<'a> {
         );
         let sample = &samples[row];
         let growth = |from: &Sample, to: &Sample| {
-            let steps = to.step.saturating_sub(from.step).max(1) as f64;
+            let steps = match sample.bottom_contact_force() > 0.0 {
+                true => 1.0,
+                false => to.step.saturating_sub(from.step).max(1) as f64,
+            };
             (to.floor_n2 - from.floor_n2).abs() / (steps * sample.floor_n2)
         };
         growth(before, sample).max(growth(sample, after))

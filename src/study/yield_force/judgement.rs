@@ -295,9 +295,11 @@ impl<'a> Reader<'a> {
     }
 
     /// Cylinders that slip on each other before the floor slips end the equilibrium before the onset that is
-    /// extrapolated. They have not where they carry more afterwards than they needed.
+    /// extrapolated. They have not where they carry more afterwards than they needed. Where the force rises on after the
+    /// onset, equilibrium does not end, and the slip of the cylinders would bend the path before it.
     fn doubt_pair_friction(&mut self) {
-        let Some(needed) = self.measurement.limit.pair_ratio else {
+        let limit = &self.measurement.limit;
+        let Some(needed) = limit.pair_ratio.filter(|_| !limit.rises_after_onset()) else {
             return;
         };
         let carried = self.estimates.iter().filter_map(|run| run.pair_friction);

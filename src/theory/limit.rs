@@ -36,7 +36,8 @@ pub struct Limit {
     pub peak_z: Option<f64>,
     /// b/a where the floor slips: so much friction the cylinders need.
     pub pair_ratio: Option<f64>,
-    /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand.
+    /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand
+    /// without sliding.
     pub rest: Option<[f64; 3]>,
     /// Why there is no yield force.
     pub reason: Option<String>,
@@ -89,7 +90,7 @@ impl Limit {
             peak_travel: wall_travel.filter(|_| yields),
             peak_z: z.filter(|_| yields),
             pair_ratio: point.map(|point| point.pair_ratio),
-            rest: settled.is_finite().then(|| path.point(settled).positions()),
+            rest: (settled.is_finite() && !own_weight).then(|| path.point(settled).positions()),
             reason: (!yields).then(|| explanation(event, own_weight)),
         }
     }

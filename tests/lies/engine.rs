@@ -39,13 +39,13 @@ impl Honest {
         all.collect()
     }
 
-    fn new(code: Code, stack: &Stack) -> Self {
+    pub fn new(code: Code, stack: &Stack) -> Self {
         let mut honest = Self {
             measurement: plan(code, stack, code.convention()),
             tolerance: f64::NAN,
         };
         let said = honest.judge(&Lie::none());
-        honest.tolerance = said.tolerance.expect("it is judged");
+        honest.tolerance = said.tolerance.unwrap_or(f64::NAN);
         honest
     }
 

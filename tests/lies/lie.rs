@@ -43,10 +43,12 @@ pub enum Kind {
     Start,
     FirstRow,
     MadeUp,
+    /// The numbers are true, and printed with few digits.
+    FewDigits,
 }
 
 impl Kind {
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 31] = [
         Self::FloorFriction,
         Self::FrictionUntilThePeak,
         Self::StaticFriction,
@@ -77,6 +79,7 @@ impl Kind {
         Self::Start,
         Self::FirstRow,
         Self::MadeUp,
+        Self::FewDigits,
     ];
 }
 
@@ -282,8 +285,33 @@ impl Lie {
                         ..*row
                     }
                 }
+                Kind::FewDigits => self.print(row),
                 _ => {}
             }
+        }
+    }
+
+    /// Prints every number with four to eleven digits.
+    fn print(&self, row: &mut Sample) {
+        let decimals = usize::try_from(3 + self.pick % 8).expect("a small number");
+        let numbers = [
+            &mut row.wall_force,
+            &mut row.x1,
+            &mut row.y1,
+            &mut row.theta1,
+            &mut row.x2,
+            &mut row.y2,
+            &mut row.theta2,
+            &mut row.x3,
+            &mut row.y3,
+            &mut row.theta3,
+            &mut row.floor_n2,
+            &mut row.floor_t2,
+            &mut row.floor_n3,
+            &mut row.floor_t3,
+        ];
+        for number in numbers {
+            *number = format!("{number:.decimals$e}").parse().expect("a number");
         }
     }
 

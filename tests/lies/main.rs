@@ -13,6 +13,8 @@ use lie::{Kind, Lie};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use tristack::code::Code;
+use tristack::model::Stack;
 use tristack::series::Law;
 use tristack::study::Verdict;
 
@@ -99,6 +101,32 @@ fn nobody_who_is_honest_is_accused() {
     }
 }
 
+/// What an adversary found in an hour, when only the onset was looked at.
+#[test]
+fn what_agreed_once_agrees_no_more() {
+    let at = |mu, stiffness| {
+        let native = Code::named("native").expect("it is built in");
+        Honest::new(native, &Stack::paper(mu, stiffness))
+    };
+    let gravity_twice = Lie::of(Kind::Gravity, 1.0);
+    let soft = at(0.3, 1e2);
+    let needed = soft.measurement.limit.pair_ratio.expect("it yields");
+    for (honest, lie) in [
+        (
+            &soft,
+            Lie::of(Kind::CylinderFriction, 0.3192 / needed - 1.0),
+        ),
+        (&soft, Lie::of(Kind::FrictionUntilThePeak, 6e-5)),
+        (&at(0.2, 1e2), Lie::of(Kind::FrictionUntilThePeak, 1e-4)),
+        (&soft, Lie::of(Kind::MadeUp, 1.0)),
+        (&soft, Lie::of(Kind::FloorForces, 2.0)),
+        (&at(0.5, 1e6), gravity_twice),
+    ] {
+        let said = honest.judge(&lie);
+        assert_ne!(said.verdict, Verdict::Agrees, "{lie:?}: {:?}", said.notes);
+    }
+}
+
 #[test]
 fn a_lie_that_moves_the_yield_force_never_agrees() {
     let honest = Honest::all();
@@ -122,6 +150,18 @@ fn a_lie_that_moves_the_yield_force_never_agrees() {
         .map(|round| format!("{:?} at {}", round.lie, round.label))
         .collect();
     assert!(passed.is_empty(), "these agree: {passed:#?}");
+    let truths = rounds
+        .iter()
+        .filter(|round| round.lie.kind == Kind::FewDigits);
+    for round in truths {
+        let (lie, notes) = (round.lie, &round.notes);
+        assert_ne!(
+            round.verdict,
+            Verdict::Differs,
+            "{lie:?} at {}: {notes:?}",
+            round.label
+        );
+    }
     let tried = rounds.iter().filter(|round| round.must_be_seen);
     let kinds: BTreeSet<Kind> = tried.map(|round| round.lie.kind).collect();
     assert!(kinds.len() >= 20, "only {kinds:?} had to be seen");

@@ -358,10 +358,11 @@ impl<'a> Reader<'a> {
             + self.printed_coordinate()
     }
 
-    /// Rounding of a coordinate that is printed with few digits, in r.
+    /// Rounding of coordinates that are printed with few digits, in r: half a unit in the start, and twice that in its
+    /// shift, which counts twice.
     fn printed_coordinate(&self) -> f64 {
         let printed = self.estimates.iter().filter_map(|run| run.printed);
-        let half_units = printed.map(|printed| 5.0 * libm::exp10(-f64::from(printed.digits)));
+        let half_units = printed.map(|printed| 25.0 * libm::exp10(-f64::from(printed.digits)));
         half_units.fold(0.0, f64::max)
     }
 

@@ -69,7 +69,10 @@ impl YieldEstimates {
         let beyond = sliding.and_then(|(row, friction)| row_beyond(&samples[..=row], friction));
         let slides = beyond.zip(sliding);
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
-        let departure = slides.and_then(|(beyond, row, friction)| {
+        // Where cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
+        let is_last = |beyond: usize| samples[beyond].bottom_contact_force() <= 0.0;
+        let ends = slides.filter(|&(beyond, ..)| is_last(beyond));
+        let departure = ends.and_then(|(beyond, row, friction)| {
             Sliding::of(case, friction, rounding).departure(samples, beyond, row)
         });
         let slip = slides.filter(|_| departure.is_none());
@@ -212,8 +215,7 @@ impl<'a> Sliding<'a> {
         [below, above].map(|allowed| allowed + exact)
     }
 
-    /// Growth of the normal force of the floor in one step, relative to it; between two rows where cylinders 2 and 3
-    /// touch: the floor slides no faster than the load grows then, and its spring takes many steps to catch up.
+    /// Growth of the normal force of the floor in one step, relative to it.
     fn growth_in_a_step(&self, samples: &[Sample], row: usize) -> f64 {
         let (before, after) = (
             &samples[row - 1],
@@ -221,10 +223,7 @@ impl<'a> Sliding<'a> {
         );
         let sample = &samples[row];
         let growth = |from: &Sample, to: &Sample| {
-            let steps = match sample.bottom_contact_force() > 0.0 {
-                true => 1.0,
-                false => to.step.saturating_sub(from.step).max(1) as f64,
-            };
+            let steps = to.step.saturating_sub(from.step).max(1) as f64;
             (to.floor_n2 - from.floor_n2).abs() / (steps * sample.floor_n2)
         };
         growth(before, sample).max(growth(sample, after))

@@ -16,6 +16,7 @@ mod progress;
 mod record;
 mod regimes;
 mod report;
+mod schema;
 mod simulate;
 mod streams;
 mod sweep;
@@ -60,6 +61,7 @@ enum Command {
     Report(report::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
+    Schema(schema::Arguments),
     #[command(name = GUARD_COMMAND, hide = true)]
     Guard(guard::Arguments),
 }
@@ -113,6 +115,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Report(arguments) => report::run(&arguments, command),
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
+        Command::Schema(arguments) => schema::run(&arguments),
         Command::Guard(arguments) => guard::run(&arguments),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -9,7 +10,7 @@ use serde::de::DeserializeOwned;
 const CUT: usize = 8;
 
 /// How the parameters of a task are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ParameterFormat {
     /// A JSON object, numbers in their shortest exact form.
@@ -35,7 +36,7 @@ impl ParameterFormat {
 }
 
 /// How a code writes its results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResultFormat {
     /// Comma-separated columns under their names.

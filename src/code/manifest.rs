@@ -2,15 +2,18 @@
 
 use super::format::{ParameterFormat, ResultFormat};
 use crate::model::ContactConvention;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Table;
 
 /// One code, as the manifest describes it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
+    /// Version of the keys: 1.
     pub(super) schema: i64,
+    /// Name of the code: lower-case letters, digits and hyphens.
     pub(super) name: String,
     /// Name in prose and figures; the variants of a folder share it.
     #[serde(default)]
@@ -20,27 +23,37 @@ pub struct Definition {
     /// How to install the program.
     #[serde(default)]
     pub(super) install: String,
+    /// Mark of the code in figures.
     pub(super) mark: Option<Mark>,
+    /// Durations for forecasts; a multiple is the time limit.
     #[serde(default)]
     pub(super) seconds: Seconds,
     /// Absent for the native code alone.
     pub(super) program: Option<Program>,
+    /// The file that holds the parameters of a task.
     #[serde(default)]
     pub(super) parameters: ParameterFile,
+    /// The file that holds the result of a task.
     #[serde(default)]
     pub(super) result: ResultFile,
+    /// The files of each kind of task; a kind that is missing is refused by the code.
     #[serde(default)]
     pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
+    /// The contact convention of the code.
     #[serde(default)]
     pub(super) convention: ContactConvention,
+    /// Properties of its time integration.
     #[serde(default)]
     pub(super) integration: Integration,
+    /// Parameter values that the code cannot take.
     #[serde(default)]
     pub(super) refused: Refused,
     /// Placeholders of the command.
     #[serde(default)]
     pub(super) set: BTreeMap<String, String>,
+    /// Further codes, by name, each with the keys that override those above.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
     pub(super) variants: BTreeMap<String, Table>,
     /// Name in the manifest, which variants share.
     #[serde(skip)]
@@ -48,7 +61,7 @@ pub struct Definition {
 }
 
 /// The kinds of tasks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TaskKind {
     /// Compress a stack after a gravity ramp.
@@ -61,16 +74,33 @@ pub enum TaskKind {
     Pyramid,
 }
 
+impl TaskKind {
+    /// All kinds.
+    pub(crate) const ALL: [Self; 4] = [Self::Stack, Self::SideWalls, Self::Motion, Self::Pyramid];
+
+    /// Its name in manifests.
+    pub(crate) fn as_str(self) -> &'static str {
+        match self {
+            Self::Stack => "stack",
+            Self::SideWalls => "side-walls",
+            Self::Motion => "motion",
+            Self::Pyramid => "pyramid",
+        }
+    }
+}
+
 /// Mark of a code in figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
+    /// Its outline.
     pub shape: Shape,
+    /// Its colour.
     pub colour: Colour,
 }
 
 /// Outlines, so that marks at the same place do not hide each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
     Dot,
@@ -82,7 +112,7 @@ pub enum Shape {
 }
 
 /// Colours that the colour-blind tell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Colour {
     Ink,
@@ -94,10 +124,12 @@ pub enum Colour {
 }
 
 /// Durations for forecasts; a multiple is the time limit.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Seconds {
+    /// Wall time of a start, in seconds.
     pub(super) start: f64,
+    /// Wall time of a step of a stack, in seconds.
     pub(super) step: f64,
 }
 
@@ -114,15 +146,17 @@ impl Default for Seconds {
 pub(super) type Environment = BTreeMap<String, String>;
 
 /// How a code is started.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Program {
     /// Words with placeholders, never a line for a shell.
     pub(super) command: Vec<String>,
     /// A build of the program that computes with more digits.
     pub(super) higher_precision: Option<String>,
+    /// How the version of the program is found.
     #[serde(default)]
     pub(super) version: VersionQuestion,
+    /// Variables for its environment.
     #[serde(default)]
     pub(super) environment: Environment,
     /// Files in the working directory that say why a run failed, and are quoted then.
@@ -131,7 +165,7 @@ pub(super) struct Program {
 }
 
 /// How the version of a program is found.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct VersionQuestion {
     /// Whether the version of its package, which is found faster, will do.
@@ -143,10 +177,12 @@ pub(super) struct VersionQuestion {
 }
 
 /// The file that holds the parameters of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ParameterFile {
+    /// Its name in the run directory.
     pub(super) file: String,
+    /// How it is written.
     pub(super) format: ParameterFormat,
 }
 
@@ -160,10 +196,12 @@ impl Default for ParameterFile {
 }
 
 /// The file that holds the result of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ResultFile {
+    /// Its name in the run directory.
     pub(super) file: String,
+    /// How it is written.
     pub(super) format: ResultFormat,
 }
 
@@ -177,7 +215,7 @@ impl Default for ResultFile {
 }
 
 /// The files of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TaskFiles {
     /// The first one is the deck.
@@ -189,7 +227,7 @@ pub(super) struct TaskFiles {
 }
 
 /// Properties of a code's time integration that show in a comparison with its native twin.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Integration {
     /// Steps by which reported velocities lag behind reported positions.
@@ -211,7 +249,7 @@ impl Default for Integration {
 }
 
 /// The origin of the angles of a code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Angle {
     /// The integrator turns the body by spin × time step.
@@ -223,16 +261,19 @@ pub(crate) enum Angle {
 }
 
 /// Parameter values that the code cannot take.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Refused {
+    /// Coefficients of restitution.
     pub(super) restitution: Option<RefusedValues>,
 }
 
 /// The values, and the reason.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RefusedValues {
+    /// The values.
     pub(super) values: Vec<f64>,
+    /// Why it cannot take them.
     pub(super) because: String,
 }

@@ -1,6 +1,7 @@
 //! Output for people and programs: tables in every format, figures, pages.
 
 mod bench;
+mod case_file;
 mod crosscheck;
 mod explain;
 mod figures;
@@ -11,6 +12,7 @@ mod number;
 mod page;
 mod probe;
 mod regimes;
+mod schema;
 mod simulation;
 mod table;
 mod theory;
@@ -20,10 +22,12 @@ mod vtk;
 pub use bench::pyramids;
 pub use figures::{StackPanel, representative_panels, run_svg};
 pub use formats::formats_page;
+pub use schema::{Document, all_json_schemas};
 pub use table::{DataTable, Table};
 pub use vtk::{VtkFile, vtk_series};
 
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
+pub(crate) use case_file::commented_case;
 pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, performance_svg, regimes_svg};

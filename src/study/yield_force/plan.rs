@@ -5,7 +5,7 @@ use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{
-    Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
+    Case, ContactConvention, InvalidValue, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
 };
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Limit, quasistatic_limit};
@@ -51,6 +51,18 @@ fn accepted(range: Option<(f64, f64)>) -> String {
     range.map_or_else(String::new, |(lowest, highest)| {
         format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
     })
+}
+
+impl NoYield {
+    /// The floor friction as the wrong value of a case file.
+    pub(crate) fn as_value(&self) -> InvalidValue {
+        let Self { reason, range, .. } = self;
+        let accepted = format!(
+            "one at which the stack yields: {reason}{}",
+            accepted(*range)
+        );
+        InvalidValue::new("stack.floor_friction", self.stack.floor_friction, accepted)
+    }
 }
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).

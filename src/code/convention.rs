@@ -184,6 +184,12 @@ impl Settled {
         }
     }
 
+    /// The sum of the uncertainties of the arms.
+    pub fn arms_open(&self) -> f64 {
+        let arms = ConventionKey::ARMS.into_iter();
+        arms.filter_map(|key| key.arm(&self.arm_uncertainty)).sum()
+    }
+
     /// Why `key` is unknown; `None` where it is not.
     pub fn reason(&self, key: ConventionKey) -> Option<&str> {
         let mut unknown = self.unknown.iter();

@@ -203,25 +203,23 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
         Err(error) => vec![format!(
             "its contact convention could not be measured: {error}"
         )],
-        Ok(probe) => {
-            let contradicting = probe.findings.iter();
-            let contradicting = contradicting
-                .filter(|one| one.verdict != Verdict::Agrees && one.declared.is_some());
-            let mut contradicting: Vec<&Finding> = contradicting.collect();
-            // A stiffness that grows explains the others.
-            contradicting.sort_by_key(|finding| {
-                (
-                    finding.verdict != Verdict::Differs,
-                    finding.growth().is_none(),
-                )
-            });
-            let digits = probe.few_digits.map_or_else(String::new, |digits| {
-                format!(" (printed with {digits} digits)")
-            });
-            let line = |finding: &Finding| format!("{}{digits}", contradiction(finding));
-            contradicting.into_iter().map(line).collect()
-        }
+        Ok(probe) => contradicting(probe),
     }
+}
+
+/// The findings that are no agreement with what is declared, one line each.
+pub fn contradicting(probe: &Findings) -> Vec<String> {
+    let declared = probe.findings.iter().filter(|one| one.declared.is_some());
+    let mut contradicting: Vec<&Finding> = declared
+        .filter(|one| one.verdict != Verdict::Agrees)
+        .collect();
+    // A stiffness that grows explains the others.
+    contradicting.sort_by_key(|one| (one.verdict != Verdict::Differs, one.growth().is_none()));
+    let digits = probe.few_digits.map_or_else(String::new, |digits| {
+        format!(" (printed with {digits} digits)")
+    });
+    let line = |one: &Finding| format!("{}{digits}", contradiction(one));
+    contradicting.into_iter().map(line).collect()
 }
 
 fn contradiction(finding: &Finding) -> String {

@@ -28,6 +28,6 @@ pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};
 pub(crate) use measured::{
     arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
-pub use passport::{ArmEffects, MeasuredKey, Passport, passport};
+pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub use probe::probe;
 pub use settle::{settle, settle_by};

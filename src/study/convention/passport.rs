@@ -1,7 +1,7 @@
 //! The passport of a code: its convention as measured, what that changes in the yield force, and who shares it.
 
 use super::finding::TOLERANCE;
-use super::measured::Findings;
+use super::measured::{Findings, contradicting};
 use crate::code::{Code, ConventionKey, Settled};
 use crate::model::{Arms, ContactConvention, Stack};
 use crate::study::Verdict;
@@ -55,6 +55,26 @@ pub struct ArmEffects {
     pub force: Option<f64>,
     /// What the uncertainties of the measured arms leave open of it, in m g.
     pub uncertainty: Option<f64>,
+}
+
+impl Passport<'_> {
+    /// The worst verdict on what was measured.
+    pub fn verdict(&self) -> Verdict {
+        let properties = self.findings.findings.iter().map(|own| own.verdict);
+        let keys = self.convention.iter().map(|own| own.verdict);
+        properties
+            .chain(keys)
+            .max()
+            .unwrap_or(Verdict::Inconclusive)
+    }
+}
+
+/// What of `findings` is no agreement: properties that are not as declared, and keys that are left out and not known.
+pub fn reservations(findings: &Findings) -> Vec<String> {
+    let unknown = findings.settled.unknown.iter();
+    let unknown =
+        unknown.map(|(key, because)| format!("{key} is left out and not known: {because}"));
+    contradicting(findings).into_iter().chain(unknown).collect()
 }
 
 /// The passport of `code`, of which the probe has shown `findings`.

@@ -50,7 +50,9 @@ fn reference(row: &Judgement) -> String {
         exact(row.study.stack.cylinder_friction),
         arms.pair,
         arms.floor,
-        if row.arms_are_measured {
+        if row.study.convention_uncertainty.is_some() {
+            "measured, not declared: tristack probe"
+        } else if row.arms_are_measured {
             "measured: tristack probe"
         } else {
             "declared"
@@ -156,7 +158,10 @@ fn extrapolation(slip: &Extrapolation) -> String {
 fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let reference = row.judged_reference();
     let load = reference.map_or(f64::NAN, |force| force + 3.0);
-    let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
+    let parts = Budget::PARTS.into_iter().filter_map(|part| {
+        let value = (part.value)(&slip.budget)?;
+        Some((part.heading, part.how, value))
+    });
     let total = ("total", "sum, as if all conspired", slip.budget.total());
     let table = Columns::<(&str, &str, f64)>::for_people()
         .left("part of u_num", |(name, ..)| name.to_string())
@@ -165,7 +170,7 @@ fn budget(row: &Judgement, slip: &Extrapolation) -> String {
         .right("of F + 3", move |(.., value)| {
             format!("{:.1e}", value / load)
         })
-        .rows(parts.into_iter().chain([total]));
+        .rows(parts.chain([total]));
     format!(
         "4. Numerical uncertainty of S (ASME V&V 20):\n{}\n",
         table.shown().terminal()

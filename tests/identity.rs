@@ -127,11 +127,16 @@ fn a_script_whose_imported_module_changes_is_run_anew() {
 }
 
 #[test]
-fn the_explanation_says_what_the_identity_covers() {
+fn the_explanation_says_how_mechanics_hold_and_what_the_identity_covers() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let text = standard_output(&mut bench.tristack("crosscheck --explain yade/0.3/100"));
-    for part in ["8. Identity: ", "programs/yade, and ", "Not covered: "] {
+    for part in [
+        "largest deviation in units of the allowed one: the balance of forces 0.",
+        "8. Identity: ",
+        "programs/yade, and ",
+        "Not covered: ",
+    ] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
 }

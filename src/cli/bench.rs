@@ -1,6 +1,7 @@
 //! `tristack bench`.
 
-use super::options::{CodeParser, Format, selected_codes};
+use super::convention::settle;
+use super::options::{CodeParser, Format, RunOptions, selected_codes};
 use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
@@ -68,6 +69,7 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     let mut names = vec![Code::NATIVE];
     names.extend(named);
     let codes = selected_codes(&names)?;
+    settle(&codes, &RunOptions::default())?;
     Ok(codes.iter().map(|selected| selected.name).collect())
 }
 

@@ -1,10 +1,12 @@
 //! The keys of a manifest.
 
+use super::convention::{ConventionKey, Settled};
 use super::format::{ParameterFormat, ResultFormat};
 use crate::model::ContactConvention;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 use toml::Table;
 
 /// One code, as the manifest describes it.
@@ -39,9 +41,15 @@ pub struct Definition {
     /// The files of each kind of task; a kind that is missing is refused by the code.
     #[serde(default)]
     pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
-    /// The contact convention of the code.
+    /// The contact convention of the code; a key that is left out is measured by the probe.
     #[serde(default)]
     pub(super) convention: ContactConvention,
+    /// The keys of the convention that are left out, which the probe measures.
+    #[serde(skip)]
+    pub(super) left_out: Vec<ConventionKey>,
+    /// The convention after the probe.
+    #[serde(skip)]
+    pub(super) settled: OnceLock<Settled>,
     /// Properties of its time integration.
     #[serde(default)]
     pub(super) integration: Integration,

@@ -59,7 +59,7 @@ impl ExternalCode {
             time_limit: Some(LONGEST_START),
             ..RunContext::new(directory.path(), interrupt())
         };
-        let test = witness_test(self.name.convention());
+        let test = witness_test(self.name.declaration().convention);
         let mut motion = None;
         let mut batch = Batch::new(
             self,

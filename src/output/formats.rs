@@ -3,8 +3,8 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, probe, pyramids,
-    regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces,
+    measured_convention, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
 };
 use crate::code::TaskKind;
 use crate::series::{Column, MotionRow, Sample};
@@ -72,6 +72,8 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         budget(&[]),
         trajectories(&[]),
         probe(&[]),
+        measured_convention(&[]),
+        arm_effects(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),

@@ -3,6 +3,7 @@
 
 use super::case_file::case_schema;
 use super::formats::{json_tables, result_files};
+use super::passport::PassportFile;
 use crate::code::{Definition, TaskKind};
 use clap::ValueEnum;
 use schemars::generate::SchemaSettings;
@@ -19,6 +20,8 @@ pub enum Document {
     Case,
     /// code.toml, the manifest of a folder
     Manifest,
+    /// Passport of a code, from `probe --out`
+    Passport,
     /// Result of a task: rows of a series or a motion, which a code writes as CSV
     Result,
     /// Tables that the commands print and write as JSON
@@ -32,6 +35,7 @@ impl Document {
             Self::Task => task(),
             Self::Case => case_schema(),
             Self::Manifest => manifest(),
+            Self::Passport => passport(),
             Self::Result => result(),
             Self::Rows => rows(),
         };
@@ -45,6 +49,7 @@ impl Document {
             Self::Task => "task",
             Self::Case => "case",
             Self::Manifest => "manifest",
+            Self::Passport => "passport",
             Self::Result => "result",
             Self::Rows => "rows",
         }
@@ -115,6 +120,14 @@ fn without_required(schema: &Value) -> Value {
         Value::Array(items) => items.iter().map(without_required).collect(),
         other => other.clone(),
     }
+}
+
+fn passport() -> Value {
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let schema = settings
+        .into_generator()
+        .into_root_schema_for::<PassportFile>();
+    schema.to_value()
 }
 
 fn result() -> Value {

@@ -13,7 +13,7 @@ use tristack::model::{Case, ContactConvention, Preparation, Pyramid, SideWalls, 
 use tristack::study::yield_force::plan;
 use validator::{unknown_keywords, violation};
 
-const DOCUMENTS: [&str; 5] = ["task", "case", "manifest", "result", "rows"];
+const DOCUMENTS: [&str; 6] = ["task", "case", "manifest", "passport", "result", "rows"];
 
 fn schema(document: &str) -> Value {
     let bench = Bench::without_codes();
@@ -177,6 +177,21 @@ fn tables_fit_theirs() {
         other["schema"] = json!("tristack/unknown/1");
         fits_not(&schema, &other, "schema");
     }
+}
+
+#[test]
+fn a_passport_fits_its_own() {
+    let bench = Bench::without_codes();
+    standard_output(&mut bench.tristack("probe --codes native --out passports"));
+    let text = std::fs::read_to_string(bench.path("passports/native.json")).expect("a passport");
+    let (schema, passport) = (schema("passport"), json(&text));
+    fits(&schema, &passport);
+    let mut other = passport.clone();
+    other["verdict"] = json!("fine");
+    fits_not(&schema, &other, "verdict");
+    other = passport;
+    other["convention"]["rows"][0]["moves_limit"] = json!("yes");
+    fits_not(&schema, &other, "moves_limit");
 }
 
 #[test]

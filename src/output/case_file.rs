@@ -2,11 +2,12 @@
 
 use crate::model::{Case, PartialCase};
 use schemars::generate::SchemaSettings;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 const HEAD: &str = "# A case for `tristack simulate --case FILE`, with every key and its default.
 # A case needs only what differs: `[stack]` with `mu = 0.3` alone is one. The defaults of
 # [protocol] depend on the stack; those of [convention] are for native: another code has its own.
+# [protocol.shortcuts] is left out: by default there are none.
 ";
 
 /// JSON Schema of a case file.
@@ -20,30 +21,54 @@ pub(super) fn case_schema() -> Value {
 /// `case` as a TOML file, each key below its description.
 pub(crate) fn commented_case(case: &Case) -> String {
     let table = toml::Table::try_from(case).unwrap_or_default();
-    let mut text = HEAD.to_owned();
-    write_table(&mut text, "", &table, &case_schema());
-    text
+    let mut file = CommentedFile {
+        text: HEAD.to_owned(),
+        in_order: case.to_json(),
+    };
+    file.write(&[], &table, &case_schema());
+    file.text
 }
 
-/// Values first: in TOML what follows a table belongs to it.
-fn write_table(text: &mut String, path: &str, table: &toml::Table, schema: &Value) {
-    let described = |key: &str| property(schema, key).cloned().unwrap_or_default();
-    for (key, value) in table.iter().filter(|(_, value)| !value.is_table()) {
-        *text += &comment(&described(key));
-        *text += &format!("{key} = {value}\n");
-    }
-    for (key, value) in table {
-        if let Some(inner) = value.as_table() {
-            let path = if path.is_empty() {
-                key.clone()
-            } else {
-                format!("{path}.{key}")
-            };
-            let schema = described(key);
-            *text += &format!("\n{}[{path}]\n", comment(&schema));
-            write_table(text, &path, inner, &schema);
+struct CommentedFile {
+    text: String,
+    /// The same values with their keys in the order of the declarations.
+    in_order: String,
+}
+
+impl CommentedFile {
+    /// Values first: in TOML what follows a table belongs to it.
+    fn write(&mut self, path: &[&str], table: &toml::Table, schema: &Value) {
+        let mut entries: Vec<_> = table.iter().collect();
+        entries.sort_by_key(|(key, value)| {
+            (value.is_table(), self.in_order.find(&format!("\"{key}\":")))
+        });
+        for (key, value) in entries {
+            let described = described(schema, key);
+            match value.as_table() {
+                None => self.text += &format!("{}{key} = {value}\n", comment(&described)),
+                Some(inner) => {
+                    let path = [path, &[key]].concat();
+                    self.text += &format!("\n{}[{}]\n", comment(&described), path.join("."));
+                    self.write(&path, inner, &described);
+                }
+            }
         }
     }
+}
+
+/// The schema of the property `key`; where it says which of several alternatives this is, with all of them.
+fn described(schema: &Value, key: &str) -> Value {
+    let found = property(schema, key).cloned().unwrap_or_default();
+    if found["const"].is_null() {
+        return found;
+    }
+    let alternatives =
+        alternatives(schema).flat_map(|part| [part].into_iter().chain(alternatives(part)));
+    let words = alternatives.filter_map(|part| {
+        let word = part["properties"].get(key)?;
+        Some(json!({ "const": word["const"], "description": part["description"] }))
+    });
+    json!({ "description": "One of:", "oneOf": words.collect::<Vec<_>>() })
 }
 
 /// The schema of the property `key`, in the first alternative that has it.
@@ -67,8 +92,8 @@ fn comment(schema: &Value) -> String {
         Some(format!("- \"{word}\": {}", meaning.replace('\n', " ")))
     });
     lines.extend(words);
+    let lines = lines.iter().map(|line| format!("# {line}"));
     lines
-        .iter()
-        .map(|line| format!("# {line}").trim_end().to_owned() + "\n")
+        .map(|line| line.trim_end().to_owned() + "\n")
         .collect()
 }

@@ -94,7 +94,11 @@ fn manifest() -> Value {
         .into_generator()
         .into_root_schema_for::<Definition>();
     let mut schema = schema.to_value();
-    let mut variant = without_required(&schema);
+    // What a manifest leaves out of its convention has no default: it is measured.
+    let convention = without(&schema["properties"]["convention"], "default");
+    schema["properties"]["convention"] = convention;
+    // Keys that override others need no further ones.
+    let mut variant = without(&schema, "required");
     if let Some(keys) = variant["properties"].as_object_mut() {
         for own in ["schema", "name", "variants"] {
             keys.remove(own);
@@ -107,17 +111,15 @@ fn manifest() -> Value {
     schema
 }
 
-/// `schema` with nothing required at any depth, for keys that override others.
-fn without_required(schema: &Value) -> Value {
+/// `schema` without a keyword at any depth.
+fn without(schema: &Value, keyword: &str) -> Value {
     match schema {
         Value::Object(entries) => {
-            let kept = entries
-                .iter()
-                .filter(|(key, value)| *key != "required" || !value.is_array());
-            let kept = kept.map(|(key, value)| (key.clone(), without_required(value)));
+            let kept = entries.iter().filter(|(key, _)| *key != keyword);
+            let kept = kept.map(|(key, value)| (key.clone(), without(value, keyword)));
             Value::Object(kept.collect())
         }
-        Value::Array(items) => items.iter().map(without_required).collect(),
+        Value::Array(items) => items.iter().map(|item| without(item, keyword)).collect(),
         other => other.clone(),
     }
 }

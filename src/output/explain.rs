@@ -4,7 +4,7 @@ use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
 use crate::model::{Case, Preparation, exact};
 use crate::runs::RunSummary;
-use crate::series::Estimate;
+use crate::series::{Estimate, Law};
 use crate::study::yield_force::{
     Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce,
 };
@@ -106,8 +106,35 @@ fn runs(row: &Judgement) -> String {
         .rows(runs);
     format!(
         "2. Runs: slip onset (judged) and peak of F = f/(m g), with the distance between interpolations of \
-         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}\n",
-        table.shown().terminal()
+         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}{}\n",
+        table.shown().terminal(),
+        mechanics(row.runs())
+    )
+}
+
+/// How far the runs go towards what each law of mechanics allows.
+fn mechanics(runs: &[RunSummary]) -> String {
+    if runs.is_empty() {
+        return String::new();
+    }
+    let laws = Law::ALL.map(|law| {
+        let deviations = runs
+            .iter()
+            .filter_map(|run| run.mechanics.as_ref()?.0.get(&law));
+        let share = deviations.map(|deviation| deviation.size / deviation.bound);
+        let share = share.fold(None, |most: Option<f64>, share| {
+            Some(share.max(most.unwrap_or(0.0)))
+        });
+        format!(
+            "{} {}",
+            law.as_str(),
+            share.map_or("not tested".to_owned(), |share| format!("{share:.2}"))
+        )
+    });
+    format!(
+        "   Mechanics (docs/theory.md, 8.6), largest deviation in units of the allowed one: {},\n   {}.\n",
+        laws[..2].join(", "),
+        laws[2..].join(", ")
     )
 }
 

@@ -329,6 +329,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
         witness: CASE,
         is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
         files,
+        open: &[],
         scratch: Some(HOME),
     }
 }
@@ -339,6 +340,7 @@ fn vtk_layout() -> Layout {
         witness: VTK_COLLECTION,
         is_ours: is_vtk_collection,
         files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
+        open: &[],
         scratch: None,
     }
 }

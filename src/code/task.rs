@@ -1,8 +1,8 @@
 //! Tasks: cases, micro-tests and pyramids, each with its inputs and its outcome.
 
 use super::format::pyramid_in_log;
-use super::manifest::{ResultFile, TaskKind};
-use super::parameters;
+use super::manifest::{Definition, ResultFile, TaskKind};
+use super::parameters::{self, only_numbers};
 use super::registry::Code;
 use super::written::{STANDARD_ERROR, STANDARD_OUTPUT, read};
 use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
@@ -131,6 +131,25 @@ impl Task for Pyramid {
     ) -> Result<PyramidRun, SeriesError> {
         let [log, dump] = [result.file.as_str(), CENTRES].map(|name| read(directory, name));
         pyramid_in_log(&log?, &dump?, self)
+    }
+}
+
+impl Definition {
+    /// The files of `task` alone, by name and content: its parameters, and what else it needs. The decks, which other
+    /// tasks share, are [`Self::files`].
+    ///
+    /// # Errors
+    /// If a parameter is not a finite number.
+    pub(super) fn files_of<T: Task>(
+        &self,
+        task: &T,
+    ) -> Result<Vec<(String, String)>, InvalidValue> {
+        let (file, parameters) = (&self.parameters, task.parameters());
+        only_numbers(&parameters)?;
+        let mut files = vec![(file.file.clone(), file.format.content(&parameters))];
+        let further = task.files().into_iter();
+        files.extend(further.map(|(name, content)| (name.to_owned(), content)));
+        Ok(files)
     }
 }
 

@@ -22,6 +22,8 @@ pub(crate) struct Layout {
     pub(crate) is_ours: fn(&[u8]) -> bool,
     /// The other files, as paths in the directory; one `*` in a name stands for letters, digits, `-`, `_` and `.`.
     pub(crate) files: Vec<String>,
+    /// Directories in which others may put what they like; what they put there is neither read nor replaced.
+    pub(crate) open: &'static [&'static str],
     /// The beginning of the name of temporary directories, which a killed program leaves behind.
     pub(crate) scratch: Option<&'static str>,
 }
@@ -33,6 +35,7 @@ impl Layout {
             witness,
             is_ours: is_table,
             files: files.iter().map(|&name| name.to_owned()).collect(),
+            open: &[],
             scratch: None,
         }
     }
@@ -61,6 +64,10 @@ impl Layout {
             let found = below(directory, &folder);
             for (path, kind) in found.map_err(FileError::reading(&directory.join(&folder)))? {
                 if kind.is_dir() && self.is_scratch(&path) {
+                    continue;
+                }
+                if kind.is_dir() && self.is_open(&path) {
+                    results.push((path, kind));
                     continue;
                 }
                 if !self.knows(&path, kind) {
@@ -98,6 +105,10 @@ impl Layout {
         scratch.is_some_and(|prefix| is_temporary(path.as_os_str(), prefix))
     }
 
+    fn is_open(&self, path: &Path) -> bool {
+        self.open.iter().any(|&name| Path::new(name) == path)
+    }
+
     fn has_witness(&self, directory: &Path) -> bool {
         let content = read_bounded(
             &directory.join(self.witness),
@@ -110,7 +121,7 @@ impl Layout {
     fn foreign(&self, directory: &Path, path: &Path, found: FileType) -> FileError {
         let name = shown(path);
         let what = match found {
-            found if found.is_file() && self.knows(path, found) => format!(
+            found if found.is_file() && self.knows(path, found) || self.is_open(path) => format!(
                 "it holds `{name}`, but no `{}` that tristack wrote",
                 self.witness
             ),
@@ -171,6 +182,7 @@ mod tests {
             witness: "table.json",
             is_ours: is_table,
             files: vec!["table.csv".to_owned(), "figures/*.svg".to_owned()],
+            open: &["runs"],
             scratch: Some(".home-"),
         }
     }
@@ -197,6 +209,7 @@ mod tests {
 
     #[test]
     fn an_empty_directory_and_one_with_earlier_results_are_accepted() {
+        let own = ("table.json", WITNESS);
         for files in [
             vec![],
             vec![(".table.csv.draft-abcdefABCDEF", "half a ta")],
@@ -208,6 +221,7 @@ mod tests {
             ],
             vec![("table.json", WITNESS), ("figures/", "")],
             vec![(".home-abcdefABCDEF/.cache/anything", "")],
+            vec![own, ("runs/anything/at.all", "")],
         ] {
             assert_eq!(claim(&files), Ok(()), "{files:?}");
         }
@@ -234,6 +248,10 @@ mod tests {
             (
                 vec![own, (".home-mine/", "")],
                 "`.home-mine`, a directory that",
+            ),
+            (
+                vec![("runs/mine", "")],
+                "`runs`, but no `table.json` that tristack wrote",
             ),
             (
                 vec![own, ("figures/mine.png", "")],

@@ -3,8 +3,8 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, probe, pyramids,
-    regimes, scaling, simulations, theory, trajectories,
+    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, planned_runs,
+    probe, pyramids, regimes, scaling, simulations, theory, trajectories,
 };
 use crate::series::{Column, MotionRow, Sample};
 
@@ -51,6 +51,7 @@ pub fn formats_page() -> String {
         scaling(&[]),
         pyramids(&[]),
         inventory(&[]),
+        planned_runs(&[], &[]),
     ];
     tables.extend(declared_tables());
     let described = tables

@@ -9,9 +9,11 @@ mod formats;
 mod inventory;
 mod number;
 mod page;
+mod plan;
 mod probe;
 mod regimes;
 mod simulation;
+mod start_list;
 mod table;
 mod theory;
 mod trajectory;
@@ -31,11 +33,13 @@ pub(crate) use forecast::{forecast_text, forecasts};
 pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
+pub(crate) use plan::planned_runs;
 pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,
 };
 pub(crate) use simulation::simulations;
+pub(crate) use start_list::{parallel_list, slurm_array, start_list};
 pub(crate) use table::json;
 pub(crate) use theory::{theories_by_stack, theory};
 pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};

@@ -24,4 +24,5 @@ pub use measured::probe_all;
 pub(crate) use measured::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
+pub(crate) use probe::ROUNDS;
 pub use probe::probe;

@@ -14,7 +14,7 @@ pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
 pub(crate) use judgement::peak_allowance;
 pub use judgement::{Judgement, YieldForce};
 pub use plan::{Measurement, Method, NoYield, plan, protocol_at_speed};
-pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, planned_protocol};
+pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, planned, planned_protocol};
 pub(crate) use profile::PAPER_STIFFNESSES;
 pub use profile::Profile;
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};

@@ -9,6 +9,7 @@ use crate::model::{
 };
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::{Limit, quasistatic_limit};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
@@ -61,7 +62,8 @@ pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
 /// How the yield force is read off the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Slip onset, extrapolated to vanishing wall speed.
     Extrapolated,
@@ -149,7 +151,8 @@ impl Measurement {
     }
 }
 
-fn planned(
+/// Plans the measurement of `stack` with `code` under `convention`, its yield force to be read by `method`.
+pub(crate) fn planned(
     code: Code,
     stack: &Stack,
     convention: ContactConvention,

@@ -1,7 +1,8 @@
 //! `tristack judge`.
 
 use super::crosscheck::{conclude, layout, publish};
-use super::options::{CodeParser, Format};
+use super::judge_series::{self, SeriesArguments};
+use super::options::{CodeParser, Format, options_of};
 use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Failure, FailureKind};
@@ -20,20 +21,29 @@ const UNKNOWN_VERSION: &str = "unknown";
 /// Reads the results in the directories of a plan, and judges them as `tristack crosscheck` judges runs that it makes
 /// itself. Says which results are missing, incomplete or malformed; may be repeated while runs come in. Starts no
 /// program, and keeps nothing in the store.
+///
+/// With --series, three or more series of one stack are judged without a plan: slip onset and peak, extrapolated to
+/// vanishing wall speed, against the exact limit under the arms that are given (the paper's, if none). What the
+/// uncertainty lacks is said, with the run that would make it known; until then nothing agrees.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: tristack judge away --code-version 7.2 --out verdict")]
+#[command(
+    after_help = "Examples: tristack judge away --code-version 7.2 --out verdict\n          \
+    tristack judge --series v4.csv v2.csv v1.csv --speeds 4e-4,2e-4,1e-4 --mu 0.3 --stiffness 100 --pair-arm -0.5"
+)]
 pub(super) struct Arguments {
     /// Directory of a plan
-    #[arg(value_name = "DIR")]
-    plan: PathBuf,
+    #[arg(value_name = "DIR", required_unless_present = "series", conflicts_with_all = options_of::<SeriesArguments>())]
+    plan: Option<PathBuf>,
+    #[command(flatten)]
+    series: SeriesArguments,
     /// Folder of the code, if it is no longer where it was planned
-    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
+    #[arg(long, value_parser = CodeParser, value_name = "CODE", conflicts_with = "series")]
     code: Option<Code>,
     /// Version of the program that made the results
-    #[arg(long, value_name = "TEXT", value_parser = one_line, default_value = UNKNOWN_VERSION)]
+    #[arg(long, value_name = "TEXT", value_parser = one_line, default_value = UNKNOWN_VERSION, conflicts_with = "series")]
     code_version: String,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "series")]
     out: Option<PathBuf>,
     /// Format of the rows
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -42,7 +52,9 @@ pub(super) struct Arguments {
 
 /// Judges what is there, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let root = arguments.plan.as_path();
+    let Some(root) = arguments.plan.as_deref() else {
+        return judge_series::run(&arguments.series, arguments.format, command);
+    };
     let path = root.join(PLAN);
     let plan = Plan::read(root)?.ok_or_else(|| {
         let message = "there is none; accepted is a directory that tristack plan has written";

@@ -9,6 +9,7 @@ mod explain;
 mod guard;
 mod interrupt;
 mod judge;
+mod judge_series;
 mod options;
 mod out;
 mod plan;

@@ -8,7 +8,7 @@ use crate::code::{Code, FailureKind, PlannedRun};
 use crate::files::{FileError, Layout};
 use crate::model::{InvalidValue, shell_quoted, shown};
 use crate::output::{parallel_list, planned_runs, slurm_array, start_list};
-use crate::study::{PLAN, Plan, PlannedRow, RUN_DIRECTORIES};
+use crate::study::{PLAN, Plan, PlannedRow};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -119,7 +119,7 @@ fn lists(code: Code, open: &[&PlannedRun]) -> Vec<(&'static str, String)> {
 
 fn layout() -> Layout {
     Layout {
-        open: &RUN_DIRECTORIES,
+        shared: true,
         ..Layout::tables(PLAN, &[START, PARALLEL, SLURM])
     }
 }

@@ -329,7 +329,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
         witness: CASE,
         is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
         files,
-        open: &[],
+        shared: false,
         scratch: Some(HOME),
     }
 }
@@ -340,7 +340,7 @@ fn vtk_layout() -> Layout {
         witness: VTK_COLLECTION,
         is_ours: is_vtk_collection,
         files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
-        open: &[],
+        shared: false,
         scratch: None,
     }
 }

@@ -22,8 +22,9 @@ pub(crate) struct Layout {
     pub(crate) is_ours: fn(&[u8]) -> bool,
     /// The other files, as paths in the directory; one `*` in a name stands for letters, digits, `-`, `_` and `.`.
     pub(crate) files: Vec<String>,
-    /// Directories in which others may put what they like; what they put there is neither read nor replaced.
-    pub(crate) open: &'static [&'static str],
+    /// Whether others may put what they like into the directory once the witness is there. Nothing is replaced then but
+    /// the files of the layout.
+    pub(crate) shared: bool,
     /// The beginning of the name of temporary directories, which a killed program leaves behind.
     pub(crate) scratch: Option<&'static str>,
 }
@@ -35,7 +36,7 @@ impl Layout {
             witness,
             is_ours: is_table,
             files: files.iter().map(|&name| name.to_owned()).collect(),
-            open: &[],
+            shared: false,
             scratch: None,
         }
     }
@@ -46,11 +47,12 @@ impl Layout {
     /// If the directory holds anything else, or cannot be written to.
     pub(crate) fn claim(&self, directory: &Path) -> Result<(), FileError> {
         fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
-        let results = self.results(directory)?;
-        if let Some((path, kind)) = results.first()
-            && !self.has_witness(directory)
-        {
-            return Err(self.foreign(directory, path, *kind));
+        let known = self.has_witness(directory);
+        if !(known && self.shared) {
+            let results = self.results(directory)?;
+            if let Some((path, kind)) = results.first().filter(|_| !known) {
+                return Err(self.foreign(directory, path, *kind));
+            }
         }
         tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
         Ok(())
@@ -64,10 +66,6 @@ impl Layout {
             let found = below(directory, &folder);
             for (path, kind) in found.map_err(FileError::reading(&directory.join(&folder)))? {
                 if kind.is_dir() && self.is_scratch(&path) {
-                    continue;
-                }
-                if kind.is_dir() && self.is_open(&path) {
-                    results.push((path, kind));
                     continue;
                 }
                 if !self.knows(&path, kind) {
@@ -105,10 +103,6 @@ impl Layout {
         scratch.is_some_and(|prefix| is_temporary(path.as_os_str(), prefix))
     }
 
-    fn is_open(&self, path: &Path) -> bool {
-        self.open.iter().any(|&name| Path::new(name) == path)
-    }
-
     fn has_witness(&self, directory: &Path) -> bool {
         let content = read_bounded(
             &directory.join(self.witness),
@@ -121,7 +115,7 @@ impl Layout {
     fn foreign(&self, directory: &Path, path: &Path, found: FileType) -> FileError {
         let name = shown(path);
         let what = match found {
-            found if found.is_file() && self.knows(path, found) || self.is_open(path) => format!(
+            found if found.is_file() && self.knows(path, found) => format!(
                 "it holds `{name}`, but no `{}` that tristack wrote",
                 self.witness
             ),
@@ -182,7 +176,7 @@ mod tests {
             witness: "table.json",
             is_ours: is_table,
             files: vec!["table.csv".to_owned(), "figures/*.svg".to_owned()],
-            open: &["runs"],
+            shared: false,
             scratch: Some(".home-"),
         }
     }
@@ -209,7 +203,6 @@ mod tests {
 
     #[test]
     fn an_empty_directory_and_one_with_earlier_results_are_accepted() {
-        let own = ("table.json", WITNESS);
         for files in [
             vec![],
             vec![(".table.csv.draft-abcdefABCDEF", "half a ta")],
@@ -221,7 +214,6 @@ mod tests {
             ],
             vec![("table.json", WITNESS), ("figures/", "")],
             vec![(".home-abcdefABCDEF/.cache/anything", "")],
-            vec![own, ("runs/anything/at.all", "")],
         ] {
             assert_eq!(claim(&files), Ok(()), "{files:?}");
         }
@@ -250,10 +242,6 @@ mod tests {
                 "`.home-mine`, a directory that",
             ),
             (
-                vec![("runs/mine", "")],
-                "`runs`, but no `table.json` that tristack wrote",
-            ),
-            (
                 vec![own, ("figures/mine.png", "")],
                 "`figures/mine.png`, which",
             ),
@@ -274,6 +262,21 @@ mod tests {
                 "{refusal}"
             );
         }
+    }
+
+    #[test]
+    fn a_shared_directory_may_hold_anything_once_its_witness_is_there() {
+        let shared = Layout {
+            shared: true,
+            ..layout()
+        };
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("notes.md"), "mine").unwrap();
+        let refusal = shared.claim(root.path()).unwrap_err().to_string();
+        assert!(refusal.contains("`notes.md`, which"), "{refusal}");
+        fs::write(root.path().join("table.json"), WITNESS).unwrap();
+        shared.claim(root.path()).unwrap();
+        assert!(layout().claim(root.path()).is_err());
     }
 
     #[test]

@@ -130,13 +130,19 @@ fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let reference = row.judged_reference();
     let load = reference.map_or(f64::NAN, |force| force + 3.0);
     let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
-    let total = ("total", "sum, as if all conspired", slip.budget.total());
-    let table = Columns::<(&str, &str, f64)>::for_people()
+    let total = (
+        "total",
+        "sum, as if all conspired",
+        Some(slip.budget.total()),
+    );
+    let table = Columns::<(&str, &str, Option<f64>)>::for_people()
         .left("part of u_num", |(name, ..)| name.to_string())
         .left("how", |(_, how, _)| how.to_string())
-        .right("m g", |(.., value)| format!("{value:.1e}"))
+        .right("m g", |(.., value)| {
+            optional(*value, |value| format!("{value:.1e}"))
+        })
         .right("of F + 3", move |(.., value)| {
-            format!("{:.1e}", value / load)
+            optional(*value, |value| format!("{:.1e}", value / load))
         })
         .rows(parts.into_iter().chain([total]));
     format!(

@@ -3,8 +3,8 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, planned_runs,
-    probe, pyramids, regimes, scaling, simulations, theory, trajectories,
+    bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series, largest_forces,
+    planned_runs, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
 };
 use crate::series::{Column, MotionRow, Sample};
 
@@ -53,6 +53,7 @@ pub fn formats_page() -> String {
         inventory(&[]),
         planned_runs(&[], &[]),
     ];
+    tables.extend(judged_series(None));
     tables.extend(declared_tables());
     let described = tables
         .iter()

@@ -12,6 +12,7 @@ mod page;
 mod plan;
 mod probe;
 mod regimes;
+mod series;
 mod simulation;
 mod start_list;
 mod table;
@@ -38,6 +39,7 @@ pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,
 };
+pub(crate) use series::{judged_series, judged_series_text};
 pub(crate) use simulation::simulations;
 pub(crate) use start_list::{parallel_list, slurm_array, start_list};
 pub(crate) use table::json;

@@ -104,6 +104,9 @@ fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
     ends.is_some() && fine.next().is_none()
 }
 
+/// Most rows of a series that nobody has planned: as many as a plan may have.
+const MOST_UNPLANNED_ROWS: usize = 1_000_000;
+
 /// A checked time series of one compression.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
@@ -138,26 +141,33 @@ impl Series {
 
     /// Reads the shared CSV format and checks it against the plan.
     pub fn read(input: impl Read, protocol: &Protocol) -> Result<Self, SeriesError> {
-        let mut reader = csv::Reader::from_reader(input);
-        let header = reader.headers();
-        let header = header.map_err(|error| SeriesError::garbled(0, error))?;
-        if !header.iter().eq(Series::COLUMNS) {
-            return Err(SeriesError::Columns {
-                found: readable(&header.iter().collect::<Vec<_>>().join(",")),
-            });
-        }
-        let mut record = csv::ByteRecord::new();
-        // Fields are taken by position: the header has them in the order of `Sample`.
-        let mut row = move || match reader.read_byte_record(&mut record) {
-            Ok(true) => Some(record.deserialize(None)),
-            Ok(false) => None,
-            Err(error) => Some(Err(error)),
-        };
-        let garbled = SeriesError::garbled;
-        let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
         // One row too many is enough to refuse the series.
-        let rows = rows.take(planned_rows(&protocol.schedule()).saturating_add(1));
-        Self::new(rows.collect::<Result<_, _>>()?, protocol)
+        let limit = planned_rows(&protocol.schedule()).saturating_add(1);
+        Self::new(rows(input, limit)?, protocol)
+    }
+
+    /// Reads a series that nobody has planned, with its time step: finite numbers, steps that rise, and times that are
+    /// multiples of one time step.
+    pub fn read_unplanned(input: impl Read) -> Result<(Self, f64), SeriesError> {
+        let samples = rows(input, MOST_UNPLANNED_ROWS)?;
+        let last = samples.last().filter(|last| last.step > 0);
+        let last = last.ok_or_else(|| SeriesError::absent("it has no row after step 0"))?;
+        let time_step = last.time / last.step as f64;
+        if !(time_step > 0.0) {
+            let message = format!("`time` is {}, but must rise from 0", last.time);
+            return Err(SeriesError::garbled(samples.len(), message));
+        }
+        let mut before = None;
+        for (row, sample) in (1..).zip(&samples) {
+            check_finite(row, sample)?;
+            if before.is_some_and(|before| sample.step <= before) {
+                let message = format!("step {} does not come after the one before", sample.step);
+                return Err(SeriesError::garbled(row, message));
+            }
+            before = Some(sample.step);
+            check_time(row, sample, time_step)?;
+        }
+        Ok((Self { samples }, time_step))
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.
@@ -179,6 +189,28 @@ impl Series {
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
+}
+
+/// The rows of the shared CSV format, at most so many.
+fn rows(input: impl Read, limit: usize) -> Result<Vec<Sample>, SeriesError> {
+    let mut reader = csv::Reader::from_reader(input);
+    let header = reader.headers();
+    let header = header.map_err(|error| SeriesError::garbled(0, error))?;
+    if !header.iter().eq(Series::COLUMNS) {
+        return Err(SeriesError::Columns {
+            found: readable(&header.iter().collect::<Vec<_>>().join(",")),
+        });
+    }
+    let mut record = csv::ByteRecord::new();
+    // Fields are taken by position: the header has them in the order of `Sample`.
+    let mut row = move || match reader.read_byte_record(&mut record) {
+        Ok(true) => Some(record.deserialize(None)),
+        Ok(false) => None,
+        Err(error) => Some(Err(error)),
+    };
+    let garbled = SeriesError::garbled;
+    let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
+    rows.take(limit).collect()
 }
 
 fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {

@@ -12,8 +12,6 @@ use std::path::{Path, PathBuf};
 
 /// The file that holds a plan.
 pub(crate) const PLAN: &str = "plan.json";
-/// Directories of runs in that of a plan.
-pub(crate) const RUN_DIRECTORIES: [&str; 2] = ["probe", "runs"];
 const SCHEMA: &str = "tristack/plan/1";
 /// Largest plan that is read, in bytes: some hundred thousand runs.
 const LARGEST_PLAN: u64 = 1 << 28;

@@ -16,7 +16,7 @@ mod verdict;
 pub mod yield_force;
 
 pub use elsewhere::Plan;
-pub(crate) use elsewhere::{PLAN, PlannedRow, RUN_DIRECTORIES};
+pub(crate) use elsewhere::{PLAN, PlannedRow};
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
 pub(crate) use verdict::Ground;

@@ -1,7 +1,8 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
-use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
+use super::runs::{MIDDLE_RUN, PLAIN_RUNS, RunRoles, SPEEDS};
 use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
+use crate::theory::bracketed_root;
 
 /// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,10 +11,12 @@ pub struct Budget {
     pub wall_speed: f64,
     /// Change of the middle run with the time step doubled: the error of the single step if it is of first
     /// order, three times that if it is of second.
-    pub time_step: f64,
+    /// Absent if there is no such run.
+    pub time_step: Option<f64>,
     /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
     /// state by an amount inversely proportional to its duration, so that this is the shift itself.
-    pub preparation: f64,
+    /// Absent if there is no such run.
+    pub preparation: Option<f64>,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
     /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
@@ -37,8 +40,10 @@ pub(crate) struct BudgetPart {
     pub heading: &'static str,
     /// Its formula, in words.
     pub how: &'static str,
-    /// Its value in m g.
-    pub value: fn(&Budget) -> f64,
+    /// The run by which it becomes known; empty where no further run is needed.
+    pub known_by: &'static str,
+    /// Its value in m g; absent if it is not known.
+    pub value: fn(&Budget) -> Option<f64>,
 }
 
 impl Budget {
@@ -48,50 +53,64 @@ impl Budget {
             name: "wall_speed",
             heading: "wall speed",
             how: "parabola minus straight line",
-            value: |budget| budget.wall_speed,
+            known_by: "",
+            value: |budget| Some(budget.wall_speed),
         },
         BudgetPart {
             name: "time_step",
             heading: "time step",
             how: "run 4 minus run 2 (time step doubled)",
+            known_by: "a run at the middle wall speed with twice the time step (--coarse-step)",
             value: |budget| budget.time_step,
         },
         BudgetPart {
             name: "preparation",
             heading: "preparation",
             how: "run 5 minus run 2 (gravity ramp halved)",
+            known_by: "a run at the middle wall speed with half the gravity ramp (--short-ramp)",
             value: |budget| budget.preparation,
         },
         BudgetPart {
             name: "sampling",
             heading: "sampling",
             how: "distance between interpolations, weighted",
-            value: |budget| budget.sampling,
+            known_by: "",
+            value: |budget| Some(budget.sampling),
         },
         BudgetPart {
             name: "round_off",
             heading: "round-off",
             how: "random walk of rounding, amplified, weighted",
-            value: |budget| budget.round_off,
+            known_by: "",
+            value: |budget| Some(budget.round_off),
         },
         BudgetPart {
             name: "print_precision",
             heading: "print precision",
             how: "half a unit of the last digit printed, amplified, weighted",
-            value: |budget| budget.print_precision,
+            known_by: "",
+            value: |budget| Some(budget.print_precision),
         },
         BudgetPart {
             name: "shortcuts",
             heading: "shortcuts",
             how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
-            value: |budget| budget.shortcuts,
+            known_by: "",
+            value: |budget| Some(budget.shortcuts),
         },
     ];
 
-    /// The expanded uncertainty: the sum of the parts, which is never below their root sum of squares, by which V&V 20
+    /// The expanded uncertainty: the sum of the known parts, which is never below their root sum of squares, by which V&V 20
     /// combines independent parts.
     pub fn total(&self) -> f64 {
-        Self::PARTS.iter().map(|part| (part.value)(self)).sum()
+        let parts = Self::PARTS.iter();
+        parts.filter_map(|part| (part.value)(self)).sum()
+    }
+
+    /// The parts that are not known.
+    pub(crate) fn unknown(&self) -> impl Iterator<Item = BudgetPart> {
+        let parts = Self::PARTS.into_iter();
+        parts.filter(|part| !part.known_by.is_empty() && (part.value)(self).is_none())
     }
 }
 
@@ -121,10 +140,10 @@ impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
     pub(crate) const EXPECTED: f64 = 1.0;
 
-    /// The order of forces at three speeds, each half the one before, known up to `noise`. The term of second order
-    /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
-    /// that moves the order by less than 0.01. Five times as much is allowed.
-    fn of(forces: &[f64], noise: f64) -> Self {
+    /// The order of forces at three `speeds` in units of the displacement, known up to `noise`. The term of second order
+    /// is smaller than that of first by about the speed itself; at the planned speeds, at most 2e-3, that moves the order
+    /// by less than 0.01. Five times as much is allowed, and in proportion at faster ones.
+    fn of(speeds: &[f64; 3], forces: &[f64], noise: f64) -> Self {
         const CURVATURE: f64 = 0.05;
         let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
         let smallest = differences[0].min(differences[1]);
@@ -135,9 +154,10 @@ impl ConvergenceOrder {
             };
         }
         let relative_noise = 2.0 * noise / smallest;
+        let curvature = CURVATURE * (speeds[0] / SPEEDS[0]).max(1.0);
         Self {
-            observed: Some(libm::log2(differences[0] / differences[1])),
-            allowance: CURVATURE + 2.0 * relative_noise / std::f64::consts::LN_2,
+            observed: order(speeds, differences[0] / differences[1]),
+            allowance: curvature + 2.0 * relative_noise / std::f64::consts::LN_2,
         }
     }
 
@@ -147,6 +167,23 @@ impl ConvergenceOrder {
         self.observed
             .is_none_or(|observed| off(observed) <= self.allowance)
     }
+}
+
+/// The order p at which the differences between three speeds have this `ratio`: (v₁ᵖ − v₂ᵖ)/(v₂ᵖ − v₃ᵖ).
+fn order(speeds: &[f64; 3], ratio: f64) -> Option<f64> {
+    /// Far beyond every order that a series shows.
+    const HIGHEST: f64 = 20.0;
+    let [fast, middle, slow] = *speeds;
+    if fast / middle == middle / slow {
+        return Some(libm::log2(ratio) / libm::log2(fast / middle));
+    }
+    // Divided by p, so that the order 0, a logarithm, is no exception.
+    let power = |speed: f64, order: f64| libm::expm1(order * libm::log(speed / middle));
+    let excess = |order: f64| {
+        let order = if order == 0.0 { f64::EPSILON } else { order };
+        -power(fast, order) / power(slow, order) - ratio
+    };
+    bracketed_root(excess, -HIGHEST, HIGHEST)
 }
 
 /// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
@@ -159,7 +196,7 @@ const PRINTED: f64 = 0.5e-16;
 /// spacings after the last of them at most, 10 + 20 + 15 + 4; and the measured friction counts once more.
 const ROW_WEIGHTS: f64 = 50.0;
 
-/// Extrapolates one estimator over the runs of a measurement, in the order of its cases, which take so many
+/// Extrapolates one estimator over the runs of a planned measurement, in the order of its cases, which take so many
 /// `steps` each. `None` if it is absent from any of them.
 pub fn extrapolate(
     estimates: &[YieldEstimates],
@@ -167,13 +204,30 @@ pub fn extrapolate(
     stiffness: f64,
     estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
 ) -> Option<Extrapolation> {
+    extrapolate_runs(&RunRoles::PLANNED, estimates, steps, stiffness, estimator)
+}
+
+/// The same over runs that play these `roles`.
+pub(crate) fn extrapolate_runs(
+    roles: &RunRoles,
+    estimates: &[YieldEstimates],
+    steps: &[u64],
+    stiffness: f64,
+    estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
+) -> Option<Extrapolation> {
+    let speeds = &roles.speeds;
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
-    let by_speed = all.get(..SPEEDS.len())?;
+    let by_speed = all.get(..speeds.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
+    // A run that there should be, and is not, leaves no budget.
+    let change = |run: Option<usize>| match run {
+        Some(run) => change_from_middle(run).map(Some),
+        None => Some(None),
+    };
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
-    let force = value_at_zero(&SPEEDS, &forces);
-    let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
-    let weights = weights_at_zero(&SPEEDS);
+    let force = value_at_zero(speeds, &forces);
+    let first_order = value_at_zero(&speeds[1..], &forces[1..]);
+    let weights = weights_at_zero(speeds);
     let amplified = |error: &dyn Fn(&Estimate, usize) -> f64| -> f64 {
         let terms = weights.iter().zip(by_speed).enumerate();
         let terms = terms.map(|(run, (weight, estimate))| weight.abs() * error(estimate, run));
@@ -189,8 +243,8 @@ pub fn extrapolate(
     };
     let budget = Budget {
         wall_speed: (force - first_order).abs(),
-        time_step: change_from_middle(COARSE_TIME_STEP_RUN)?,
-        preparation: change_from_middle(SHORT_RAMP_RUN)?,
+        time_step: change(roles.coarse_time_step)?,
+        preparation: change(roles.short_ramp)?,
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
@@ -210,7 +264,7 @@ pub fn extrapolate(
         force,
         first_order,
         budget,
-        order: ConvergenceOrder::of(&forces, noise),
+        order: ConvergenceOrder::of(speeds, &forces, noise),
     })
 }
 
@@ -270,8 +324,8 @@ mod tests {
         assert!((order - 1.0).abs() < 1e-12);
         assert!(result.order.is_expected());
         assert!(result.budget.wall_speed < 1e-12);
-        assert!((result.budget.time_step - 3e-4).abs() < 1e-12);
-        assert!((result.budget.preparation - 1e-4).abs() < 1e-12);
+        assert!((result.budget.time_step.unwrap() - 3e-4).abs() < 1e-12);
+        assert!((result.budget.preparation.unwrap() - 1e-4).abs() < 1e-12);
         assert!((result.budget.sampling - 5e-9).abs() < 1e-15);
     }
 
@@ -319,8 +373,8 @@ mod tests {
     fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
         let budget = Budget {
             wall_speed: 1.0,
-            time_step: 2.0,
-            preparation: 4.0,
+            time_step: Some(2.0),
+            preparation: Some(4.0),
             sampling: 8.0,
             round_off: 16.0,
             print_precision: 32.0,
@@ -335,9 +389,17 @@ mod tests {
             ("print precision", 32.0),
             ("shortcuts", 64.0),
         ];
-        let named = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget)));
+        let named = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget).unwrap()));
         assert_eq!(named, parts);
         assert_eq!(budget.total(), 127.0);
+        assert_eq!(budget.unknown().count(), 0);
+        let unknown = Budget {
+            time_step: None,
+            ..budget
+        };
+        assert_eq!(unknown.total(), 125.0);
+        let names: Vec<&str> = unknown.unknown().map(|part| part.heading).collect();
+        assert_eq!(names, ["time step"]);
     }
 
     #[test]
@@ -360,7 +422,7 @@ mod tests {
         assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
         // The noise in the order is that of the noisiest run, here the longest.
         let noise = 1e-9 + one_step * 200.0;
-        let allowance = ConvergenceOrder::of(&[10.4, 10.2, 10.1], noise).allowance;
+        let allowance = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], noise).allowance;
         assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);
     }
 
@@ -391,15 +453,21 @@ mod tests {
     #[test]
     fn an_order_is_observed_as_soon_as_differences_exceed_twice_the_noise() {
         let forces = [2.0, 1.0, 0.5];
-        assert_eq!(ConvergenceOrder::of(&forces, 0.25).observed, None);
-        assert_eq!(ConvergenceOrder::of(&forces, 0.25).allowance, f64::INFINITY);
-        assert_eq!(ConvergenceOrder::of(&forces, 0.249).observed, Some(1.0));
+        assert_eq!(ConvergenceOrder::of(&SPEEDS, &forces, 0.25).observed, None);
+        assert_eq!(
+            ConvergenceOrder::of(&SPEEDS, &forces, 0.25).allowance,
+            f64::INFINITY
+        );
+        assert_eq!(
+            ConvergenceOrder::of(&SPEEDS, &forces, 0.249).observed,
+            Some(1.0)
+        );
     }
 
     #[test]
     fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
         // Each of two differences of which the smaller is 0.1 may be off by 0.002.
-        let order = ConvergenceOrder::of(&[10.4, 10.2, 10.1], 1e-3);
+        let order = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], 1e-3);
         let expected = 0.05 + 2.0 * 0.02 / 2f64.ln();
         assert!((order.allowance - expected).abs() < 1e-12);
         let at_the_limit = |observed| ConvergenceOrder {

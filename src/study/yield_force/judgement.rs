@@ -1,8 +1,10 @@
 //! The yield force that the runs of a measurement show, compared with the exact limit.
 
-use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error};
+use super::extrapolate::{
+    Budget, ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error,
+};
 use super::plan::{Measurement, Method};
-use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
+use super::runs::{MIDDLE_RUN, SPEEDS};
 use crate::code::Code;
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
@@ -173,6 +175,7 @@ impl<'a> Reader<'a> {
         self.finding.peak_uncertainty = Some(peak_uncertainty);
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
+            self.doubt_unknown_parts(&peak.budget);
             self.doubt_few_digits(peak.budget.print_precision, reference);
             if onset.is_none() {
                 return self.grounds.add(Ground::Remark(SLIDES_AT_REST.to_owned()));
@@ -181,6 +184,7 @@ impl<'a> Reader<'a> {
             return self.doubt_deep_wall(reference);
         };
         self.compare(slip.force, slip.budget.total(), onset);
+        self.doubt_unknown_parts(&slip.budget);
         self.doubt_few_digits(slip.budget.print_precision, onset);
         if reference != onset {
             self.finding.force = Some((peak.force, peak_uncertainty));
@@ -322,7 +326,9 @@ impl<'a> Reader<'a> {
         let (Some(rest), Some(begun), Some(Some(hastened))) = (
             self.measurement.limit.rest,
             begun.collect::<Option<Vec<_>>>(),
-            runs.get(SHORT_RAMP_RUN).map(|run| run.start),
+            self.short_ramp()
+                .and_then(|run| runs.get(run))
+                .map(|run| run.start),
         ) else {
             return;
         };
@@ -366,8 +372,25 @@ impl<'a> Reader<'a> {
         half_units.fold(0.0, f64::max)
     }
 
+    fn short_ramp(&self) -> Option<usize> {
+        self.measurement.roles.short_ramp
+    }
+
+    /// Nothing is decided by a deviation that an unknown part of the budget may explain.
+    fn doubt_unknown_parts(&mut self, budget: &Budget) {
+        for part in budget.unknown() {
+            let note = format!(
+                "the part of the {} in the uncertainty is not known; it would be by {}",
+                part.heading, part.known_by
+            );
+            let up_to = f64::INFINITY;
+            self.grounds.add(Ground::Blur { up_to, note });
+        }
+    }
+
     fn doubt_equal_runs(&mut self) {
-        if self.estimates[MIDDLE_RUN] == self.estimates[SHORT_RAMP_RUN] {
+        let hastened = self.short_ramp().and_then(|run| self.estimates.get(run));
+        if hastened.is_some_and(|hastened| *hastened == self.estimates[MIDDLE_RUN]) {
             self.doubt(
                 "two runs that differ in their preparation gave the same bits: a series is that of another \
                  case, or the code takes no notice of the preparation"

@@ -6,10 +6,12 @@ mod judgement;
 mod plan;
 mod profile;
 mod runs;
+mod series;
 mod touch;
 mod twin;
 
 pub use evidence::Evidence;
+pub(crate) use extrapolate::BudgetPart;
 pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
 pub(crate) use judgement::peak_allowance;
 pub use judgement::{Judgement, YieldForce};
@@ -18,7 +20,8 @@ pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, planned, plan
 pub(crate) use profile::PAPER_STIFFNESSES;
 pub use profile::Profile;
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
-pub use runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
+pub use runs::{MIDDLE_RUN, RunRoles, SHORT_RAMP_RUN};
+pub(crate) use series::{FoundSeries, JudgedSeries, SeriesInput, judge_series};
 pub(crate) use touch::max_touch_speed;
 pub use twin::TwinForce;
 pub(crate) use twin::measure_with_twin;

@@ -1,7 +1,7 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
-use super::extrapolate::{Extrapolation, extrapolate};
-use super::runs::{MIDDLE_RUN, SPEEDS};
+use super::extrapolate::{Extrapolation, extrapolate_runs};
+use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{
@@ -17,8 +17,8 @@ use thiserror::Error;
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
-const RAMP_TIME: f64 = 100.0;
-const REST_TIME: f64 = 100.0;
+pub(super) const RAMP_TIME: f64 = 100.0;
+pub(super) const REST_TIME: f64 = 100.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
@@ -92,6 +92,8 @@ pub struct Measurement {
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
     /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
+    /// Which run is which.
+    pub roles: RunRoles,
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.
@@ -116,7 +118,13 @@ impl Measurement {
         estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        extrapolate(estimates, &steps, self.stack.stiffness, estimator)
+        extrapolate_runs(
+            &self.roles,
+            estimates,
+            &steps,
+            self.stack.stiffness,
+            estimator,
+        )
     }
 
     /// The same with shortcuts in every run, and the two faster runs once more without, which show the effect of the
@@ -181,9 +189,9 @@ pub(crate) fn planned(
         stack: *stack,
         convention,
         method,
-        is_gentle: is_surely_gentle(fastest, stack)
-            || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
+        is_gentle: is_gentle(fastest, stack, &convention),
         cases,
+        roles: RunRoles::PLANNED,
         limit,
         model_form,
     }
@@ -247,7 +255,11 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 /// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
 /// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
 /// yields.
-fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
+pub(super) fn speed_scale(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
@@ -261,6 +273,12 @@ fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> 
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
+}
+
+/// Whether the floor does not slide when a wall of this speed touches the stack.
+pub(super) fn is_gentle(wall_speed: f64, stack: &Stack, convention: &ContactConvention) -> bool {
+    is_surely_gentle(wall_speed, stack)
+        || wall_speed <= LEAST_DIGITS * max_touch_speed(stack, convention)
 }
 
 /// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.

@@ -26,6 +26,16 @@ logs = ["log.txt"]
 [tasks]
 stack = { files = ["stack.deck", "common.deck"] }
 motion = { files = ["motion.deck", "common.deck"] }
+[convention]
+pair = { torque_arm = 0.0 }
+floor = { torque_arm = 0.0 }
+coulomb_operand = "spring-and-damping"
+sliding_spring = "frozen"
+history_update = "rotated"
+tensile_force = "may-pull"
+moment_of_inertia = 0.5
+[integration]
+velocity_lag = 0.5
 "#;
 const ONE_STACK: &str = "--mu 0.3 --stiffness 100";
 
@@ -122,10 +132,10 @@ fn results_of_a_plan_give_the_rows_of_a_live_crosscheck() {
     let bench = bench();
     let options = "--mu 0.2,0.3 --stiffness 100";
     let first = plan(&bench, options);
-    assert!(first.more_micro_tests);
+    assert!(first.continues);
     fill(&bench, &first);
     let second = plan(&bench, options);
-    assert!(!second.more_micro_tests && second.runs.len() > first.runs.len());
+    assert!(!second.continues && second.runs.len() > first.runs.len());
     fill(&bench, &second);
     let version = env!("CARGO_PKG_VERSION");
     let (status, rows, message) = judge(&bench, &format!("--code-version {version} --format csv"));
@@ -264,6 +274,38 @@ fn planning_again_adds_and_changes_nothing_that_is_there() {
         let is_list = path.parent() == Some(&bench.path("away"));
         assert!(is_list || after[&path] == content, "{}", path.display());
     }
+}
+
+/// Runs are planned by the arms, and the arms are measured: three rounds.
+#[test]
+fn a_convention_that_is_left_out_is_measured_before_runs_are_planned() {
+    let bench = bench();
+    let manifest = bench.path("standin/code.toml");
+    let declared = MANIFEST.split("[convention]").next().expect("a beginning");
+    fs::write(manifest, declared).expect("a manifest");
+    let stacks = |plan: &Plan| {
+        let runs = plan.runs.iter();
+        runs.filter(|run| matches!(run.task, PlannedTask::Stack(_)))
+            .count()
+    };
+    for _ in 0..2 {
+        let plan = plan(&bench, ONE_STACK);
+        assert!(plan.continues && stacks(&plan) == 0);
+        let (status, _, message) = judge(&bench, "");
+        assert_eq!(status, Some(3), "{message}");
+        assert!(message.contains("not planned yet: plan again"), "{message}");
+        fill(&bench, &plan);
+    }
+    let plan = plan(&bench, ONE_STACK);
+    assert!(!plan.continues && stacks(&plan) == 5);
+    fill(&bench, &plan);
+    let (status, rows, message) = judge(&bench, "--format csv");
+    assert_eq!(status, Some(0), "{message}");
+    assert!(rows.trim_end().ends_with(",agrees"), "{rows}");
+    assert!(
+        message.contains("standin: measured, because its manifest leaves it out"),
+        "{message}"
+    );
 }
 
 #[test]

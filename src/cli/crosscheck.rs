@@ -1,5 +1,6 @@
 //! `tristack crosscheck`.
 
+use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
@@ -60,6 +61,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         );
     }
     let codes = selected_codes(&arguments.codes.named)?;
+    settle(&codes, &arguments.run)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
     let mut measurements = arguments.stacks.measurements(&names)?;

@@ -1,5 +1,6 @@
 //! `tristack judge`.
 
+use super::convention::settle_with;
 use super::crosscheck::{conclude, layout, publish};
 use super::judge_series::{self, SeriesArguments};
 use super::options::{CodeParser, Format, options_of};
@@ -71,6 +72,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let scratch = tempfile::Builder::new().prefix("tristack-").tempdir();
     let scratch = scratch.map_err(FileError::writing(&std::env::temp_dir()))?;
     let settings = settings(scratch.path())?;
+    settle_with(&codes, &settings, &Quiet);
     let measurements = plan.measurements(code);
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Quiet).carry_out(measurements);
@@ -135,9 +137,9 @@ fn tell_results(plan: &Plan, code: Code, root: &Path) {
     for trouble in others {
         tell!("{trouble}");
     }
-    if plan.more_micro_tests {
+    if plan.continues {
         tell!(
-            "further micro-tests are not planned yet: plan again once the planned ones have results"
+            "further runs follow from results, and are not planned yet: plan again once the planned ones are there"
         );
     }
 }

@@ -144,8 +144,9 @@ fn summary(plan: &Plan, troubles: &[Option<FailureKind>], root: &Path) -> String
             "start them in {directory}: sh {START}, or parallel < {PARALLEL}, or sbatch {SLURM}\n"
         );
     }
-    if plan.more_micro_tests {
-        text += "then: the same tristack plan again, for micro-tests that follow from the results of these\n";
+    if plan.continues {
+        text +=
+            "then: the same tristack plan again, for runs that follow from the results of these\n";
     }
     text + &format!("then: tristack judge {directory}\n")
 }

@@ -92,7 +92,7 @@ impl<'a, T: Task> Batch<'a, T> {
     fn prepare(&self) -> Result<(), FailureKind> {
         self.code.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let accepted = self.code.name.check_convention(task.convention());
+            let accepted = self.code.name.check_convention_of(task);
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;

@@ -82,7 +82,7 @@ impl Code {
         place: &str,
     ) -> Result<PreparedRun, InvalidValue> {
         let (definition, kind) = (self.definition(), task.kind());
-        self.check_convention(task.convention())?;
+        self.check_convention_of(task)?;
         self.check_task(kind)?;
         let command = definition.command(kind, &[".".to_owned()]);
         let environment = definition.program.as_ref();

@@ -154,6 +154,15 @@ impl Definition {
 }
 
 impl Code {
+    /// Refuses a task under another convention than that of the code. Micro-tests are asked for under the declaration,
+    /// whatever they have shown.
+    pub(super) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
+        match task.kind() {
+            TaskKind::Motion => self.check_declaration(task.convention()),
+            _ => self.check_convention(task.convention()),
+        }
+    }
+
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
     pub(crate) fn run_files<T: Task>(self, task: &T) -> Vec<String> {
         let definition = self.definition();

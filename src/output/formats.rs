@@ -3,8 +3,9 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series, largest_forces,
-    planned_runs, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series,
+    largest_forces, measured_convention, planned_runs, probe, pyramids, regimes, scaling,
+    simulations, theory, trajectories,
 };
 use crate::series::{Column, MotionRow, Sample};
 
@@ -39,6 +40,8 @@ pub fn formats_page() -> String {
         budget(&[]),
         trajectories(&[]),
         probe(&[]),
+        measured_convention(&[]),
+        arm_effects(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),

@@ -1,6 +1,6 @@
 //! Campaigns whose runs are made elsewhere: the plan of them, in rounds where later runs depend on earlier results.
 
-use super::convention::{ROUNDS, probe};
+use super::convention::{ROUNDS, probe, settle_by_files};
 use super::yield_force::{Measurement, Method, planned};
 use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, TaskKind};
 use crate::files::{FileError, Links, parse_json, read_bounded};
@@ -43,8 +43,9 @@ pub struct Plan {
     pub version: Option<String>,
     /// The rows that are to be judged.
     pub rows: Vec<PlannedRow>,
-    /// Whether there are micro-tests that can only be planned once the planned ones have results.
-    pub more_micro_tests: bool,
+    /// Whether there are runs that can only be planned once the planned micro-tests have results: further micro-tests,
+    /// and the runs of a code that leaves something out of its convention.
+    pub continues: bool,
     /// Steps of all runs.
     pub steps: u64,
     /// Duration of all runs on one core in seconds, by the forecast of the manifest.
@@ -77,7 +78,7 @@ impl Plan {
     }
 
     /// Plans `rows` for `code`, whose results are expected below `root`, and reads the results that are there already:
-    /// the second round of micro-tests is planned by the first.
+    /// the second round of micro-tests is planned by the first, and what is left out of the convention by both.
     ///
     /// # Errors
     /// If the code cannot run a task.
@@ -88,8 +89,14 @@ impl Plan {
         command: &str,
         version: Option<String>,
     ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
-        let (mut prepared, more_micro_tests) = micro_tests(code, root)?;
-        for row in &rows {
+        let (mut prepared, further) = micro_tests(code, root)?;
+        if !code.is_settled() {
+            let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
+            settle_by_files(&ResultFiles::new(code, "", root, &runs));
+        }
+        // Without micro-tests nothing will settle it.
+        let is_open = !code.is_settled() && !prepared.is_empty();
+        for row in rows.iter().filter(|_| !is_open) {
             prepared.extend(row.runs(code)?);
         }
         let mut known = BTreeSet::new();
@@ -103,7 +110,7 @@ impl Plan {
             folder: code.folder(),
             version,
             rows,
-            more_micro_tests,
+            continues: further || is_open,
             steps: runs.iter().map(|run| run.steps).sum(),
             seconds: runs.iter().map(|run| run.seconds).sum(),
             runs,

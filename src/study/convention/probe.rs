@@ -15,7 +15,8 @@ const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, 
 /// first.
 pub const ROUNDS: usize = 2;
 
-/// Measures every property that `declared` names. `run` carries out micro-tests; it is called [`ROUNDS`] times.
+/// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it
+/// is called [`ROUNDS`] times.
 ///
 /// # Errors
 /// Those of `run`.
@@ -52,5 +53,7 @@ pub fn probe<E>(
         unread = others;
         properties.extend(laws.properties(own, &clock));
     }
-    Ok(properties)
+    let properties = properties.into_iter();
+    let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
+    Ok(properties.collect())
 }

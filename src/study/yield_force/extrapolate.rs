@@ -29,6 +29,8 @@ pub struct Budget {
     /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
     /// Their error is mostly linear in the wall speed, and vanishes with it.
     pub shortcuts: f64,
+    /// Change of the exact limit within the uncertainty of arms that were measured; absent where all are declared.
+    pub convention: Option<f64>,
 }
 
 /// One part of a [`Budget`], as tables and explanations give it.
@@ -42,13 +44,13 @@ pub(crate) struct BudgetPart {
     pub how: &'static str,
     /// The run by which it becomes known; empty where no further run is needed.
     pub known_by: &'static str,
-    /// Its value in m g; absent if it is not known.
+    /// Its value in m g; absent if it is not known, or does not apply.
     pub value: fn(&Budget) -> Option<f64>,
 }
 
 impl Budget {
     /// The parts, in order; the uncertainty is their sum.
-    pub(crate) const PARTS: [BudgetPart; 7] = [
+    pub(crate) const PARTS: [BudgetPart; 8] = [
         BudgetPart {
             name: "wall_speed",
             heading: "wall speed",
@@ -97,6 +99,13 @@ impl Budget {
             how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
             known_by: "",
             value: |budget| Some(budget.shortcuts),
+        },
+        BudgetPart {
+            name: "convention",
+            heading: "convention",
+            how: "slopes of the limit times the uncertainty of measured arms, if any",
+            known_by: "",
+            value: |budget| budget.convention,
         },
     ];
 
@@ -249,6 +258,7 @@ pub(crate) fn extrapolate_runs(
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
         shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
+        convention: None,
     };
     let coarse = |run: usize| estimates[run].printed.is_some();
     let noise = |(run, estimate): (usize, &Estimate)| {
@@ -379,6 +389,7 @@ mod tests {
             round_off: 16.0,
             print_precision: 32.0,
             shortcuts: 64.0,
+            convention: None,
         };
         let parts = [
             ("wall speed", 1.0),
@@ -389,9 +400,19 @@ mod tests {
             ("print precision", 32.0),
             ("shortcuts", 64.0),
         ];
-        let named = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget).unwrap()));
-        assert_eq!(named, parts);
+        let named = |budget: &Budget| {
+            let parts = Budget::PARTS.into_iter();
+            let named = parts.filter_map(|part| Some((part.heading, (part.value)(budget)?)));
+            named.collect::<Vec<_>>()
+        };
+        assert_eq!(named(&budget), parts);
         assert_eq!(budget.total(), 127.0);
+        let measured = Budget {
+            convention: Some(128.0),
+            ..budget
+        };
+        assert_eq!(named(&measured).last(), Some(&("convention", 128.0)));
+        assert_eq!(measured.total(), 255.0);
         assert_eq!(budget.unknown().count(), 0);
         let unknown = Budget {
             time_step: None,

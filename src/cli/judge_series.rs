@@ -83,8 +83,12 @@ pub(super) fn run(
             faster.join(", ")
         );
     }
+    let arms = judged.measurement.convention.arms;
     tell!(
-        "assumed: the stack was prepared by a gravity ramp; another preparation moves the limit (docs/theory.md, 8.4)"
+        "assumed: the stack was prepared by a gravity ramp, and its contacts have the arms {}, {}; others move the \
+         limit (docs/theory.md, 2.3 and 8.4), and other arms the balance of forces as well",
+        arms.pair,
+        arms.floor
     );
     Ok(ExitStatus::of_verdict(verdict).max(printed))
 }

@@ -225,6 +225,11 @@ fn is_there(path: &Path) -> bool {
 
 /// Whether the result at `path`, in which `error` was found, ends before its end: in too few rows, or within a line.
 fn is_a_part(error: &SeriesError, path: &Path) -> bool {
-    let short = matches!(error, SeriesError::Truncated { found, expected } if found < expected);
-    short || read_end(path, 1).is_ok_and(|end| end != b"\n")
+    match error {
+        SeriesError::Truncated { found, expected } => found < expected,
+        SeriesError::Garbled { .. } | SeriesError::Columns { .. } => {
+            read_end(path, 1).is_ok_and(|end| end != b"\n")
+        }
+        _ => false,
+    }
 }

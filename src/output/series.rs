@@ -95,6 +95,11 @@ fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
 fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     let parts = judged.and_then(JudgedSeries::budget).into_iter();
     let parts = parts.flat_map(|budget| Budget::PARTS.map(|part| (part, (part.value)(budget))));
+    // Nobody's series take shortcuts, and arms that are given are not measured.
+    let concerns = |(part, value): &(BudgetPart, Option<f64>)| {
+        part.name != "shortcuts" && (value.is_some() || !part.known_by.is_empty())
+    };
+    let parts = parts.filter(concerns);
     let reference = judged.and_then(|judged| {
         let limit = &judged.measurement.limit;
         limit.slip_onset.or(limit.yield_force)

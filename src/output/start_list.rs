@@ -25,18 +25,16 @@ pub(crate) fn parallel_list(runs: &[&PlannedRun]) -> String {
 
 /// Changes to the directory of the run, and starts it.
 fn start(run: &PlannedRun) -> String {
-    let mut words = Vec::new();
-    if !run.environment.is_empty() {
-        words.push("env".to_owned());
-        let variables = run.environment.iter();
-        words.extend(variables.map(|(name, value)| shell_quoted(&format!("{name}={value}"))));
-    }
-    words.extend(run.command.iter().map(|word| shell_quoted(word)));
-    format!(
-        "cd {} && {} > stdout.txt 2> stderr.txt",
-        shell_quoted(&run.directory),
-        words.join(" ")
-    )
+    let directory = shell_quoted(&run.directory);
+    let variables = run.environment.iter();
+    let variables = variables.map(|(name, value)| shell_quoted(&format!("{name}={value}")));
+    let words = run.command.iter().map(|word| shell_quoted(word));
+    let words: Vec<String> = variables.chain(words).collect();
+    let command = match run.environment.is_empty() {
+        true => words.join(" "),
+        false => format!("env {}", words.join(" ")),
+    };
+    format!("cd {directory} && {command} > stdout.txt 2> stderr.txt")
 }
 
 /// A Slurm array script with all runs in it, so that an array that waits does not see a later plan. A run is given up

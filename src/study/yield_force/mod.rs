@@ -1,8 +1,11 @@
 //! The yield force at vanishing wall speed: plan, extrapolate, judge.
 
+mod budget;
 mod evidence;
 mod extrapolate;
 mod judgement;
+mod limits;
+mod peak;
 mod plan;
 mod profile;
 mod runs;
@@ -10,11 +13,12 @@ mod series;
 mod touch;
 mod twin;
 
+pub use budget::Budget;
+pub(crate) use budget::BudgetPart;
 pub use evidence::Evidence;
-pub(crate) use extrapolate::BudgetPart;
-pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
-pub(crate) use judgement::peak_allowance;
+pub use extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
 pub use judgement::{Judgement, YieldForce};
+pub(crate) use peak::peak_allowance;
 pub use plan::{Measurement, Method, NoYield, plan, protocol_at_speed};
 pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, no_yield, planned, planned_protocol};
 pub(crate) use profile::PAPER_STIFFNESSES;

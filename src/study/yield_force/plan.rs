@@ -1,17 +1,16 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
 use super::extrapolate::{Extrapolation, extrapolate_runs};
+use super::limits::{convention_uncertainty, known_limit};
 use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
-use super::touch::max_touch_speed;
+use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
 use crate::model::{
-    Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
+    Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
 };
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
+use crate::theory::{Limit, quasistatic_limit};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 /// Time step of all runs but one.
@@ -33,8 +32,6 @@ const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
 /// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
-/// Planned speeds have six digits.
-const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// Refusal to run a stack that does not yield at the floor.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -203,32 +200,6 @@ pub(crate) fn planned(
     }
 }
 
-/// By how much the limit of `stack` may be off because arms of `code` were measured; `None` where all of them are
-/// declared, or nothing yields.
-fn convention_uncertainty(
-    code: Code,
-    stack: &Stack,
-    convention: &ContactConvention,
-) -> Option<f64> {
-    let uncertainty = code.settled().arm_uncertainty;
-    let is_measured = uncertainty != Arms::PAPER;
-    is_measured.then(|| limit_uncertainty(stack, convention, &uncertainty))?
-}
-
-/// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and
-/// preparations share it.
-fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    static KNOWN: Mutex<BTreeMap<String, Limit>> = Mutex::new(BTreeMap::new());
-    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = format!("{stack:?} {convention:?}");
-    if let Some(limit) = known().get(&key) {
-        return limit.clone();
-    }
-    let limit = quasistatic_limit(stack, convention);
-    known().insert(key, limit.clone());
-    limit
-}
-
 fn planned_protocols(
     limit: &Limit,
     stack: &Stack,
@@ -291,17 +262,6 @@ pub(super) fn speed_scale(
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
-}
-
-/// Whether the floor does not slide when a wall of this speed touches the stack.
-pub(super) fn is_gentle(wall_speed: f64, stack: &Stack, convention: &ContactConvention) -> bool {
-    is_surely_gentle(wall_speed, stack)
-        || wall_speed <= LEAST_DIGITS * max_touch_speed(stack, convention)
-}
-
-/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
-fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
-    wall_speed <= 0.5 * stack.epsilon()
 }
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the

@@ -1,9 +1,10 @@
 //! The yield force of a few series that nobody has planned.
 
-use super::extrapolate::Budget;
+use super::budget::Budget;
 use super::judgement::YieldForce;
-use super::plan::{Measurement, RAMP_TIME, REST_TIME, is_gentle, plan, speed_scale};
+use super::plan::{Measurement, RAMP_TIME, REST_TIME, plan, speed_scale};
 use super::runs::{RunRoles, SPEEDS};
+use super::touch::is_gentle;
 use crate::code::{Code, Identity, Provenance, Run};
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
 use crate::runs::RunSummary;

@@ -1,9 +1,9 @@
 //! Runs that are made elsewhere. The directory of each holds what a live run is given, to the byte; its result is read
 //! from there, and no program is started.
 
-use super::definition::refused;
 use super::failure::FailureKind;
 use super::manifest::Environment;
+use super::manifest_error::refused;
 use super::registry::Code;
 use super::task::Task;
 use crate::files::{FileError, Links, read_bounded, read_end, write_atomically};

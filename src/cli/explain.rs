@@ -1,7 +1,7 @@
 //! `tristack crosscheck --explain ROW`.
 
-use super::convention::settle;
 use super::code_names::{code_named, names};
+use super::convention::settle;
 use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};

@@ -83,7 +83,7 @@ impl Code {
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
-    pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
         let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let mut registry = registry();
         if !registry.folders.contains_key(&place) {

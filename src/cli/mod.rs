@@ -3,6 +3,7 @@
 mod bench;
 mod codes;
 mod command_line;
+mod convention;
 mod crosscheck;
 mod error;
 mod explain;

@@ -41,7 +41,8 @@ type Row = BTreeMap<String, String>;
 
 fn number(row: &Row, column: &str) -> f64 {
     let text = &row[column];
-    text.parse().unwrap_or_else(|_| panic!("{column} is `{text}`"))
+    text.parse()
+        .unwrap_or_else(|_| panic!("{column} is `{text}`"))
 }
 
 impl Example {
@@ -134,7 +135,10 @@ fn decks_of_lammps_differ_in_their_contact_lines_alone() {
         let differs = |line: &&String| !built_in.contains(line);
         let contact = ["pair_style", "pair_coeff", "fix floor"];
         for line in own.iter().filter(differs) {
-            assert!(contact.iter().any(|start| line.starts_with(start)), "{line}");
+            assert!(
+                contact.iter().any(|start| line.starts_with(start)),
+                "{line}"
+            );
         }
     }
 }
@@ -154,7 +158,10 @@ fn installed() -> impl Iterator<Item = &'static Example> {
     EXAMPLES.iter().filter(|example| {
         let code = installed_in_folder(&format!("examples/{}:{}", example.folder, example.code));
         if code.is_none() {
-            eprintln!("{} is not installed: its live tests are skipped", example.code);
+            eprintln!(
+                "{} is not installed: its live tests are skipped",
+                example.code
+            );
         }
         code.is_some()
     })
@@ -193,15 +200,22 @@ fn installed_examples_repeat_their_recorded_rows() {
         let live = json_rows(&String::from_utf8_lossy(&output.stdout));
         assert_eq!(live.len(), 2, "{message}");
         for row in live {
-            assert_eq!(row["verdict"] == "agrees", example.agrees, "{row} {message}");
+            assert_eq!(
+                row["verdict"] == "agrees",
+                example.agrees,
+                "{row} {message}"
+            );
             assert_eq!(row["source"], "live");
             let recorded = example.recorded();
             let same = |own: &&Row| {
-                ["mu", "stiffness"].iter().all(|&key| Some(number(own, key)) == row[key].as_f64())
+                ["mu", "stiffness"]
+                    .iter()
+                    .all(|&key| Some(number(own, key)) == row[key].as_f64())
             };
             let recorded = recorded.iter().find(same).expect("a recorded row");
             // Of a code that does not agree the runs need not converge to a force.
-            if example.agrees && recorded["version"] == row["version"].as_str().expect("a version") {
+            if example.agrees && recorded["version"] == row["version"].as_str().expect("a version")
+            {
                 let force = row["yield_force"].as_f64().expect("a force");
                 let apart = (force - number(recorded, "yield_force")).abs();
                 println!("{}: {apart:.1e} from its recorded row", example.code);

@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod bench;
+mod code_names;
 mod codes;
 mod command_line;
 mod convention;

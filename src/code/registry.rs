@@ -4,6 +4,7 @@ use super::convention::{Declaration, Settled};
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
+use super::search_path::SEARCH_PATH;
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -296,9 +297,15 @@ impl Code {
     pub(crate) fn places(self) -> String {
         let program = self.definition().program.iter();
         let directories = program.flat_map(|program| &program.search);
-        let mut places: Vec<&str> = directories.map(|place| place.get_ref().as_str()).collect();
-        places.push("the search path");
-        format!("in {}", places.join(" or "))
+        let places = directories.map(|place| match place.get_ref().as_str() {
+            SEARCH_PATH => "the search path",
+            directory => directory,
+        });
+        let places: Vec<&str> = places.collect();
+        match places.as_slice() {
+            [] => "in the search path".to_owned(),
+            places => format!("in {}", places.join(" or ")),
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod bench;
+mod code_names;
 mod codes;
 mod command_line;
 mod convention;
@@ -9,8 +10,11 @@ mod error;
 mod explain;
 mod guard;
 mod interrupt;
+mod judge;
+mod judge_series;
 mod options;
 mod out;
+mod plan;
 mod predict;
 mod probe;
 mod progress;
@@ -19,6 +23,7 @@ mod regimes;
 mod report;
 mod schema;
 mod simulate;
+mod stack_set;
 mod streams;
 mod sweep;
 mod theory;
@@ -60,6 +65,8 @@ enum Command {
     Record(record::Arguments),
     Regimes(regimes::Arguments),
     Report(report::Arguments),
+    Plan(plan::Arguments),
+    Judge(judge::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
     Schema(schema::Arguments),
@@ -114,6 +121,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments, command),
         Command::Report(arguments) => report::run(&arguments, command),
+        Command::Plan(arguments) => plan::run(&arguments, command),
+        Command::Judge(arguments) => judge::run(&arguments, command),
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -239,7 +239,8 @@ fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
 /// leaves out the forces between the cylinders.
 fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
     if code != Code::NATIVE {
-        return Ok(Frames::of_series(&run.series, run.case.protocol.wall_speed));
+        let speed = run.case.protocol.wall_speed;
+        return Ok(Frames::of_series(&run.series, speed)?);
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
     let (_, frames) = repeated.map_err(|error| {
@@ -391,6 +392,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
         witness: CASE,
         is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
         files,
+        shared: false,
         scratch: Some(HOME),
     }
 }
@@ -401,6 +403,7 @@ fn vtk_layout() -> Layout {
         witness: VTK_COLLECTION,
         is_ours: is_vtk_collection,
         files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
+        shared: false,
         scratch: None,
     }
 }

@@ -1,22 +1,29 @@
 //! The keys of a manifest.
 
+use super::columns::{Written, read_columns};
 use super::convention::{ConventionKey, Settled};
 use super::format::{ParameterFormat, ResultFormat};
+use super::manifest_error::Place;
 use crate::model::ContactConvention;
+use crate::series::ColumnSources;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
-use toml::Table;
+use toml::{Spanned, Table};
 
 /// One code, as the manifest describes it.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
     /// Version of the keys: 1.
-    pub(super) schema: i64,
+    #[serde(rename = "schema")]
+    _schema: i64,
     /// Name of the code: lower-case letters, digits and hyphens.
     pub(super) name: String,
+    /// The code whose keys and files are taken where these are absent: the name of a built-in one, or the path of a folder.
+    #[serde(rename = "extends")]
+    _extends: Option<String>,
     /// Name in prose and figures; the variants of a folder share it.
     #[serde(default)]
     pub(super) title: String,
@@ -59,13 +66,16 @@ pub struct Definition {
     /// Placeholders of the command.
     #[serde(default)]
     pub(super) set: BTreeMap<String, String>,
-    /// Further codes, by name, each with the keys that override those above.
-    #[serde(default)]
+    /// Further codes, by name, with the keys in which they differ.
+    #[serde(default, rename = "variants")]
     #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
-    pub(super) variants: BTreeMap<String, Table>,
+    _variants: BTreeMap<String, Table>,
     /// Name in the manifest, which variants share.
     #[serde(skip)]
     pub(super) family: String,
+    /// Where its name stands.
+    #[serde(skip)]
+    pub(super) place: Place,
 }
 
 /// The kinds of tasks.
@@ -159,6 +169,12 @@ pub(super) type Environment = BTreeMap<String, String>;
 pub(super) struct Program {
     /// Words with placeholders, never a line for a shell.
     pub(super) command: Vec<String>,
+    /// Directories in which the first word is looked for: `{folder}` is the folder of the manifest, `$NAME` an environment
+    /// variable; a directory with one that is not set is left out. The search path is one of them only as `$PATH`, or if
+    /// there are none.
+    #[serde(default)]
+    #[schemars(with = "Vec<String>")]
+    pub(super) search: Vec<Spanned<String>>,
     /// A build of the program that computes with more digits.
     pub(super) higher_precision: Option<String>,
     /// How the version of the program is found.
@@ -192,6 +208,18 @@ pub(super) struct ParameterFile {
     pub(super) file: String,
     /// How it is written.
     pub(super) format: ParameterFormat,
+    /// How many of them there are.
+    pub(super) content: ParameterContent,
+}
+
+/// The parameters that a deck is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ParameterContent {
+    /// Everything that a deck needs (docs/formats.md, `task`).
+    Task,
+    /// What the decks that come with tristack read, which know the units, the bodies and where these start.
+    Deck,
 }
 
 impl Default for ParameterFile {
@@ -199,6 +227,7 @@ impl Default for ParameterFile {
         Self {
             file: "task.json".to_owned(),
             format: ParameterFormat::Json,
+            content: ParameterContent::Task,
         }
     }
 }
@@ -211,6 +240,11 @@ pub struct ResultFile {
     pub(super) file: String,
     /// How it is written.
     pub(super) format: ResultFormat,
+    /// Columns under other names, in other units or directions: the name that tristack gives them, and the name in the
+    /// result, with a factor if there is one.
+    #[serde(deserialize_with = "read_columns")]
+    #[schemars(with = "BTreeMap<String, Written>")]
+    pub(super) columns: ColumnSources,
 }
 
 impl Default for ResultFile {
@@ -218,6 +252,7 @@ impl Default for ResultFile {
         Self {
             file: "result.csv".to_owned(),
             format: ResultFormat::Csv,
+            columns: ColumnSources::new(),
         }
     }
 }
@@ -230,6 +265,10 @@ pub(super) struct TaskFiles {
     pub(super) files: Vec<String>,
     /// Its result file, if not the common one.
     pub(super) result: Option<String>,
+    /// Its columns, where they are not the common ones.
+    #[serde(default, deserialize_with = "read_columns")]
+    #[schemars(with = "BTreeMap<String, Written>")]
+    pub(super) columns: ColumnSources,
     #[serde(skip)]
     pub(super) contents: Vec<Vec<u8>>,
 }

@@ -3,12 +3,12 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces,
-    measured_convention, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series,
+    largest_forces, measured_convention, planned_runs, probe, pyramids, regimes, scaling,
+    simulations, theory, trajectories,
 };
-use crate::code::TaskKind;
+use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
-use serde_json::Value;
 
 const TOP: &str = "# Tables, results and parameters
 
@@ -46,8 +46,8 @@ upwards, angles turn counter-clockwise.
 const TASKS: &str = "
 # Parameters of tasks
 
-What a code is given for a task: one flat object of numbers, in the units r = m = k_n = 1. Cylinder 1 is the top one, 2
-the right one, 3 the left one.
+What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 the left one.
+
 ";
 
 /// The content of docs/formats.md: every machine-readable table and file, with the unit and the meaning of its columns.
@@ -56,13 +56,12 @@ pub fn formats_page() -> String {
     let tables = tables.map(|table| format!("\n{}", table.described()));
     let files = result_files().into_iter();
     let files = files.map(|file| format!("\n{}", file.described()));
-    let tasks = TaskKind::ALL.map(|kind| format!("\n{}", described_task(kind)));
     TOP.to_owned()
         + &tables.collect::<String>()
         + RESULTS
         + &files.collect::<String>()
         + TASKS
-        + &tasks.concat()
+        + &task().described()
 }
 
 /// Every table that is JSON too, without rows.
@@ -84,7 +83,9 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         scaling(&[]),
         pyramids(&[]),
         inventory(&[]),
+        planned_runs(&[], &[]),
     ];
+    tables.extend(judged_series(None));
     tables.extend(declared_tables());
     tables
 }
@@ -109,19 +110,26 @@ pub(super) fn result_files() -> [DataTable<'static>; 2] {
     ]
 }
 
-/// The section on the parameters of one kind of task.
-fn described_task(kind: TaskKind) -> String {
-    let schema = kind.parameters_schema();
-    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-    let parameters = schema["properties"].as_object().into_iter().flatten();
-    let table = Columns::<(&String, &Value)>::for_people()
-        .left("parameter", |(name, _)| format!("`{name}`"))
-        .left("unit", move |(_, schema)| text(&schema["x-unit"]))
-        .left("meaning", move |(_, schema)| text(&schema["description"]))
-        .rows(parameters)
-        .shown();
-    let what = text(&schema["description"]);
-    format!("### {}\n\n{what}\n\n{}", kind.as_str(), table.markdown())
+/// The parameters that the deck of a code is given.
+fn task() -> DataTable<'static> {
+    let mut columns = Columns::<()>::new(
+        "task",
+        "One flat object of numbers: everything that a deck needs, in the units r = m = k_n = 1. Each task has those of \
+         its own; a manifest with `content = \"deck\"` under `[parameters]` gets fewer, those that its decks read.",
+        "task.json, or the file that `[parameters]` of a manifest names",
+    );
+    for parameter in PARAMETERS {
+        let kinds: Vec<&str> = parameter.tasks.iter().map(|kind| kind.as_str()).collect();
+        let meaning = match kinds.len() == TaskKind::ALL.len() {
+            true => parameter.meaning.to_owned(),
+            false => format!("{} ({})", parameter.meaning, kinds.join(", ")),
+        };
+        columns = columns
+            .number(parameter.name, parameter.unit, |()| f64::NAN)
+            // A page is made once.
+            .means(meaning.leak());
+    }
+    columns.rows([])
 }
 
 fn file<R: 'static>(
@@ -134,7 +142,8 @@ fn file<R: 'static>(
     for column in declared {
         columns = columns
             .number(column.name, column.unit, column.value)
-            .means(column.meaning);
+            .means(column.meaning)
+            .missing_where(column.is_optional);
     }
     columns.rows([])
 }

@@ -6,9 +6,10 @@ use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
 use crate::study::convention::{ArmEffects, MeasuredKey, Passport, TOLERANCE, reservations};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// Name and version of the format.
 pub(crate) const PASSPORT: &str = "tristack/passport/1";
@@ -71,93 +72,84 @@ pub(crate) fn arm_effects(effects: &[ArmEffects]) -> DataTable<'_> {
     .rows(effects)
 }
 
-/// The passport of a code: its contact convention as micro-tests measure it.
+/// The passport as JSON, made by `command`.
+pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
+    let provenance = &passport.findings.provenance;
+    let convention = measured_convention(&passport.convention);
+    let effects = arm_effects(&passport.effects);
+    let properties = probe(&passport.findings.findings);
+    let document = Document {
+        schema: PASSPORT,
+        command,
+        code: passport.code,
+        title: passport.code.title(),
+        verdict: passport.verdict(),
+        twins: &passport.twins,
+        same_arms: &passport.same_arms,
+        program: &provenance.identity,
+        deck_hash: passport.code.files_hash(TaskKind::Motion),
+        answers_hash: &provenance.deck_hash,
+        tristack: &provenance.tristack,
+        date: &provenance.date,
+        machine: &provenance.machine,
+        reservations: reservations(passport.findings),
+        convention: convention.part(),
+        arm_effects: effects.part(),
+        properties: properties.part(),
+    };
+    serde_json::to_string_pretty(&document).expect("plain values have a JSON form") + "\n"
+}
+
+/// JSON Schema of a passport.
+pub(super) fn passport_schema() -> Value {
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let generator = settings.into_generator();
+    let mut schema = generator.into_root_schema_for::<Document<()>>().to_value();
+    let properties = &mut schema["properties"];
+    properties["convention"] = measured_convention(&[]).json_schema();
+    properties["arm_effects"] = arm_effects(&[]).json_schema();
+    properties["properties"] = probe(&[]).json_schema();
+    schema
+}
+
+/// Passport of a code: its contact convention as micro-tests measure it.
 #[derive(Serialize, JsonSchema)]
-pub(super) struct PassportFile<'a> {
+#[schemars(title = "Passport")]
+struct Document<'a, T> {
     /// Name and version of the format.
     schema: &'static str,
     /// The command that made it.
     command: &'a str,
     /// Name of the code.
-    code: &'a str,
+    #[schemars(with = "String")]
+    code: Code,
     /// Its name in prose.
-    title: &'a str,
+    title: &'static str,
     /// The worst verdict on a property.
     verdict: Verdict,
-    /// The codes whose measured convention is the same.
-    twins: Vec<&'a str>,
-    /// The codes whose arms are the same.
-    same_arms: Vec<&'a str>,
+    /// Codes that mean the same by a contact.
+    #[schemars(with = "Vec<String>")]
+    twins: &'a [Code],
+    /// Codes with the same arms.
+    #[schemars(with = "Vec<String>")]
+    same_arms: &'a [Code],
     /// The program that was probed.
     program: &'a Identity,
-    /// SHA-256 of the deck of the micro-tests.
+    /// SHA-256 of the files of the micro-tests.
     deck_hash: String,
-    /// SHA-256 of what the code was given and answered.
+    /// SHA-256 of everything that the micro-tests were given.
     answers_hash: &'a str,
-    probed: Probed<'a>,
-    #[schemars(schema_with = "convention_schema")]
-    convention: Value,
-    #[schemars(schema_with = "arm_effects_schema")]
-    arm_effects: Value,
-    #[schemars(schema_with = "properties_schema")]
-    properties: Value,
-    /// What the passport leaves open.
-    reservations: Vec<String>,
-}
-
-/// When and by what the code was probed.
-#[derive(Serialize, JsonSchema)]
-struct Probed<'a> {
     /// Version of tristack.
     tristack: &'a str,
-    /// Date, UTC.
+    /// Date of the probe, UTC.
     date: &'a str,
     /// Processor and system.
     machine: &'a str,
-}
-
-fn convention_schema(_: &mut SchemaGenerator) -> Schema {
-    table_schema(&measured_convention(&[]))
-}
-
-fn arm_effects_schema(_: &mut SchemaGenerator) -> Schema {
-    table_schema(&arm_effects(&[]))
-}
-
-fn properties_schema(_: &mut SchemaGenerator) -> Schema {
-    table_schema(&probe(&[]))
-}
-
-fn table_schema(table: &DataTable) -> Schema {
-    Schema::try_from(table.json_schema()).unwrap_or_default()
-}
-
-/// The passport as JSON, made by `command`.
-pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
-    let provenance = &passport.findings.provenance;
-    let names = |codes: &[Code]| codes.iter().map(|code| code.as_str()).collect::<Vec<_>>();
-    let object = json!(PassportFile {
-        schema: PASSPORT,
-        command,
-        code: passport.code.as_str(),
-        title: passport.code.title(),
-        verdict: passport.verdict(),
-        twins: names(&passport.twins),
-        same_arms: names(&passport.same_arms),
-        program: &provenance.identity,
-        deck_hash: passport.code.files_hash(TaskKind::Motion),
-        answers_hash: &provenance.deck_hash,
-        probed: Probed {
-            tristack: &provenance.tristack,
-            date: &provenance.date,
-            machine: &provenance.machine,
-        },
-        convention: measured_convention(&passport.convention).part(),
-        arm_effects: arm_effects(&passport.effects).part(),
-        properties: probe(&passport.findings.findings).part(),
-        reservations: reservations(passport.findings),
-    });
-    serde_json::to_string_pretty(&object).expect("plain values have a JSON form") + "\n"
+    /// What it leaves open.
+    reservations: Vec<String>,
+    convention: T,
+    arm_effects: T,
+    properties: T,
 }
 
 /// The passport as a page.
@@ -176,8 +168,11 @@ pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
     for line in reservations(findings) {
         page += &format!("- {}\n", markdown_text(&line));
     }
+    if !page.ends_with("\n\n") {
+        page += "\n";
+    }
     page += &format!(
-        "\n## What a contact is to it\n\nr₁ in R = r + r₁ × overlap is an arm. {}\n\n{}",
+        "## What a contact is to it\n\nr₁ in R = r + r₁ × overlap is an arm. {}\n\n{}",
         twins(passport),
         measured_convention(&passport.convention).shown().markdown()
     );

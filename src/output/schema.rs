@@ -3,7 +3,7 @@
 
 use super::case_file::case_schema;
 use super::formats::{json_tables, result_files};
-use super::passport::PassportFile;
+use super::passport::passport_schema;
 use crate::code::{Definition, TaskKind};
 use clap::ValueEnum;
 use schemars::generate::SchemaSettings;
@@ -35,7 +35,7 @@ impl Document {
             Self::Task => task(),
             Self::Case => case_schema(),
             Self::Manifest => manifest(),
-            Self::Passport => passport(),
+            Self::Passport => passport_schema(),
             Self::Result => result(),
             Self::Rows => rows(),
         };
@@ -83,7 +83,8 @@ fn link(name: &str) -> Value {
 
 fn task() -> Value {
     let kinds = TaskKind::ALL.map(|kind| (kind.as_str(), kind.parameters_schema()));
-    let about = "Parameters of a task, one flat object of numbers, in the units r = m = k_n = 1.";
+    let about = "Parameters of a task, one flat object of numbers, in the units r = m = k_n = 1; decks with `content = \"deck\"` are given \
+                 fewer.";
     one_of(about, kinds)
 }
 
@@ -122,14 +123,6 @@ fn without(schema: &Value, keyword: &str) -> Value {
         Value::Array(items) => items.iter().map(|item| without(item, keyword)).collect(),
         other => other.clone(),
     }
-}
-
-fn passport() -> Value {
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    let schema = settings
-        .into_generator()
-        .into_root_schema_for::<PassportFile>();
-    schema.to_value()
 }
 
 fn result() -> Value {

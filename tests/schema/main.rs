@@ -6,7 +6,7 @@ mod validator;
 
 use common::{Bench, json, standard_output};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tristack::code::{Code, Task, witness_test};
 use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::{Case, ContactConvention, Preparation, Pyramid, SideWalls, Stack};
@@ -58,10 +58,23 @@ fn all_schemas_in_one_are_those_of_each() {
     }
 }
 
-fn manifest(folder: &str) -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join(folder)
-        .join("code.toml");
+/// The folders of codes that come with the project.
+fn folders() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let built_in = ["liggghts_inputs", "yade_scripts", "lammps_inputs"];
+    let built_in = built_in.map(|folder| root.join(folder));
+    let examples = std::fs::read_dir(root.join("examples"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let examples = examples.map(|entry| entry.path());
+    let all = built_in.into_iter().chain(examples);
+    all.filter(|folder| folder.join("code.toml").exists())
+        .collect()
+}
+
+fn manifest(folder: &Path) -> Value {
+    let path = folder.join("code.toml");
     let text = std::fs::read_to_string(path).expect("a manifest");
     serde_json::to_value(text.parse::<toml::Table>().expect("TOML")).expect("plain values")
 }
@@ -69,8 +82,8 @@ fn manifest(folder: &str) -> Value {
 #[test]
 fn manifests_fit_theirs_and_mistakes_do_not() {
     let schema = schema("manifest");
-    for folder in ["liggghts_inputs", "yade_scripts", "lammps_inputs"] {
-        let manifest = manifest(folder);
+    for folder in folders() {
+        let manifest = manifest(&folder);
         fits(&schema, &manifest);
         let changed = |change: &dyn Fn(&mut Value)| {
             let mut changed = manifest.clone();
@@ -112,13 +125,13 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
     let schema = schema("task");
     let pyramid = Pyramid::touching(3, 1e2, ContactConvention::PAPER);
     let tasks = [
-        ("stack", case().parameters()),
-        ("side-walls", between_walls().parameters()),
+        ("stack", case().all_parameters()),
+        ("side-walls", between_walls().all_parameters()),
         (
             "motion",
             witness_test(ContactConvention::PAPER).parameters(),
         ),
-        ("pyramid", pyramid.parameters()),
+        ("pyramid", pyramid.all_parameters()),
     ];
     for (kind, task) in tasks {
         fits(&schema, &task);

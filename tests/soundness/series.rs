@@ -15,9 +15,10 @@ pub fn check(data: &[u8]) {
     let Some((&kind, text)) = data.split_first() else {
         return;
     };
-    match kind % 3 {
+    match kind % 4 {
         0 => check_series(text, &short_case()),
         1 => check_series(text, &case_with_shortcuts()),
+        3 => check_unplanned(text),
         _ => check_motion(text),
     }
 }
@@ -37,6 +38,20 @@ fn check_series(text: &[u8], case: &Case) {
     }
 }
 
+/// An accepted series has a time step, and can be read.
+fn check_unplanned(text: &[u8]) {
+    match Series::read_unplanned(text) {
+        Ok((series, time_step)) => {
+            assert!(time_step > 0.0);
+            let rows = series.samples();
+            assert!(rows.is_sorted_by(|one, other| one.step < other.step));
+            assert!(rows.iter().all(|row| row.wall_force.is_finite()));
+            YieldEstimates::read(&series, &short_case());
+        }
+        Err(refusal) => assert!(!refusal.to_string().is_empty()),
+    }
+}
+
 /// An accepted series is finite, lies at the planned steps, and can be read.
 pub fn is_sound(series: &Series, case: &Case) {
     let planned = case.protocol.schedule();
@@ -48,10 +63,10 @@ pub fn is_sound(series: &Series, case: &Case) {
             .all(|(row, step)| row.step == step)
     );
     let finite = |value: f64| value.is_finite();
-    assert!(
-        rows.iter()
-            .all(|row| finite(row.wall_force) && finite(row.y1) && finite(row.floor_t3))
-    );
+    let has_heights = !series.absent().contains(&"y1");
+    assert!(rows.iter().all(|row| finite(row.wall_force)
+        && finite(row.floor_t3)
+        && finite(row.y1) == has_heights));
     let estimates = YieldEstimates::read(series, case);
     assert!(
         estimates
@@ -61,7 +76,10 @@ pub fn is_sound(series: &Series, case: &Case) {
 }
 
 fn can_be_drawn(series: &Series, case: &Case) {
-    let frames = Frames::of_series(series, case.protocol.wall_speed);
+    let Ok(frames) = Frames::of_series(series, case.protocol.wall_speed) else {
+        assert!(!series.absent().is_empty());
+        return;
+    };
     assert!(run_svg("yade", case, &frames).len() < LARGEST_PICTURE);
     assert_eq!(
         vtk_series(&frames, case.stack.epsilon()).len(),
@@ -93,7 +111,21 @@ pub fn seeds() -> Vec<Seed> {
             marked(1, series(&case_with_shortcuts())),
         ),
         ("motion".to_owned(), marked(2, motion_csv())),
+        ("unplanned".to_owned(), marked(3, series(&short_case()))),
+        ("forces".to_owned(), marked(0, forces_alone())),
     ]
+}
+
+/// A series without positions and angles, in another order and with a column of its own.
+fn forces_alone() -> String {
+    let series = compress_stack(&short_case(), || true).expect("a finite series");
+    let rows = series.samples().iter().map(|row| {
+        let floor = [row.floor_n2, row.floor_t2, row.floor_n3, row.floor_t3];
+        let floor = floor.map(|force| force.to_string()).join(",");
+        format!("{floor},7,{},{},{}\n", row.wall_force, row.time, row.step)
+    });
+    let header = "floor_n2,floor_t2,floor_n3,floor_t3,energy,wall_force,time,step\n";
+    header.to_owned() + &rows.collect::<String>()
 }
 
 /// The motion of the short test, comma by comma.

@@ -146,6 +146,12 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
+    /// Says whether a value may be missing, where its type leaves that open.
+    pub(crate) fn missing_where(mut self, is_optional: bool) -> Self {
+        self.current().is_optional = is_optional;
+        self
+    }
+
     /// A column that is for people only, aligned to the left.
     pub(crate) fn left(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
         self.text("", cell).means("").shown(heading)
@@ -253,8 +259,8 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The source of the runs of a row, which is hidden from people until `shown` is called.
     pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
-        let meaning =
-            "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";
+        let meaning = "`live` if it ran on this machine, `recorded` if recorded runs stand in for it, `files` if its results were \
+             made elsewhere after a plan";
         self.text("source", move |row| source(row).as_str())
             .means(meaning)
     }

@@ -26,8 +26,8 @@ impl DataTable<'_> {
     }
 
     /// The JSON object without a command, to stand in a larger one.
-    pub(crate) fn part(&self) -> serde_json::Value {
-        serde_json::to_value(self.object(None)).expect("plain values have a JSON form")
+    pub(crate) fn part(&self) -> impl Serialize + '_ {
+        self.object(None)
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -128,7 +128,7 @@ impl DataTable<'_> {
         })
     }
 
-    /// JSON Schema of a row of a file whose numbers are all there.
+    /// JSON Schema of a row of a file of numbers, which leaves out whole columns.
     pub(crate) fn rows_schema(&self) -> serde_json::Value {
         let columns = self.named().map(|column| {
             let schema =
@@ -136,7 +136,8 @@ impl DataTable<'_> {
             (column.name.to_owned(), schema)
         });
         let columns: serde_json::Map<_, _> = columns.collect();
-        let names: Vec<&str> = self.named().map(|column| column.name).collect();
+        let needed = self.named().filter(|column| !column.is_optional);
+        let names: Vec<&str> = needed.map(|column| column.name).collect();
         json!({
             "description": self.schema.what,
             "type": "object",

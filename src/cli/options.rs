@@ -292,7 +292,8 @@ fn names() -> PossibleValuesParser {
     PossibleValuesParser::new(Code::all().into_iter().map(Code::as_str))
 }
 
-fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
+/// The code in the folder `text`, or in `FOLDER:NAME`.
+pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
     match text.rsplit_once(':') {
         Some((folder, name)) if !name.contains('/') => {
             Code::in_folder(Path::new(folder), Some(name))

@@ -3,8 +3,8 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, probe, pyramids,
-    regimes, scaling, simulations, theory, trajectories,
+    bench, boundaries, budget, check, crosscheck, forecasts, inventory, largest_forces, probe,
+    pyramids, regimes, scaling, simulations, theory, trajectories,
 };
 use crate::series::{Column, MotionRow, Sample};
 
@@ -38,6 +38,7 @@ pub fn formats_page() -> String {
         crosscheck(&[]),
         budget(&[]),
         trajectories(&[]),
+        check(&[]),
         probe(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),

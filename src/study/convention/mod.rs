@@ -19,9 +19,11 @@ mod sliding;
 mod tangential;
 
 pub(crate) use finding::Finding;
+pub(crate) use finding::Property;
 pub use finding::TOLERANCE;
 pub use measured::probe_all;
 pub(crate) use measured::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
+pub(crate) use micro_tests::ask;
 pub use probe::probe;

@@ -14,13 +14,15 @@ pub(super) struct Beside<'a> {
     pub found: &'a [Row],
     /// What the native DEM writes.
     pub expected: &'a [Row],
+    /// The same in every step.
+    pub dense: &'a [Row],
     scales: Row,
     /// The columns that are there, but for step and time.
     pub columns: Vec<usize>,
 }
 
 impl<'a> Beside<'a> {
-    pub fn new(found: &'a [Row], expected: &'a [Row]) -> Self {
+    pub fn new(found: &'a [Row], expected: &'a [Row], dense: &'a [Row]) -> Self {
         let is_there = |column: &usize| found.iter().all(|row| row[*column].is_finite());
         let all = (index("time") + 1..WIDTH).filter(is_there);
         Self {
@@ -28,6 +30,7 @@ impl<'a> Beside<'a> {
             scales: scales(expected),
             found,
             expected,
+            dense,
         }
     }
 

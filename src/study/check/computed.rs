@@ -2,7 +2,7 @@
 
 use super::beside::Beside;
 use super::factor::{of_factor, of_friction};
-use super::rows::{Row, index, rows_of};
+use super::rows::{Row, at_time, index, rows_of};
 use crate::dem::{
     Contact, ContactForce, ContactModel, Counterpart, Spring, SpringDashpot, compress_stack_with,
 };
@@ -16,6 +16,8 @@ const REFINEMENTS: usize = 30;
 /// Mistakes that fit as well as the best one are named too.
 const AS_WELL: f64 = 3.0;
 const MOST_CAUSES: usize = 3;
+/// Relative distance at which two travels of the wall count as the same: its first touch rings.
+const SAME_TRAVEL: f64 = 0.03;
 
 /// The mistakes that explain the series of `case`, best first.
 pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
@@ -41,6 +43,15 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     let mut causes: Vec<String> = as_good.map(|(_, text)| text).collect();
     causes.truncate(MOST_CAUSES);
     causes
+}
+
+/// The series of the native DEM in every step.
+pub(super) fn every_step(case: &Case) -> Vec<Row> {
+    let mut dense = Mistake::new(case, "");
+    let protocol = &mut dense.case.protocol;
+    protocol.sampling.fine_interval = protocol.time_step;
+    protocol.sampling.coarse_interval = protocol.time_step;
+    dense.rows().unwrap_or_default()
 }
 
 /// Factors on the coefficients of one kind of contact.
@@ -86,6 +97,12 @@ impl MistakenLaw {
             floor: Change::NONE,
             wall: Change::NONE,
         }
+    }
+
+    /// Sets the frictions of the floor and between cylinders.
+    fn use_frictions(&mut self, case: &Case, floor: f64, cylinders: f64) {
+        self.floor.friction = floor / case.stack.floor_friction;
+        self.pair.friction = cylinders / case.stack.cylinder_friction;
     }
 
     fn everywhere(&mut self, change: impl Fn(&mut Change)) {
@@ -151,6 +168,7 @@ impl Mistake {
 
 /// Mistakes without a size.
 fn single_mistakes(case: &Case) -> Vec<Mistake> {
+    let (floor, cylinders) = (case.stack.floor_friction, case.stack.cylinder_friction);
     let of_law = |text: &str, change: &dyn Fn(&mut MistakenLaw)| {
         let mut mistake = Mistake::new(case, text);
         change(&mut mistake.law);
@@ -222,6 +240,28 @@ fn single_mistakes(case: &Case) -> Vec<Mistake> {
         of_law("nothing is damped", &|law| {
             law.everywhere(|change| (change.normal_damping, change.tangential_damping) = (0.0, 0.0))
         }),
+        of_law(
+            "floor_friction and cylinder_friction are exchanged",
+            &|law| law.use_frictions(case, cylinders, floor),
+        ),
+        of_law("floor_friction serves for the cylinders too", &|law| {
+            law.use_frictions(case, floor, floor)
+        }),
+        of_law("cylinder_friction serves for the floor too", &|law| {
+            law.use_frictions(case, cylinders, cylinders)
+        }),
+        of_law(
+            "the floor has the mean of floor_friction and cylinder_friction",
+            &|law| {
+                law.use_frictions(case, 0.5 * (floor + cylinders), cylinders);
+            },
+        ),
+        of_law(
+            "the floor has the geometric mean of floor_friction and cylinder_friction",
+            &|law| {
+                law.use_frictions(case, (floor * cylinders).sqrt(), cylinders);
+            },
+        ),
         of_law("the floor has no friction", &|law| law.floor.friction = 0.0),
         of_law(
             "the floor never slides: its tangential force is not capped",
@@ -244,9 +284,7 @@ fn late_wall(beside: &Beside, case: &Case) -> Option<(f64, String)> {
         .iter()
         .map(|row| row[force])
         .fold(0.0, f64::max);
-    let mut fine = *case;
-    fine.protocol.sampling.coarse_interval = case.protocol.sampling.fine_interval;
-    let rows = Mistake::new(&fine, "").rows()?;
+    let rows = beside.dense;
     let reaches = |rows: &[Row]| {
         let after = rows
             .iter()
@@ -258,20 +296,22 @@ fn late_wall(beside: &Beside, case: &Case) -> Option<(f64, String)> {
                 + (two[time] - one[time]) * (0.3 * load - one[force]) / (two[force] - one[force]),
         )
     };
-    let late = reaches(beside.found)? - reaches(beside.expected)?;
-    let shifted: Vec<Row> = beside
-        .expected
-        .iter()
-        .map(|row| at_time(&rows, row[time] - late))
-        .collect();
-    // Where it comes too early, the beginning is not known.
+    let late = reaches(beside.found)? - reaches(rows)?;
     let columns = &beside.columns;
+    let shifted = |late: f64| -> Vec<Row> {
+        let times = beside.expected.iter().map(|row| row[time]);
+        times.map(|moment| at_time(rows, moment - late)).collect()
+    };
+    let between = case.protocol.sampling.coarse_interval;
+    let distance = |late: f64| beside.distance(&shifted(late), columns);
+    let late = minimum(&distance, late - between, late + between);
+    let shifted = shifted(late);
     if late.abs() < case.protocol.time_step || !beside.explains(&shifted, columns) {
         return None;
     }
     let travel = late * case.protocol.wall_speed;
     let sunk = 1.0 + 3f64.sqrt() - rows[0][height];
-    let place = match super::factor::is_about(travel, sunk) {
+    let place = match (travel / sunk - 1.0).abs() < SAME_TRAVEL {
         true => {
             "it starts above the stack as it was before gravity, and must start at the present top of cylinder 1"
         }
@@ -286,22 +326,6 @@ fn late_wall(beside: &Beside, case: &Case) -> Option<(f64, String)> {
             (late / case.protocol.time_step).abs()
         ),
     ))
-}
-
-/// The rows at a time between two of them.
-fn at_time(rows: &[Row], time: f64) -> Row {
-    let place = index("time");
-    let after = rows
-        .partition_point(|row| row[place] < time)
-        .clamp(1, rows.len() - 1);
-    let [one, two] = [&rows[after - 1], &rows[after]];
-    let share = ((time - one[place]) / (two[place] - one[place])).max(0.0);
-    let mut row: Row =
-        std::array::from_fn(|column| one[column] + share * (two[column] - one[column]));
-    if time < 0.0 {
-        row[index("wall_force")] = 0.0;
-    }
-    row
 }
 
 /// A number of the task that may be another one.

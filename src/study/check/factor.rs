@@ -14,7 +14,7 @@ pub(super) fn is_about(found: f64, value: f64) -> bool {
 pub(super) fn meanings(found: f64, candidates: &[(f64, String)]) -> Vec<String> {
     let fitting = candidates
         .iter()
-        .filter(|(value, _)| is_about(found, *value));
+        .filter(|(value, _)| value.is_finite() && *value != 0.0 && is_about(found, *value));
     let mut meanings: Vec<String> = fitting.map(|(_, meaning)| meaning.clone()).collect();
     meanings.dedup();
     meanings.truncate(3);

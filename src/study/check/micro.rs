@@ -252,7 +252,14 @@ fn causes_of(property: &Property) -> Vec<String> {
             .map(|(value, meaning)| (*value, (*meaning).to_owned()));
         meanings(found, &candidates.collect::<Vec<_>>())
     };
+    let is_none = found.abs() < 1e-9;
     let texts = match (property.name.as_str(), ending(&property.name)) {
+        (_, "radius") if is_none => {
+            vec!["there is no torque: the tangential force acts at the centre".to_owned()]
+        }
+        (_, "reported_force") if is_none => {
+            vec!["it is 0: never computed, or written before it is".to_owned()]
+        }
         ("wall_friction", _) => vec![format!(
             "the top wall has a friction of {found:.6}, and must have none"
         )],
@@ -264,14 +271,9 @@ fn causes_of(property: &Property) -> Vec<String> {
                 -1.0,
                 "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
             ),
-            (
-                0.0,
-                "there is no torque: the tangential force acts at the centre",
-            ),
         ]),
         (_, "reported_force") => named(&[
             (-1.0, "its sign: it counts positive in compression"),
-            (0.0, "it is never computed, or written before it is"),
             (2.0, "it counts twice"),
         ]),
         (_, "overlap_lead") => named(&[

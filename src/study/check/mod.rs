@@ -155,7 +155,7 @@ impl Check<'_> {
             Item::failed(Grade::Mandatory, NAME, expected, found, causes)
         };
         let Some(installed) = self.code.find() else {
-            let hint = self.code.installation_hint();
+            let hint = self.code.installation_hint().to_owned();
             let found =
                 "the first word of `command` names no program in the search path".to_owned();
             let causes = vec![

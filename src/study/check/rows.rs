@@ -52,3 +52,18 @@ pub(super) fn peak(rows: &[Row]) -> usize {
     let highest = (0..rows.len()).max_by(|&i, &j| rows[i][force].total_cmp(&rows[j][force]));
     highest.unwrap_or(0)
 }
+
+/// The row at a time between two of `rows`; before the first one the stack is at rest.
+pub(super) fn at_time(rows: &[Row], time: f64) -> Row {
+    let place = index("time");
+    let after = rows.partition_point(|row| row[place] < time);
+    let after = after.clamp(1, rows.len() - 1);
+    let [one, two] = [&rows[after - 1], &rows[after]];
+    let share = ((time - one[place]) / (two[place] - one[place])).max(0.0);
+    let mut row: Row =
+        std::array::from_fn(|column| one[column] + share * (two[column] - one[column]));
+    if time < 0.0 {
+        row[index("wall_force")] = 0.0;
+    }
+    row
+}

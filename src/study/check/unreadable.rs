@@ -3,7 +3,7 @@
 use super::factor::{is_about, of_factor};
 use crate::code::{Failure, FailureKind};
 use crate::model::Case;
-use crate::series::SeriesError;
+use crate::series::{Series, SeriesError};
 use std::fs;
 use std::path::Path;
 
@@ -70,6 +70,7 @@ fn of_result(error: &SeriesError, failure: &Failure, case: Option<&Case>) -> Vec
                     .to_owned(),
             ]
         }
+        (SeriesError::Columns { found, .. }, Some(_)) => of_columns(found),
         (SeriesError::Garbled { row, .. }, _) => vec![format!(
             "row {row} is not numbers separated by commas: a message of the program among the rows, a row that is cut off \
              because the file was not closed, a comma for the decimal point, or another separator"
@@ -100,6 +101,33 @@ fn of_absent(failure: &Failure) -> Vec<String> {
          working directory",
         left.join(", ")
     )]
+}
+
+/// The header is another one: which columns are missing, which are unknown, or whether the order is another one.
+fn of_columns(found: &str) -> Vec<String> {
+    let found: Vec<&str> = found.split(',').map(str::trim).collect();
+    let list = |names: Vec<&str>| names.join(", ");
+    let missing = Series::COLUMNS
+        .into_iter()
+        .filter(|name| !found.contains(name));
+    let missing: Vec<&str> = missing.collect();
+    let unknown = found
+        .iter()
+        .copied()
+        .filter(|name| !Series::COLUMNS.contains(name));
+    let unknown: Vec<&str> = unknown.collect();
+    let mut causes = Vec::new();
+    if !missing.is_empty() {
+        causes.push(format!("columns are missing: {}", list(missing)));
+    }
+    if !unknown.is_empty() {
+        let usual = "or the first line holds no names, or another separator than a comma";
+        causes.push(format!("columns are unknown, {usual}: {}", list(unknown)));
+    }
+    if causes.is_empty() {
+        causes.push("the columns are there, but in another order".to_owned());
+    }
+    causes
 }
 
 fn of_step(row: usize, found: u64, expected: u64, case: &Case) -> Vec<String> {

@@ -3,8 +3,8 @@
 use super::beside::Beside;
 use super::factor::{is_about, of_factor};
 use super::rows::{
-    ANGLES, FLOOR, FORCES, HEIGHTS, LENGTHS, MIRRORED, NORMALS, Row, SHEARS, WALL, WIDTHS, index,
-    indices, name,
+    ANGLES, FLOOR, FORCES, HEIGHTS, LENGTHS, MIRRORED, NORMALS, Row, SHEARS, WALL, WIDTHS, at_time,
+    index, indices, name,
 };
 use crate::model::Case;
 
@@ -27,7 +27,7 @@ const GROUPS: [(&str, &[&str]); 9] = [
 /// What explains the columns that deviate, if mistakes in what is written explain them all.
 pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     let mut open = beside.deviating();
-    if let Some(whole) = of_all(beside, &open) {
+    if let Some(whole) = mirrored(beside, &open).or_else(|| exchanged_bodies(beside)) {
         return vec![whole];
     }
     let mut found = Vec::new();
@@ -46,7 +46,7 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
         // A column of zeros is right with every factor.
         let moves = |column: &&usize| beside.expected.iter().any(|row| row[**column].abs() > 1e-9);
         let moving: Vec<usize> = group.iter().filter(moves).copied().collect();
-        if moving.is_empty() || !moving.iter().all(|column| open.contains(column)) {
+        if !moving.iter().any(|column| open.contains(column)) {
             continue;
         }
         if let Some(relation) = relation(beside, &what, &group, case) {
@@ -56,27 +56,28 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     }
     match open.is_empty() && found.len() <= MOST_RELATIONS {
         true => found,
-        false => Vec::new(),
+        false => exchanged_columns(beside, &beside.deviating())
+            .into_iter()
+            .collect(),
     }
 }
 
-/// A mistake that concerns several kinds of columns at once.
-fn of_all(beside: &Beside, deviating: &[usize]) -> Option<String> {
-    let changed =
-        |change: &dyn Fn(&Row) -> Row| -> Vec<Row> { beside.expected.iter().map(change).collect() };
-    let mirrored = changed(&|row| {
+/// Whether the stack is written as a mirror shows it.
+fn mirrored(beside: &Beside, deviating: &[usize]) -> Option<String> {
+    let mirrored = beside.expected.iter().map(|row| {
         let mut row = *row;
         indices(&MIRRORED)
             .into_iter()
             .for_each(|column| row[column] = -row[column]);
         row
     });
-    if !deviating.is_empty() && beside.explains(&mirrored, &beside.columns) {
+    let mirrored: Vec<Row> = mirrored.collect();
+    let explains = !deviating.is_empty() && beside.explains(&mirrored, &beside.columns);
+    explains.then(|| {
         let text = "left and right are exchanged: cylinder 2 is the right one, x points to the right, and angles count \
                     counter-clockwise";
-        return Some(text.to_owned());
-    }
-    exchanged_bodies(beside).or_else(|| exchanged_columns(beside, deviating))
+        text.to_owned()
+    })
 }
 
 /// Whether the bodies are written in another order.
@@ -189,32 +190,38 @@ fn relation(beside: &Beside, what: &str, group: &[usize], case: &Case) -> Option
     if explains(&change(&|row, column| expected(row, column) + offset)) {
         return Some(with_offset(what, offset, weight));
     }
+    let changes: Vec<Row> = change(&|row, column| match group.contains(&column) {
+        true => change_in_a_step(beside, row, column),
+        false => 0.0,
+    });
     let lag = slope_of(
         beside,
         group,
-        &|row, column| -rate(beside, row, column),
+        &|row, column| -changes[row][column],
         &|row, column| beside.found[row][column] - expected(row, column),
     );
-    let step = case.protocol.time_step;
-    if explains(&change(&|row, column| {
-        expected(row, column) - lag * rate(beside, row, column)
-    })) {
-        return Some(with_lag(what, lag / step, case));
+    let (time, step) = (index("time"), case.protocol.time_step);
+    let late = |lag: f64| -> Vec<Row> {
+        let times = beside.expected.iter().map(|row| row[time]);
+        times
+            .map(|time| at_time(beside.dense, time - lag * step))
+            .collect()
+    };
+    let lags = [lag.round(), 0.5 * (2.0 * lag).round(), lag];
+    if let Some(lag) = lags.into_iter().find(|&lag| explains(&late(lag))) {
+        return Some(with_lag(what, lag, case));
     }
     let magnitude = change(&|row, column| expected(row, column).abs());
     explains(&magnitude).then(|| format!("{what} are written without their signs"))
 }
 
-/// Change of a column per unit of time, from the row before.
-fn rate(beside: &Beside, row: usize, column: usize) -> f64 {
+/// Change of a column per step, from the steps before and after a row.
+fn change_in_a_step(beside: &Beside, row: usize, column: usize) -> f64 {
     let time = index("time");
-    let (one, two) = match row {
-        0 => (0, 1.min(beside.expected.len() - 1)),
-        row => (row - 1, row),
-    };
-    let [one, two] = [one, two].map(|row| &beside.expected[row]);
-    let change = (two[column] - one[column]) / (two[time] - one[time]);
-    if change.is_finite() { change } else { 0.0 }
+    let step = beside.dense[1][time];
+    let now = beside.expected[row][time];
+    let [before, after] = [now - step, now + step].map(|time| at_time(beside.dense, time)[column]);
+    0.5 * (after - before)
 }
 
 /// The factor of `by` that is nearest to what was found.
@@ -260,11 +267,12 @@ fn with_factor(what: &str, factor: f64, weight: f64, group: &[usize]) -> String 
         let sign = if is(&WALL) {
             "the force on the wall in place of that of the wall on cylinder 1, which counts positive in compression"
         } else if is(&ANGLES) {
-            "they count clockwise, and must count counter-clockwise"
+            "they count clockwise, and must count counter-clockwise; or those of cylinders 2 and 3 are exchanged"
         } else if is(&FLOOR) {
-            "the force on the floor in place of that of the floor on the cylinder; normal upwards, tangential along +x"
+            "the force on the floor in place of that of the floor on the cylinder (normal upwards, tangential along +x); \
+             or those of cylinders 2 and 3 are exchanged"
         } else if is(&WIDTHS) {
-            "x points to the left"
+            "x points to the left, or those of cylinders 2 and 3 are exchanged"
         } else {
             "the sign is wrong"
         };

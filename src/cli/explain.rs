@@ -1,5 +1,6 @@
 //! `tristack crosscheck --explain ROW`.
 
+use super::convention::settle;
 use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
@@ -47,6 +48,7 @@ pub(super) fn explain(
 ) -> Result<ExitStatus, CliError> {
     let stack = others.stack(row.stack.floor_friction, row.stack.stiffness)?;
     let codes = [SelectedCode::find(row.code)];
+    settle(&codes, options)?;
     let measurement = plan(row.code, &stack, row.code.convention());
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),

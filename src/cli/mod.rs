@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod codes;
 mod command_line;
+mod convention;
 mod crosscheck;
 mod error;
 mod explain;

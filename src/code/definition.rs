@@ -1,6 +1,7 @@
 //! A code as its folder describes it: the manifest `code.toml` with its defaults and variants, and the files of its
 //! tasks.
 
+use super::convention::ConventionKey;
 use super::format::ResultFormat;
 use super::manifest::{Definition, ResultFile, TaskKind};
 use crate::files::{Links, read_bounded};
@@ -85,8 +86,9 @@ impl Definition {
     }
 
     /// The code itself, or one code for each of its variants, whose keys override its own.
-    fn expand(self, mut table: Table) -> Result<Vec<Self>, String> {
+    fn expand(mut self, mut table: Table) -> Result<Vec<Self>, String> {
         if self.variants.is_empty() {
+            self.left_out = ConventionKey::left_out_of(&table);
             return Ok(vec![self]);
         }
         table.remove("variants");
@@ -94,8 +96,10 @@ impl Definition {
             let mut table = table.clone();
             table.insert("name".to_owned(), Value::String(name.clone()));
             merge(&mut table, overrides);
-            let code = table.try_into();
-            code.map_err(|error| format!("variants.{name}: {error}"))
+            let left_out = ConventionKey::left_out_of(&table);
+            let code: Result<Self, _> = table.try_into();
+            let code = code.map_err(|error| format!("variants.{name}: {error}"))?;
+            Ok(Self { left_out, ..code })
         });
         variants.collect()
     }

@@ -4,6 +4,7 @@
 mod batch;
 mod broken;
 mod capture;
+mod convention;
 mod covered;
 mod definition;
 mod external;
@@ -24,6 +25,7 @@ mod task;
 mod witness;
 mod written;
 
+pub use convention::{ConventionKey, Declaration, Settled};
 pub(crate) use definition::ManifestError;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
@@ -39,7 +41,7 @@ use native::{Arithmetic, Native};
 pub use process::Interrupt;
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use question::let_interrupt_questions;
-pub use registry::{Code, Declaration};
+pub use registry::Code;
 pub use task::Task;
 pub use witness::witness_test;
 pub(crate) use written::{HOME, keep_evidence};

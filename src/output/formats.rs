@@ -3,8 +3,9 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, check, crosscheck, forecasts, inventory, largest_forces, probe,
-    pyramids, regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, check, crosscheck, forecasts, inventory,
+    largest_forces, measured_convention, probe, pyramids, regimes, scaling, simulations, theory,
+    trajectories,
 };
 use crate::series::{Column, MotionRow, Sample};
 
@@ -40,6 +41,8 @@ pub fn formats_page() -> String {
         trajectories(&[]),
         check(&[]),
         probe(&[]),
+        measured_convention(&[]),
+        arm_effects(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),

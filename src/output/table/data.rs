@@ -24,6 +24,11 @@ impl DataTable<'_> {
         }
     }
 
+    /// The JSON object without a command, to stand in a larger one.
+    pub(crate) fn part(&self) -> serde_json::Value {
+        serde_json::to_value(self.object(None)).expect("plain values have a JSON form")
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.rows == 0
     }

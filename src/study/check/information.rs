@@ -4,14 +4,10 @@ use super::micro::Micro;
 use super::report::{Grade, Item};
 use super::rows::{index, rows_of};
 use crate::code::Code;
-use crate::model::{ContactConvention, Stack};
 use crate::series::Series;
-use crate::theory::quasistatic_limit;
+use crate::study::convention::{ArmEffects, Passport, passport};
 
-/// Friction and stiffness of the stacks for which the effect of the convention is told: below and above the critical
-/// friction, and a stiff one.
-const STACKS: [(f64, f64); 3] = [(0.2, 100.0), (0.3, 100.0), (0.3, 1000.0)];
-
+const CONVENTION: &str = "measured convention";
 const BITS: &str = "the same task twice";
 
 /// Whether two runs of one task are the same.
@@ -47,77 +43,73 @@ pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
     )
 }
 
-/// The convention, what it changes, and whose it is.
-pub(super) fn information(
-    code: Code,
-    convention: ContactConvention,
-    micro: Option<&Micro>,
-) -> Vec<Item> {
+/// The convention, what it changes, and whose it is: the passport in short.
+pub(super) fn information(code: Code, micro: Option<&Micro>) -> Vec<Item> {
     let grade = Grade::Informational;
-    let measured = match micro {
-        Some(micro) => Item::passed(grade, "measured convention", micro.passport()),
-        None => Item::not_tested(
-            grade,
-            "measured convention",
-            "no task `motion`: the declared one is believed",
-        ),
+    let Some(micro) = micro else {
+        let reason = "no task `motion`: the declared one is believed";
+        return vec![Item::not_tested(grade, CONVENTION, reason)];
     };
-    let forces = STACKS.map(|(mu, stiffness)| yield_force(mu, stiffness, &convention));
+    let passport = passport(code, &micro.findings);
+    let keys = passport.convention.iter().map(|own| {
+        let value = own.measured.as_ref().map(|value| in_short(value));
+        let key = own.key.as_str();
+        let key = key.rsplit_once("convention.").map_or(key, |(_, key)| key);
+        format!("{key} {}", value.as_deref().unwrap_or("unknown"))
+    });
+    let forces = passport.effects.iter().map(yield_force);
     vec![
-        measured,
-        Item::passed(grade, "yield force by theory", forces.join("; ")),
-        twin(code, convention),
+        Item::passed(grade, CONVENTION, keys.collect::<Vec<_>>().join(", ")),
+        Item::passed(
+            grade,
+            "yield force by theory",
+            forces.collect::<Vec<_>>().join("; "),
+        ),
+        Item::passed(grade, "twin", twin(&passport)),
     ]
 }
 
-/// F under `convention` beside the paper's.
-fn yield_force(mu: f64, stiffness: f64, convention: &ContactConvention) -> String {
-    let stack = Stack::paper(mu, stiffness);
-    let limit = |convention| quasistatic_limit(&stack, convention).yield_force;
-    let own = limit(convention).zip(limit(&ContactConvention::PAPER));
-    let place = format!("mu = {mu}, stiffness {stiffness}:");
-    own.map_or_else(
+/// A number to six decimals, or a word.
+fn in_short(value: &str) -> String {
+    let number = value.parse::<f64>();
+    number.map_or(value.to_owned(), |number| {
+        ((number * 1e6).round() / 1e6 + 0.0).to_string()
+    })
+}
+
+/// F with the arms of the code beside the paper's.
+fn yield_force(effects: &ArmEffects) -> String {
+    let stack = &effects.stack;
+    let place = format!(
+        "mu = {}, stiffness {}:",
+        stack.floor_friction, stack.stiffness
+    );
+    effects.force.zip(effects.paper_force).map_or_else(
         || format!("{place} does not yield at the floor"),
         |(own, paper)| {
-            format!(
-                "{place} {own:.5} m g, {:+.3} % of the paper's",
-                100.0 * (own - paper) / paper
-            )
+            let change = 100.0 * (own - paper) / paper;
+            format!("{place} {own:.5} m g, {change:+.3} % of the paper's")
         },
     )
 }
 
 /// The codes inside the program with the same convention.
-fn twin(code: Code, convention: ContactConvention) -> Item {
-    const NAME: &str = "twin";
-    let grade = Grade::Informational;
-    let named = |alike: &dyn Fn(&ContactConvention) -> bool| {
-        let others = Code::all()
-            .into_iter()
-            .filter(|other| *other != code && alike(&other.convention()));
-        others.map(Code::as_str).collect::<Vec<_>>().join(", ")
+fn twin(passport: &Passport) -> String {
+    let names = |codes: &[Code]| {
+        codes
+            .iter()
+            .map(|code| code.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
     };
-    let same = named(&|other| {
-        *other
-            == ContactConvention {
-                restitution: other.restitution,
-                ..convention
-            }
-    });
-    if !same.is_empty() {
-        return Item::passed(grade, NAME, format!("{same}: the same convention"));
+    if !passport.twins.is_empty() {
+        return format!("{}: the same convention", names(&passport.twins));
     }
-    let arms = named(&|other| other.arms == convention.arms);
-    if !arms.is_empty() {
-        return Item::passed(
-            grade,
-            NAME,
-            format!("{arms}: the same arms, and so the same yield force"),
+    if !passport.same_arms.is_empty() {
+        return format!(
+            "{}: the same arms, and so the same yield force",
+            names(&passport.same_arms)
         );
     }
-    Item::passed(
-        grade,
-        NAME,
-        "none of the codes inside the program has these arms; native takes on any",
-    )
+    "none of the external codes inside the program has these arms; native takes on any".to_owned()
 }

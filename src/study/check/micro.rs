@@ -4,13 +4,10 @@
 use super::factor::{is_about, meanings, of_factor, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item};
-use crate::code::{Code, Declaration};
-use crate::model::{
-    ContactArms, ContactConvention, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
-};
+use crate::code::Code;
+use crate::model::ContactConvention;
 use crate::runs::ProbeRecord;
-use crate::series::ENOUGH_DIGITS;
-use crate::study::convention::{Property, TOLERANCE, probe};
+use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
 
 /// Relative deviation from which on numbers with few digits are another number.
 const GROSS: f64 = 1e-2;
@@ -33,44 +30,35 @@ const MOMENTS_NAME: &str = "forces and positions of one moment";
 
 /// What the micro-tests say of a code.
 pub(super) struct Micro {
-    properties: Vec<Property>,
-    /// The digits of the motions, if they are few.
-    few_digits: bool,
+    pub findings: Findings,
     reaction: Item,
 }
 
 impl Micro {
-    /// Reads the answers of `code`.
-    pub fn of(code: Code, record: &ProbeRecord) -> Option<Self> {
-        let answered = |tests: &[_]| record.answer(tests).ok_or(());
-        let digits = record
-            .answers
-            .iter()
-            .map(|answer| answer.motion.most_digits());
-        Some(Self {
-            properties: probe(&code.declaration(), answered).ok()?,
-            few_digits: digits.max().unwrap_or(0) < ENOUGH_DIGITS,
-            reaction: action_and_reaction(record),
-        })
+    /// Reads the answers of `code`; `None` if they are not those to today's questions.
+    pub fn of(code: Code, record: ProbeRecord) -> Option<Self> {
+        let reaction = action_and_reaction(&record);
+        let findings = read_probe(code, record).ok()?;
+        Some(Self { findings, reaction })
     }
 
     /// Whether a property is another one than declared.
-    fn deviates(&self, property: &Property) -> bool {
-        let scale = if property.declared == 0.0 {
-            1.0
-        } else {
-            property.declared.abs()
+    fn deviates(&self, own: &Finding) -> bool {
+        let (Some(found), Some(declared)) = (own.measured, own.declared) else {
+            return false;
         };
-        let relative = if self.few_digits { GROSS } else { TOLERANCE };
-        let apart = (property.measured.value - property.declared).abs();
-        apart > (relative * scale).max(property.measured.uncertainty)
+        let scale = if declared == 0.0 { 1.0 } else { declared.abs() };
+        let relative = match self.findings.few_digits {
+            Some(_) => GROSS,
+            None => TOLERANCE,
+        };
+        (found - declared).abs() > (relative * scale).max(own.uncertainty.unwrap_or(0.0))
     }
 
     /// The items on parameters, one a kind, and the one on the declared convention.
     pub fn items(&self) -> Vec<Item> {
-        let parameters = PARAMETERS
-            .iter()
-            .map(|(name, endings)| self.item(name, endings));
+        let parameters = PARAMETERS.iter();
+        let parameters = parameters.map(|(name, endings)| self.item(name, endings));
         let mut items: Vec<Item> = parameters.collect();
         items.push(self.reaction.clone());
         items.push(self.item(MOMENTS_NAME, &MOMENTS));
@@ -79,149 +67,106 @@ impl Micro {
     }
 
     fn item(&self, name: &'static str, endings: &[&str]) -> Item {
-        let own = self
-            .properties
-            .iter()
-            .filter(|property| endings.contains(&ending(&property.name)));
-        let own: Vec<&Property> = own.collect();
-        let wrong: Vec<&Property> = own
-            .iter()
-            .copied()
-            .filter(|property| self.deviates(property))
-            .collect();
+        let own = self.findings.findings.iter();
+        let own = own.filter(|own| endings.contains(&ending(&own.property)));
+        let (wrong, right): (Vec<&Finding>, Vec<&Finding>) =
+            own.partition(|own| self.deviates(own));
         if wrong.is_empty() {
-            let known = own
-                .iter()
-                .any(|property| property.measured.value.is_finite());
-            return match known {
+            return match right.iter().any(|own| own.measured.is_some()) {
                 true => Item::passed(Grade::Consistency, name, "as asked"),
                 false => {
                     Item::not_tested(Grade::Consistency, name, "the micro-tests do not show it")
                 }
             };
         }
-        let shown = |value: &dyn Fn(&Property) -> f64| {
-            let each = wrong
-                .iter()
-                .map(|property| format!("{} {:.6}", property.name, value(property) + 0.0));
-            each.collect::<Vec<_>>().join(", ")
-        };
         let mut causes: Vec<String> = Vec::new();
-        for property in &wrong {
-            let own = causes_of(property);
-            causes.extend(
-                own.into_iter()
-                    .filter(|cause| !causes.contains(cause))
-                    .collect::<Vec<_>>(),
-            );
+        for cause in wrong.iter().flat_map(|own| self.causes_of(own)) {
+            if !causes.contains(&cause) {
+                causes.push(cause);
+            }
         }
         if causes.is_empty() {
             causes.push(usual(name).to_owned());
         }
-        Item::failed(
-            Grade::Consistency,
-            name,
-            shown(&|property| property.declared),
-            shown(&|property| property.measured.value),
-            causes,
-        )
+        let (expected, found) = (
+            list(&wrong, |own| own.declared),
+            list(&wrong, |own| own.measured),
+        );
+        Item::failed(Grade::Consistency, name, expected, found, causes)
+    }
+
+    /// Mistakes that fit a parameter that is not as asked.
+    fn causes_of(&self, own: &Finding) -> Vec<String> {
+        let mut findings = self.findings.findings.iter();
+        let growth = findings.find_map(|other| {
+            let is_its_own = other.property.starts_with(&own.property);
+            other.growth().filter(|_| is_its_own)
+        });
+        match (growth, own.measured, own.declared) {
+            (Some(growth), ..) => vec![growth],
+            (None, Some(found), Some(asked)) => causes_of(&own.property, found, asked),
+            _ => Vec::new(),
+        }
     }
 
     /// The convention that the manifest declares, beside the measured one.
     fn declaration(&self) -> Item {
         const NAME: &str = "declared convention";
-        let wrong = self
-            .properties
-            .iter()
-            .filter(|own| is_convention(own) && self.deviates(own));
-        let wrong: Vec<&Property> = wrong.collect();
+        let own = self.findings.findings.iter();
+        let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
+        let wrong: Vec<&Finding> = wrong.collect();
         if wrong.is_empty() {
             return Item::passed(Grade::Consistency, NAME, "as measured");
         }
-        let list = |value: &dyn Fn(&Property) -> f64| {
-            let each = wrong
-                .iter()
-                .map(|own| format!("{} {:.6}", own.name, value(own) + 0.0));
-            each.collect::<Vec<_>>().join(", ")
-        };
-        let causes = wrong
-            .iter()
-            .map(|own| correction(&own.name, own.measured.value))
+        let measured = wrong.iter().filter_map(|own| Some((own, own.measured?)));
+        let causes = measured
+            .map(|(own, value)| self.correction(own, value))
             .collect();
-        Item::failed(
-            Grade::Consistency,
-            NAME,
-            format!("{} (declared)", list(&|own| own.declared)),
-            format!("{} (measured)", list(&|own| own.measured.value)),
-            causes,
+        let expected = format!("{} (declared)", list(&wrong, |own| own.declared));
+        let found = format!("{} (measured)", list(&wrong, |own| own.measured));
+        Item::failed(Grade::Consistency, NAME, expected, found, causes)
+    }
+
+    /// How the manifest would say what was measured.
+    fn correction(&self, own: &Finding, value: f64) -> String {
+        let measured = &self.findings.measured;
+        let known = own.key.filter(|key| measured.reason(*key).is_none());
+        known.map_or_else(
+            || {
+                let (name, value) = (&own.property, rounded(value));
+                format!("{name} is {value}, for which the manifest has no word: the law is another one")
+            },
+            |key| {
+                let value = measured.value(key);
+                let value = value.parse::<f64>().map_or(value, |number| rounded(number).to_string());
+                format!("the code has another convention than code.toml says, which might be: {key} = {value}")
+            },
         )
     }
 
-    /// The convention as measured, in place of what `declared` says where they differ.
-    pub fn convention(&self, declared: &Declaration) -> ContactConvention {
-        let own = declared.convention;
-        let value = |name: &str| {
-            let found = self
-                .properties
-                .iter()
-                .find(|property| property.name == name);
-            found
-                .filter(|property| self.deviates(property))
-                .map(|property| property.measured.value)
+    /// The convention by which the stack is looked at: the measured one where the declared one is wrong.
+    pub fn convention(&self) -> ContactConvention {
+        let settled = self.findings.settled.convention;
+        let mut findings = self.findings.findings.iter();
+        let is_wrong = findings.any(|own| is_convention(own) && self.deviates(own));
+        let measured = ContactConvention {
+            restitution: settled.restitution,
+            ..self.findings.measured.convention
         };
-        let arms = |kind: &str, own: ContactArms| ContactArms {
-            torque: value(&format!("{kind}_torque_arm")).unwrap_or(own.torque),
-            kinematic: value(&format!("{kind}_kinematic_arm")).unwrap_or(own.kinematic),
-        };
-        let mut measured = own;
-        measured.arms.pair = arms("pair", own.arms.pair);
-        measured.arms.floor = arms("floor", own.arms.floor);
-        let inertia = value("moment_of_inertia").unwrap_or(own.moment_of_inertia);
-        measured.moment_of_inertia = inertia;
-        if let Some(share) = value("floor_coulomb_damping_share") {
-            let whole = CoulombOperand::SpringAndDamping;
-            measured.coulomb_operand = if share > 0.5 {
-                whole
-            } else {
-                CoulombOperand::Spring
-            };
-        }
-        if let Some(memory) = value("floor_sliding_spring_memory") {
-            let limit = SlidingSpring::FollowsLimit;
-            measured.sliding_spring = if memory > 0.5 {
-                SlidingSpring::Frozen
-            } else {
-                limit
-            };
-        }
-        if let Some(update) = value("pair_history_update") {
-            measured.history_update = match update {
-                update if update > 0.5 => HistoryUpdate::Linearised,
-                update if update < -0.5 => HistoryUpdate::Projected,
-                _ => HistoryUpdate::Rotated,
-            };
-        }
-        if let Some(pull) = value("pair_pull") {
-            let pulls = TensileForce::MayPull;
-            measured.tensile_force = if pull > 0.5 {
-                pulls
-            } else {
-                TensileForce::NeverPulls
-            };
-        }
-        match measured.validate() {
-            Ok(()) => measured,
-            Err(_) => own,
+        match is_wrong && measured.validate().is_ok() {
+            true => measured,
+            false => settled,
         }
     }
+}
 
-    /// The measured convention in one line.
-    pub fn passport(&self) -> String {
-        let convention = self.properties.iter().filter(|own| is_convention(own));
-        let each = convention.filter(|own| own.measured.value.is_finite());
-        let each = each.map(|own| format!("{} {:.6}", own.name, rounded(own.measured.value)));
-        each.collect::<Vec<_>>().join(", ")
-    }
+/// Names and values of properties.
+fn list(findings: &[&Finding], value: impl Fn(&Finding) -> Option<f64>) -> String {
+    let each = findings.iter().map(|own| {
+        let value = value(own).unwrap_or(f64::NAN) + 0.0;
+        format!("{} {value:.6}", own.property)
+    });
+    each.collect::<Vec<_>>().join(", ")
 }
 
 fn rounded(value: f64) -> f64 {
@@ -237,15 +182,16 @@ fn ending(name: &str) -> &str {
         .unwrap_or(name)
 }
 
-fn is_convention(property: &Property) -> bool {
-    let ending = ending(&property.name);
+fn is_convention(own: &Finding) -> bool {
+    let ending = ending(&own.property);
     let mut parameters = PARAMETERS.iter().flat_map(|(_, endings)| *endings);
-    !MOMENTS.contains(&ending) && !parameters.any(|own| *own == ending)
+    own.growth().is_none()
+        && !MOMENTS.contains(&ending)
+        && !parameters.any(|other| *other == ending)
 }
 
-/// What fits a parameter that is not as asked.
-fn causes_of(property: &Property) -> Vec<String> {
-    let (found, asked) = (property.measured.value, property.declared);
+/// What fits a parameter of that `name` that is not as asked.
+fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
     let named = |candidates: &[(f64, &str)]| {
         let candidates = candidates
             .iter()
@@ -253,7 +199,7 @@ fn causes_of(property: &Property) -> Vec<String> {
         meanings(found, &candidates.collect::<Vec<_>>())
     };
     let is_none = found.abs() < 1e-9;
-    let texts = match (property.name.as_str(), ending(&property.name)) {
+    let texts = match (name, ending(name)) {
         (_, "radius") if is_none => {
             vec!["there is no torque: the tangential force acts at the centre".to_owned()]
         }
@@ -302,7 +248,6 @@ fn causes_of(property: &Property) -> Vec<String> {
         (_, "mass" | "normal_stiffness") => of_factor(found / asked, NO_WEIGHT),
         _ => Vec::new(),
     };
-    let name = &property.name;
     texts
         .into_iter()
         .map(|text| format!("{name}: {text}"))
@@ -339,65 +284,6 @@ fn damping(found: f64, asked: f64) -> Vec<String> {
         ),
     ];
     meanings(factor, &candidates)
-}
-
-/// How the manifest would say what was measured.
-fn correction(name: &str, value: f64) -> String {
-    let value = rounded(value);
-    let (kind, ending) = match name.split_once('_') {
-        Some((kind @ ("pair" | "floor"), ending)) => (kind, ending),
-        _ => ("", name),
-    };
-    let word = |words: [(f64, &'static str); 3]| {
-        let nearest = words
-            .into_iter()
-            .min_by(|left, right| (left.0 - value).abs().total_cmp(&(right.0 - value).abs()));
-        nearest.map_or("", |(_, word)| word)
-    };
-    let line = match ending {
-        "torque_arm" | "kinematic_arm" => format!("{kind}.{ending} = {value}"),
-        "damping_arm" => {
-            return format!(
-                "the damping moves at another radius (arm {value}) than the spring: {name} has no key"
-            );
-        }
-        "moment_of_inertia" => {
-            format!("moment_of_inertia = {value} (1/2 is a solid cylinder, 2/5 a sphere)")
-        }
-        "velocity_lag" => {
-            format!("velocity_lag = {value} in [integration] (1/2: leapfrog, 0: velocity Verlet)")
-        }
-        "coulomb_damping_share" => {
-            format!(
-                "coulomb_operand = \"{}\"",
-                word([(0.0, "spring"), (1.0, "spring-and-damping"), (1.0, "")])
-            )
-        }
-        "sliding_spring_memory" => {
-            format!(
-                "sliding_spring = \"{}\"",
-                word([(0.0, "follows-limit"), (1.0, "frozen"), (1.0, "")])
-            )
-        }
-        "history_update" => {
-            format!(
-                "history_update = \"{}\"",
-                word([(0.0, "rotated"), (-1.0, "projected"), (1.0, "linearised")])
-            )
-        }
-        "pull" => format!(
-            "tensile_force = \"{}\"",
-            word([(0.0, "never-pulls"), (1.0, "may-pull"), (1.0, "")])
-        ),
-        _ => {
-            return format!(
-                "{name} is {value}, for which the manifest has no key: the law is another one"
-            );
-        }
-    };
-    format!(
-        "the code has another convention than its manifest says; in [convention] of code.toml: {line}"
-    )
 }
 
 fn usual(name: &str) -> &'static str {

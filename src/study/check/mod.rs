@@ -110,10 +110,9 @@ impl Check<'_> {
         let case = case(self.code.convention());
         let run = self.stack(installed.as_ref(), &case)?;
         let micro = self.micro_tests(installed.as_ref())?;
-        let declared = self.code.declaration();
         let convention = micro
             .as_ref()
-            .map_or(declared.convention, |micro| micro.convention(&declared));
+            .map_or_else(|| self.code.convention(), Micro::convention);
         self.report
             .items
             .extend(stack::items(&run.series, &case, convention));
@@ -132,7 +131,7 @@ impl Check<'_> {
         ));
         self.report
             .items
-            .extend(information(self.code, convention, micro.as_ref()));
+            .extend(information(self.code, micro.as_ref()));
         Some(())
     }
 
@@ -159,7 +158,7 @@ impl Check<'_> {
             let found =
                 "the first word of `command` names no program in the search path".to_owned();
             let causes = vec![
-                format!("it is not installed: {}", if hint.is_empty() { "`install` says how" } else { hint }),
+                format!("it is not installed; `install` of code.toml says: {hint}"),
                 "its name is misspelt, or it is a file of the folder: files are given as {deck}, to an interpreter".to_owned(),
             ];
             self.add(fail(found, causes));
@@ -277,7 +276,7 @@ impl Check<'_> {
                     record.provenance.seconds
                 );
                 self.add(Item::passed(Grade::Mandatory, NAME, found));
-                Some(Micro::of(self.code, &record))
+                Some(Micro::of(self.code, record))
             }
             Err(failure) => {
                 self.fail(NAME, Some(&failure), None);

@@ -5,10 +5,10 @@ use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
 use crate::model::{
-    Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
+    Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
 };
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, quasistatic_limit};
+use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
@@ -82,6 +82,9 @@ pub struct Measurement {
     pub limit: Limit,
     /// Distance of that limit from the one under the paper's convention, relative to F + 3.
     pub model_form: Option<f64>,
+    /// By how much the limit may be off because arms were measured and not declared, in m g; absent where all are
+    /// declared.
+    pub convention_uncertainty: Option<f64>,
     /// How its yield force is read.
     pub method: Method,
     /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
@@ -114,7 +117,9 @@ impl Measurement {
         estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        extrapolate(estimates, &steps, self.stack.stiffness, estimator)
+        let mut found = extrapolate(estimates, &steps, self.stack.stiffness, estimator)?;
+        found.budget.convention = self.convention_uncertainty;
+        Some(found)
     }
 
     /// The same with shortcuts in every run, and the two faster runs once more without, which show the effect of the
@@ -178,12 +183,25 @@ fn planned(
         stack: *stack,
         convention,
         method,
+        convention_uncertainty: convention_uncertainty(code, stack, &convention),
         is_gentle: is_surely_gentle(fastest, stack)
             || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
         cases,
         limit,
         model_form,
     }
+}
+
+/// By how much the limit of `stack` may be off because arms of `code` were measured; `None` where all of them are
+/// declared, or nothing yields.
+fn convention_uncertainty(
+    code: Code,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<f64> {
+    let uncertainty = code.settled().arm_uncertainty;
+    let is_measured = uncertainty != Arms::PAPER;
+    is_measured.then(|| limit_uncertainty(stack, convention, &uncertainty))?
 }
 
 /// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and

@@ -190,61 +190,58 @@ fn is_convention(own: &Finding) -> bool {
         && !parameters.any(|other| *other == ending)
 }
 
+/// Meanings of a radius, by the torque of a force.
+const RADII: [(f64, &str); 3] = [
+    (0.5, "1/2: a diameter of 1; the radius is 1"),
+    (2.0, "2: the diameter in place of the radius"),
+    (
+        -1.0,
+        "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
+    ),
+];
+/// Meanings of the reported force of the top wall, in units of that which it exerts.
+const WALL_FORCES: [(f64, &str); 2] = [
+    (-1.0, "its sign: it counts positive in compression"),
+    (2.0, "it counts twice"),
+];
+/// Meanings of the steps by which the overlap in a force is ahead of the positions of its row.
+const LEADS: [(f64, &str); 2] = [
+    (
+        -1.0,
+        "the force of a row is that of the step before: it is written before it is computed anew, or positions have \
+            moved on before they are written",
+    ),
+    (
+        1.0,
+        "the force of a row is that of the step after: positions are written before they move, forces after",
+    ),
+];
+
 /// What fits a parameter of that `name` that is not as asked.
 fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
     let named = |candidates: &[(f64, &str)]| {
-        let candidates = candidates
-            .iter()
-            .map(|(value, meaning)| (*value, (*meaning).to_owned()));
+        let candidates = candidates.iter();
+        let candidates = candidates.map(|(value, meaning)| (*value, (*meaning).to_owned()));
         meanings(found, &candidates.collect::<Vec<_>>())
     };
+    let none = |meaning: &str| vec![meaning.to_owned()];
     let is_none = found.abs() < 1e-9;
     let texts = match (name, ending(name)) {
         (_, "radius") if is_none => {
-            vec!["there is no torque: the tangential force acts at the centre".to_owned()]
+            none("there is no torque: the tangential force acts at the centre")
         }
+        (_, "radius") => named(&RADII),
         (_, "reported_force") if is_none => {
-            vec!["it is 0: never computed, or written before it is".to_owned()]
+            none("it is 0: never computed, or written before it is")
         }
+        (_, "reported_force") => named(&WALL_FORCES),
+        (_, "overlap_lead") => named(&LEADS),
         ("wall_friction", _) => vec![format!(
             "the top wall has a friction of {found:.6}, and must have none"
         )],
         (_, "friction") => of_friction(found, asked, asked),
-        (_, "radius") => named(&[
-            (0.5, "1/2: a diameter of 1; the radius is 1"),
-            (2.0, "2: the diameter in place of the radius"),
-            (
-                -1.0,
-                "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
-            ),
-        ]),
-        (_, "reported_force") => named(&[
-            (-1.0, "its sign: it counts positive in compression"),
-            (2.0, "it counts twice"),
-        ]),
-        (_, "overlap_lead") => named(&[
-            (
-                -1.0,
-                "the force of a row is that of the step before: it is written before it is computed anew, or positions \
-                    have moved on before they are written",
-            ),
-            (
-                1.0,
-                "the force of a row is that of the step after: positions are written before they move, forces after",
-            ),
-        ]),
         (_, "normal_damping" | "tangential_damping") => damping(found, asked),
-        (_, "tangential_stiffness") => {
-            let mut texts = of_factor(found / asked, NO_WEIGHT);
-            // In the micro-tests k_n/k_t = 1/k_t, since k_n = 1.
-            if is_about(found, 1.0) {
-                texts.push("k_n: the normal stiffness serves for both".to_owned());
-            }
-            if is_about(found, 1.0 / asked) {
-                texts.push("1/k_t: the ratio is turned round".to_owned());
-            }
-            texts
-        }
+        (_, "tangential_stiffness") => tangential_stiffness(found, asked),
         (_, "mass" | "normal_stiffness") => of_factor(found / asked, NO_WEIGHT),
         _ => Vec::new(),
     };
@@ -252,6 +249,18 @@ fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
         .into_iter()
         .map(|text| format!("{name}: {text}"))
         .collect()
+}
+
+/// In the micro-tests k_n/k_t = 1/k_t, since k_n = 1.
+fn tangential_stiffness(found: f64, asked: f64) -> Vec<String> {
+    let mut texts = of_factor(found / asked, NO_WEIGHT);
+    if is_about(found, 1.0) {
+        texts.push("k_n: the normal stiffness serves for both".to_owned());
+    }
+    if is_about(found, 1.0 / asked) {
+        texts.push("1/k_t: the ratio is turned round".to_owned());
+    }
+    texts
 }
 
 fn damping(found: f64, asked: f64) -> Vec<String> {

@@ -8,6 +8,8 @@ mod computed;
 mod factor;
 mod information;
 mod micro;
+mod mistake;
+mod parameter;
 mod reaction;
 mod report;
 mod rows;

@@ -2,6 +2,7 @@
 
 use super::beside::{Beside, SAME};
 use super::factor::{of_factor, of_friction};
+use super::mistake::every_step;
 use super::report::{Grade, Item};
 use super::rows::{Row, index, indices, name, rows_of};
 use super::{computed, written};
@@ -28,7 +29,7 @@ pub(super) fn items(series: &Series, case: &Case, convention: ContactConvention)
         return Vec::new();
     };
     let expected = rows_of(&native);
-    let dense = computed::every_step(&own);
+    let dense = every_step(&own);
     if dense.len() < 2 {
         return Vec::new();
     }

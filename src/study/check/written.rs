@@ -4,7 +4,7 @@ use super::beside::Beside;
 use super::factor::{is_about, of_factor};
 use super::rows::{
     ANGLES, FLOOR, FORCES, HEIGHTS, LENGTHS, MIRRORED, NORMALS, Row, SHEARS, WALL, WIDTHS, at_time,
-    index, indices, name,
+    index, indices, name, peak,
 };
 use crate::model::Case;
 
@@ -49,8 +49,14 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
         if !moving.iter().any(|column| open.contains(column)) {
             continue;
         }
-        if let Some(relation) = relation(beside, &what, &group, case) {
-            open.retain(|column| !group.contains(column));
+        let group = Group {
+            beside,
+            case,
+            what: &what,
+            columns: &group,
+        };
+        if let Some(relation) = group.relation() {
+            open.retain(|column| !group.columns.contains(column));
             found.push(relation);
         }
     }
@@ -152,112 +158,118 @@ fn exchanged_columns(beside: &Beside, deviating: &[usize]) -> Option<String> {
     ))
 }
 
-/// The relation between found and expected values of a group of columns, in words.
-fn relation(beside: &Beside, what: &str, group: &[usize], case: &Case) -> Option<String> {
-    let weight = case.stack.epsilon();
-    let change = |value: &dyn Fn(usize, usize) -> f64| -> Vec<Row> {
-        let rows = 0..beside.expected.len();
-        rows.map(|row| std::array::from_fn(|column| value(row, column)))
-            .collect()
-    };
-    let expected = |row: usize, column: usize| beside.expected[row][column];
-    let explains = |rows: &[Row]| beside.explains(rows, group);
-    let factor = slope(beside, group, &expected);
-    if explains(&change(&|row, column| factor * expected(row, column))) {
-        return Some(with_factor(what, factor, weight, group));
-    }
-    let start = |column: usize| expected(0, column);
-    if explains(&change(&|row, column| {
-        expected(row, column) - start(column)
-    })) {
-        return Some(format!(
-            "{what} count from the beginning of the compression, and must count from the floor and \
-                             from the stack before gravity rose"
-        ));
-    }
-    let factor = slope(beside, group, &|row, column| {
-        expected(row, column) - start(column)
-    });
-    if explains(&change(&|row, column| {
-        factor * (expected(row, column) - start(column))
-    })) {
-        return Some(format!(
-            "{what}: {factor:.6} times the change since the beginning of the compression stands in \
-                             place of the value"
-        ));
-    }
-    let offset = offset(beside, group);
-    if explains(&change(&|row, column| expected(row, column) + offset)) {
-        return Some(with_offset(what, offset, weight));
-    }
-    let changes: Vec<Row> = change(&|row, column| match group.contains(&column) {
-        true => change_in_a_step(beside, row, column),
-        false => 0.0,
-    });
-    let lag = slope_of(
-        beside,
-        group,
-        &|row, column| -changes[row][column],
-        &|row, column| beside.found[row][column] - expected(row, column),
-    );
-    let (time, step) = (index("time"), case.protocol.time_step);
-    let late = |lag: f64| -> Vec<Row> {
-        let times = beside.expected.iter().map(|row| row[time]);
-        times
-            .map(|time| at_time(beside.dense, time - lag * step))
-            .collect()
-    };
-    let lags = [lag.round(), 0.5 * (2.0 * lag).round(), lag];
-    if let Some(lag) = lags.into_iter().find(|&lag| explains(&late(lag))) {
-        return Some(with_lag(what, lag, case));
-    }
-    let magnitude = change(&|row, column| expected(row, column).abs());
-    explains(&magnitude).then(|| format!("{what} are written without their signs"))
+/// Columns that may share a mistake.
+struct Group<'a> {
+    beside: &'a Beside<'a>,
+    case: &'a Case,
+    what: &'a str,
+    columns: &'a [usize],
 }
 
-/// Change of a column per step, from the steps before and after a row.
-fn change_in_a_step(beside: &Beside, row: usize, column: usize) -> f64 {
-    let time = index("time");
-    let step = beside.dense[1][time];
-    let now = beside.expected[row][time];
-    let [before, after] = [now - step, now + step].map(|time| at_time(beside.dense, time)[column]);
-    0.5 * (after - before)
-}
+impl Group<'_> {
+    /// The relation between found and expected values, in words.
+    fn relation(&self) -> Option<String> {
+        self.factor()
+            .or_else(|| self.from_start())
+            .or_else(|| self.offset())
+            .or_else(|| self.lag())
+            .or_else(|| self.magnitude())
+    }
 
-/// The factor of `by` that is nearest to what was found.
-fn slope(beside: &Beside, group: &[usize], by: &dyn Fn(usize, usize) -> f64) -> f64 {
-    slope_of(beside, group, by, &|row, column| beside.found[row][column])
-}
+    fn expected(&self, row: usize, column: usize) -> f64 {
+        self.beside.expected[row][column]
+    }
 
-fn slope_of(
-    beside: &Beside,
-    group: &[usize],
-    by: &dyn Fn(usize, usize) -> f64,
-    of: &dyn Fn(usize, usize) -> f64,
-) -> f64 {
-    let rows = 0..=super::rows::peak(beside.expected);
-    let places: Vec<(usize, usize)> = rows
-        .flat_map(|row| group.iter().map(move |&column| (row, column)))
-        .collect();
-    let square: f64 = places
-        .iter()
-        .map(|&(row, column)| by(row, column).powi(2))
-        .sum();
-    let product: f64 = places
-        .iter()
-        .map(|&(row, column)| by(row, column) * of(row, column))
-        .sum();
-    product / square.max(f64::MIN_POSITIVE)
-}
+    /// Change of a column since the wall began to move.
+    fn change(&self, row: usize, column: usize) -> f64 {
+        self.expected(row, column) - self.expected(0, column)
+    }
 
-fn offset(beside: &Beside, group: &[usize]) -> f64 {
-    let rows = super::rows::peak(beside.expected) + 1;
-    let apart = (0..rows).flat_map(|row| {
-        group
-            .iter()
-            .map(move |&column| beside.found[row][column] - beside.expected[row][column])
-    });
-    apart.sum::<f64>() / (rows * group.len()) as f64
+    /// Whether these values explain the columns.
+    fn explains(&self, value: impl Fn(usize, usize) -> f64) -> bool {
+        let rows = 0..self.beside.expected.len();
+        let rows: Vec<Row> = rows
+            .map(|row| std::array::from_fn(|column| value(row, column)))
+            .collect();
+        self.beside.explains(&rows, self.columns)
+    }
+
+    /// Rows up to the peak, and the columns.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        let rows = 0..=peak(self.beside.expected);
+        rows.flat_map(|row| self.columns.iter().map(move |&column| (row, column)))
+    }
+
+    /// The factor of `by` that is nearest to `of`.
+    fn slope(&self, by: impl Fn(usize, usize) -> f64, of: impl Fn(usize, usize) -> f64) -> f64 {
+        let sum = |value: &dyn Fn(usize, usize) -> f64| -> f64 {
+            self.places().map(|(row, column)| value(row, column)).sum()
+        };
+        let square = sum(&|row, column| by(row, column).powi(2));
+        sum(&|row, column| by(row, column) * of(row, column)) / square.max(f64::MIN_POSITIVE)
+    }
+
+    fn found(&self, row: usize, column: usize) -> f64 {
+        self.beside.found[row][column]
+    }
+
+    fn factor(&self) -> Option<String> {
+        let factor = self.slope(|r, c| self.expected(r, c), |r, c| self.found(r, c));
+        let explains = self.explains(|row, column| factor * self.expected(row, column));
+        let weight = self.case.stack.epsilon();
+        explains.then(|| with_factor(self.what, factor, weight, self.columns))
+    }
+
+    fn from_start(&self) -> Option<String> {
+        let what = self.what;
+        if self.explains(|row, column| self.change(row, column)) {
+            return Some(format!(
+                "{what} count from the beginning of the compression, and must count from the floor, \
+                 from the middle, and from the stack before gravity rose"
+            ));
+        }
+        let factor = self.slope(|r, c| self.change(r, c), |r, c| self.found(r, c));
+        let explains = self.explains(|row, column| factor * self.change(row, column));
+        explains.then(|| {
+            format!(
+                "{what}: {factor:.6} times the change since the beginning of the compression stands in \
+                 place of the value"
+            )
+        })
+    }
+
+    fn offset(&self) -> Option<String> {
+        let apart = self
+            .places()
+            .map(|(r, c)| self.found(r, c) - self.expected(r, c));
+        let offset = apart.sum::<f64>() / self.places().count() as f64;
+        let explains = self.explains(|row, column| self.expected(row, column) + offset);
+        explains.then(|| with_offset(self.what, offset, self.case.stack.epsilon()))
+    }
+
+    fn lag(&self) -> Option<String> {
+        let (time, step) = (index("time"), self.case.protocol.time_step);
+        let rows = self.beside.expected.iter();
+        let late = |lag: f64| -> Vec<Row> {
+            let moments = rows.clone().map(|row| row[time] - lag * step);
+            moments
+                .map(|moment| at_time(self.beside.dense, moment))
+                .collect()
+        };
+        let [before, after] = [late(0.5), late(-0.5)];
+        let lag = self.slope(
+            |row, column| before[row][column] - after[row][column],
+            |row, column| self.found(row, column) - self.expected(row, column),
+        );
+        let mut lags = [lag.round(), 0.5 * (2.0 * lag).round(), lag].into_iter();
+        let lag = lags.find(|&lag| self.beside.explains(&late(lag), self.columns))?;
+        Some(with_lag(self.what, lag, self.case))
+    }
+
+    fn magnitude(&self) -> Option<String> {
+        let explains = self.explains(|row, column| self.expected(row, column).abs());
+        explains.then(|| format!("{} are written without their signs", self.what))
+    }
 }
 
 fn with_factor(what: &str, factor: f64, weight: f64, group: &[usize]) -> String {

@@ -153,3 +153,30 @@ pub(super) fn of_friction(found: f64, asked: f64, other: f64) -> Vec<String> {
         &candidates.map(|(value, meaning)| (value, meaning.to_owned())),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_factor_has_the_meanings_that_it_may_have_and_no_others() {
+        let told = |factor| of_factor(factor, 0.01).join(" ");
+        assert!(told(100.0).contains("unit is m g"));
+        assert!(told(180.0 / PI).contains("degrees"));
+        assert!(told(4.0 / 3.0 * PI).contains("sphere"));
+        assert_eq!(told(1.234), "");
+        // Without a weight nothing is mistaken for one.
+        assert!(of_factor(0.0, f64::INFINITY).is_empty());
+    }
+
+    #[test]
+    fn a_friction_is_told_from_its_angles() {
+        let told = |found| of_friction(found, 0.3, 0.7).join(" ");
+        assert!(told(libm::tan(0.3)).starts_with("tan(mu)"));
+        assert!(told(libm::atan(0.3)).starts_with("atan(mu)"));
+        assert!(told(0.7).contains("exchanged"));
+        assert!(told(0.5).contains("mean"));
+        assert!(told(0.0).contains("no friction"));
+        assert_eq!(told(0.44), "");
+    }
+}

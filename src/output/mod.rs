@@ -2,6 +2,7 @@
 
 mod bench;
 mod case_file;
+mod check;
 mod crosscheck;
 mod explain;
 mod figures;
@@ -32,6 +33,7 @@ pub use vtk::{VtkFile, vtk_series};
 
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
 pub(crate) use case_file::commented_case;
+pub(crate) use check::{check, check_text};
 pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, performance_svg, regimes_svg};

@@ -21,6 +21,7 @@ mod layers;
 mod manifest;
 mod manifest_error;
 mod native;
+mod packages;
 mod parameters;
 mod planned;
 mod process;

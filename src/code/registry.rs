@@ -4,6 +4,7 @@ use super::convention::{Declaration, Settled};
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
+use super::search_path::SEARCH_PATH;
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -75,7 +76,7 @@ impl Code {
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
-    pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
         let codes = Self::all_in_folder(folder)?;
         let wanted = |code: &&Code| match name {
             Some(name) => code.as_str() == name,
@@ -315,9 +316,15 @@ impl Code {
     pub(crate) fn places(self) -> String {
         let program = self.definition().program.iter();
         let directories = program.flat_map(|program| &program.search);
-        let mut places: Vec<&str> = directories.map(|place| place.get_ref().as_str()).collect();
-        places.push("the search path");
-        format!("in {}", places.join(" or "))
+        let places = directories.map(|place| match place.get_ref().as_str() {
+            SEARCH_PATH => "the search path",
+            directory => directory,
+        });
+        let places: Vec<&str> = places.collect();
+        match places.as_slice() {
+            [] => "in the search path".to_owned(),
+            places => format!("in {}", places.join(" or ")),
+        }
     }
 }
 

@@ -18,6 +18,7 @@ mod side_walls;
 mod stack;
 mod validity;
 
+pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
 pub use contact_test::{ContactTest, InitialMotion};

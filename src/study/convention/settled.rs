@@ -4,10 +4,13 @@ use super::finding::{Property, TOLERANCE};
 use super::properties::{HISTORY_UPDATES, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
 use super::regression::Measured;
 use crate::code::{ConventionKey, Declaration, Settled};
+use crate::model::ARM_RANGE;
 
 /// Finest decimal that a measured number keeps. Rounding by half of it moves the yield force by less than a hundredth of
 /// the least tolerance.
 const FINEST: f64 = 1e-9;
+
+const NOT_SHOWN: &str = "its motions do not show it";
 
 /// The convention that `properties` show, where `declaration` leaves something out.
 pub(super) fn settled(declaration: &Declaration, properties: &[Property]) -> Settled {
@@ -51,7 +54,7 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
             found.lag_uncertainty = measured.uncertainty;
         }
         _ => {
-            let Measured { value, uncertainty } = number(properties)?;
+            let Measured { value, uncertainty } = in_range(number(properties)?, ARM_RANGE);
             key.set_arm(&mut convention.arms, value);
             key.set_arm(&mut found.arm_uncertainty, uncertainty);
         }
@@ -66,6 +69,9 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
 /// uncertainty. It is part of the address of a case, which must not depend on digits that mean nothing.
 fn number(properties: &[&Property]) -> Result<Measured, String> {
     let known = known(properties)?;
+    if properties.first() != known.first() {
+        return Err(NOT_SHOWN.to_owned());
+    }
     let first = known[0].measured;
     let apart = |own: &&&Property| {
         let allowed = first.uncertainty + own.measured.uncertainty + TOLERANCE;
@@ -85,6 +91,16 @@ fn rounded(measured: Measured) -> Measured {
     // Adding zero turns -0 into 0.
     let value = text.parse().unwrap_or(measured.value) + 0.0;
     Measured::new(value, measured.uncertainty + (value - measured.value).abs())
+}
+
+/// `measured`, or the end of a range that it leaves by no more than its uncertainty.
+fn in_range(measured: Measured, [least, most]: [f64; 2]) -> Measured {
+    let end = measured.value.clamp(least, most);
+    let beyond = (measured.value - end).abs();
+    match beyond <= measured.uncertainty {
+        true => Measured::new(end, measured.uncertainty + beyond),
+        false => measured,
+    }
 }
 
 /// The only one of `alternatives` that `properties` are consistent with.
@@ -108,16 +124,16 @@ fn alternative<T: Copy>(alternatives: &[(T, f64)], properties: &[&Property]) -> 
     })
 }
 
-/// Those of `properties` that could be measured, the first of them among them.
+/// Those of `properties` that could be measured, if there are any.
 fn known<'a>(properties: &[&'a Property]) -> Result<Vec<&'a Property>, String> {
     let is_known = |own: &&&Property| {
         let Measured { value, uncertainty } = own.measured;
         value.is_finite() && uncertainty.is_finite()
     };
     let known: Vec<&Property> = properties.iter().filter(is_known).copied().collect();
-    match properties.first() {
-        Some(first) if known.first() == Some(first) => Ok(known),
-        _ => Err("its motions do not show it".to_owned()),
+    match known.is_empty() {
+        true => Err(NOT_SHOWN.to_owned()),
+        false => Ok(known),
     }
 }
 
@@ -194,6 +210,18 @@ mod tests {
     }
 
     #[test]
+    fn an_arm_beyond_its_range_by_its_uncertainty_is_the_end_of_the_range() {
+        let settled_at = |value: f64| {
+            let measured = [property("floor_torque_arm", value, 4e-7)];
+            settled_by(ConventionKey::FloorTorqueArm, &measured)
+        };
+        let found = settled_at(-1.000_000_3);
+        assert_eq!(found.convention.arms.floor.torque, -1.0);
+        assert!(found.arm_uncertainty.floor.torque > 4e-7);
+        assert_eq!(settled_at(-1.000_001).unknown.len(), 1);
+    }
+
+    #[test]
     fn what_no_convention_can_be_is_unknown_with_the_reason() {
         let inertia = [property("moment_of_inertia", 0.1, 1e-9)];
         let why = reason(ConventionKey::MomentOfInertia, &inertia);
@@ -201,9 +229,16 @@ mod tests {
             why.contains("`convention.moment_of_inertia` is 0.1"),
             "{why}"
         );
-        let dumb = [property("pair_torque_arm", f64::NAN, f64::INFINITY)];
-        let why = reason(ConventionKey::PairTorqueArm, &dumb);
-        assert_eq!(why, "its motions do not show it");
+        let dumb = |name: &str| property(name, f64::NAN, f64::INFINITY);
+        let why = reason(ConventionKey::PairTorqueArm, &[dumb("pair_torque_arm")]);
+        assert_eq!(why, NOT_SHOWN);
+        // The arm of the damping alone is not that of the spring.
+        let damping = property("pair_damping_arm", -0.5, 1e-9);
+        let why = reason(
+            ConventionKey::PairKinematicArm,
+            &[dumb("pair_kinematic_arm"), damping],
+        );
+        assert_eq!(why, NOT_SHOWN);
     }
 
     #[test]
@@ -221,6 +256,9 @@ mod tests {
             reason(key, &memory(0.3, 0.3)),
             "pair_sliding_spring_memory is 0.300000, not 1 or 0"
         );
+        let found = settled_by(key, &memory(f64::NAN, 1.0));
+        assert_eq!(found.convention.sliding_spring, SlidingSpring::Frozen);
+        assert_eq!(found.unknown, []);
         let why = reason(key, &memory(1.0, 0.0));
         assert!(
             why.contains("floor_sliding_spring_memory is 0.000000"),

@@ -1,7 +1,7 @@
 //! The exact limits that measurements are held to.
 
 use crate::code::Code;
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{ContactConvention, Stack};
 use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -13,9 +13,8 @@ pub(super) fn convention_uncertainty(
     stack: &Stack,
     convention: &ContactConvention,
 ) -> Option<f64> {
-    let uncertainty = code.settled().arm_uncertainty;
-    let is_measured = uncertainty != Arms::PAPER;
-    is_measured.then(|| limit_uncertainty(stack, convention, &uncertainty))?
+    let uncertainty = code.settled().measured_arms()?;
+    limit_uncertainty(stack, convention, &uncertainty)
 }
 
 /// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and

@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod bench;
+mod check;
 mod code_names;
 mod codes;
 mod command_line;
@@ -10,8 +11,11 @@ mod error;
 mod explain;
 mod guard;
 mod interrupt;
+mod judge;
+mod judge_series;
 mod options;
 mod out;
+mod plan;
 mod predict;
 mod probe;
 mod progress;
@@ -19,6 +23,7 @@ mod record;
 mod regimes;
 mod report;
 mod simulate;
+mod stack_set;
 mod streams;
 mod sweep;
 mod theory;
@@ -56,10 +61,13 @@ enum Command {
     Crosscheck(crosscheck::Arguments),
     Trajectories(trajectories::Arguments),
     Codes(codes::Arguments),
+    Check(check::Arguments),
     Probe(probe::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
     Report(report::Arguments),
+    Plan(plan::Arguments),
+    Judge(judge::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
     #[command(name = GUARD_COMMAND, hide = true)]
@@ -109,10 +117,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Crosscheck(arguments) => crosscheck::run(&arguments, command),
         Command::Trajectories(arguments) => trajectories::run(&arguments, command),
         Command::Codes(arguments) => codes::run(&arguments, command),
+        Command::Check(arguments) => check::run(&arguments, command),
         Command::Probe(arguments) => probe::run(&arguments, command),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments, command),
         Command::Report(arguments) => report::run(&arguments, command),
+        Command::Plan(arguments) => plan::run(&arguments, command),
+        Command::Judge(arguments) => judge::run(&arguments, command),
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
         Command::Guard(arguments) => guard::run(&arguments),

@@ -184,6 +184,11 @@ impl Settled {
         }
     }
 
+    /// The uncertainties of the arms if any of them was measured.
+    pub fn measured_arms(&self) -> Option<Arms> {
+        (self.arm_uncertainty != Arms::PAPER).then_some(self.arm_uncertainty)
+    }
+
     /// The sum of the uncertainties of the arms.
     pub fn arms_open(&self) -> f64 {
         let arms = ConventionKey::ARMS.into_iter();

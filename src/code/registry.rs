@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 #[derive(Default)]
 struct Registry {
@@ -279,6 +280,24 @@ impl Code {
     /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
     pub(crate) fn seconds_per_step(self) -> f64 {
         self.definition().seconds.step
+    }
+
+    /// Time after which a run of `steps` steps counts as hanging.
+    pub(crate) fn time_limit(self, steps: u64) -> Duration {
+        self.definition().time_limit(steps)
+    }
+
+    /// The folder that it was read from; `None` for the built-in codes.
+    pub(crate) fn folder(self) -> Option<PathBuf> {
+        let registry = registry();
+        let mut folders = registry.folders.iter();
+        let own = folders.find(|(_, codes)| codes.contains(&self));
+        own.map(|(folder, _)| folder.clone())
+    }
+
+    /// Whether an external program computes.
+    pub(crate) fn has_program(self) -> bool {
+        self.definition().program.is_some()
     }
 
     /// Instructions for installing it; without any, where its program is looked for.

@@ -3,8 +3,10 @@
 //! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
 //! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
 
+pub mod check;
 pub mod convention;
 pub mod cost;
+mod elsewhere;
 mod mechanics;
 mod pipeline;
 pub mod preparation;
@@ -14,6 +16,8 @@ pub mod trajectory;
 mod verdict;
 pub mod yield_force;
 
+pub use elsewhere::Plan;
+pub(crate) use elsewhere::{PLAN, PlannedRow};
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
 pub(crate) use verdict::Ground;

@@ -1,23 +1,20 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
-use super::extrapolate::{Extrapolation, extrapolate};
-use super::runs::{MIDDLE_RUN, SPEEDS};
-use super::touch::max_touch_speed;
+use super::extrapolate::{Extrapolation, extrapolate_runs};
+use super::limits::{convention_uncertainty, known_limit};
+use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
+use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
-use crate::model::{
-    Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
-};
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
-use thiserror::Error;
+use crate::theory::Limit;
+use serde::{Deserialize, Serialize};
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
-const RAMP_TIME: f64 = 100.0;
-const REST_TIME: f64 = 100.0;
+pub(super) const RAMP_TIME: f64 = 100.0;
+pub(super) const REST_TIME: f64 = 100.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
@@ -32,26 +29,6 @@ const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
 /// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
-/// Planned speeds have six digits.
-const LEAST_DIGITS: f64 = 1.0 + 1e-5;
-
-/// Refusal to run a stack that does not yield at the floor.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("`--mu` is {}, but nothing yields there: {reason}{}", exact(stack.floor_friction), accepted(*range))]
-pub struct NoYield {
-    /// The stack.
-    pub stack: Stack,
-    /// The event that comes instead of the yield.
-    pub reason: String,
-    /// Lowest and highest floor friction at which such a stack yields, if there is any.
-    pub range: Option<(f64, f64)>,
-}
-
-fn accepted(range: Option<(f64, f64)>) -> String {
-    range.map_or_else(String::new, |(lowest, highest)| {
-        format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
-    })
-}
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
 pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
@@ -61,7 +38,8 @@ pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
 /// How the yield force is read off the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Slip onset, extrapolated to vanishing wall speed.
     Extrapolated,
@@ -93,6 +71,8 @@ pub struct Measurement {
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
     /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
+    /// Which run is which.
+    pub roles: RunRoles,
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.
@@ -117,7 +97,13 @@ impl Measurement {
         estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        let mut found = extrapolate(estimates, &steps, self.stack.stiffness, estimator)?;
+        let mut found = extrapolate_runs(
+            &self.roles,
+            estimates,
+            &steps,
+            self.stack.stiffness,
+            estimator,
+        )?;
         found.budget.convention = self.convention_uncertainty;
         Some(found)
     }
@@ -154,7 +140,8 @@ impl Measurement {
     }
 }
 
-fn planned(
+/// Plans the measurement of `stack` with `code` under `convention`, its yield force to be read by `method`.
+pub(crate) fn planned(
     code: Code,
     stack: &Stack,
     convention: ContactConvention,
@@ -184,38 +171,12 @@ fn planned(
         convention,
         method,
         convention_uncertainty: convention_uncertainty(code, stack, &convention),
-        is_gentle: is_surely_gentle(fastest, stack)
-            || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
+        is_gentle: is_gentle(fastest, stack, &convention),
         cases,
+        roles: RunRoles::PLANNED,
         limit,
         model_form,
     }
-}
-
-/// By how much the limit of `stack` may be off because arms of `code` were measured; `None` where all of them are
-/// declared, or nothing yields.
-fn convention_uncertainty(
-    code: Code,
-    stack: &Stack,
-    convention: &ContactConvention,
-) -> Option<f64> {
-    let uncertainty = code.settled().arm_uncertainty;
-    let is_measured = uncertainty != Arms::PAPER;
-    is_measured.then(|| limit_uncertainty(stack, convention, &uncertainty))?
-}
-
-/// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and
-/// preparations share it.
-fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    static KNOWN: Mutex<BTreeMap<String, Limit>> = Mutex::new(BTreeMap::new());
-    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = format!("{stack:?} {convention:?}");
-    if let Some(limit) = known().get(&key) {
-        return limit.clone();
-    }
-    let limit = quasistatic_limit(stack, convention);
-    known().insert(key, limit.clone());
-    limit
 }
 
 fn planned_protocols(
@@ -262,7 +223,11 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 /// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
 /// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
 /// yields.
-fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
+pub(super) fn speed_scale(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
@@ -276,11 +241,6 @@ fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> 
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
-}
-
-/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
-fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
-    wall_speed <= 0.5 * stack.epsilon()
 }
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the
@@ -333,55 +293,10 @@ fn rounded(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-/// The refusal to run a stack that does not yield, with the accepted frictions.
-pub(crate) fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
-    NoYield {
-        stack: *stack,
-        reason: limit
-            .reason
-            .as_deref()
-            .unwrap_or("no yield force")
-            .to_owned(),
-        range: yielding_frictions(stack, convention),
-    }
-}
-
-/// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
-/// four digits; `None` if there is none.
-fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
-    const GRID: f64 = 0.01;
-    let yields = |floor_friction: f64| {
-        let stack = Stack {
-            floor_friction,
-            ..*stack
-        };
-        quasistatic_limit(&stack, convention).yield_force.is_some()
-    };
-    let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
-    let first = grid.iter().position(|&friction| yields(friction))?;
-    let last = grid.iter().rposition(|&friction| yields(friction))?;
-    let border = |mut inside: f64, mut outside: f64| {
-        while (inside - outside).abs() > 1e-5 {
-            let middle = 0.5 * (inside + outside);
-            if yields(middle) {
-                inside = middle
-            } else {
-                outside = middle
-            }
-        }
-        inside
-    };
-    Some((
-        border(grid[first], grid[first] - GRID),
-        border(grid[last], grid[last] + GRID),
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
     use super::*;
-    use crate::model::CRITICAL_FRICTION;
 
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
@@ -505,14 +420,5 @@ mod tests {
             ContactConvention::PAPER,
         );
         assert!(measurement.cases.is_empty());
-    }
-
-    #[test]
-    fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
-        let (lowest, highest) =
-            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::PAPER).unwrap();
-        assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
-        // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
-        assert!((highest - 0.53994).abs() < 2e-5);
     }
 }

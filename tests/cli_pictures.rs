@@ -54,7 +54,7 @@ fn frames_come_from_the_same_run_and_their_forces_balance() {
         }
     }
     // Everything in the series is the same in both.
-    let known = Frames::of_series(&series, case.protocol.wall_speed);
+    let known = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
     assert_eq!(known.frames.len(), frames.frames.len());
     for (one, other) in known.frames.iter().zip(&frames.frames) {
         assert!((one.wall_height - other.wall_height).abs() < 1e-9);
@@ -91,7 +91,7 @@ fn svg_shows_rest_yield_and_collapse_with_their_forces() {
 fn svg_of_an_external_code_leaves_out_what_it_does_not_report() {
     let case = run(&Bench::without_codes(), "");
     let series = compress_stack(&case, || true).expect("a finite series");
-    let frames = Frames::of_series(&series, case.protocol.wall_speed);
+    let frames = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
     let picture = run_svg("liggghts", &case, &frames);
     assert!(picture.contains("liggghts reports the forces of floor and wall alone"));
     assert!(!picture.contains(">a</tspan>"));

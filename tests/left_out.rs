@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::fs;
 use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
 use tristack::dem::run_contact_test;
-use tristack::model::{Arms, ContactConvention, ContactTest, SlidingSpring, Stack};
+use tristack::model::{Arms, ContactConvention, ContactTest, HistoryUpdate, Stack};
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::series::Motion;
 use tristack::study::convention::{probe, probe_all, settle_by};
@@ -68,7 +68,7 @@ fn a_convention_that_is_left_out_is_measured_and_gives_the_same_rows() {
         }
         let uncertainty = |row: &Value| row["uncertainty"].as_f64().expect("a number");
         let open = uncertainty(measured) - uncertainty(declared);
-        assert!((1e-13..1e-6).contains(&open), "{open}");
+        assert!(open > 0.0 && open < 1e-9, "{open}");
     }
 }
 
@@ -259,7 +259,7 @@ fn findings(
 fn a_parameter_is_never_taken_for_convention() {
     let convention = ContactConvention {
         arms: Arms::reciprocal(-0.25, -0.75),
-        sliding_spring: SlidingSpring::FollowsLimit,
+        history_update: HistoryUpdate::Projected,
         ..ContactConvention::PAPER
     };
     type Change = fn(ContactTest) -> ContactTest;
@@ -313,12 +313,10 @@ fn a_parameter_is_never_taken_for_convention() {
         }
     }
     let right = findings(convention, |test| test);
-    assert!(
-        right
-            .iter()
-            .all(|(.., verdict)| *verdict == Verdict::Agrees),
-        "{right:?}"
-    );
+    let wrong = right
+        .iter()
+        .find(|(.., verdict)| *verdict == Verdict::Differs);
+    assert_eq!(wrong, None);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `tristack check`.
 
-use super::options::{Format, code_in_folder, time_limit};
+use super::code_names::code_in_folder;
+use super::options::{Format, time_limit};
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::RunContext;
 use crate::files::FileError;

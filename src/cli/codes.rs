@@ -1,5 +1,6 @@
 //! `tristack codes`.
 
+use super::code_names::read_user_folders;
 use super::options::{Format, find_all};
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
@@ -7,6 +8,9 @@ use crate::output::inventory;
 use clap::Args;
 
 /// List the codes: installed or not, version, contact convention
+///
+/// Besides the built-in codes there are those of the folders in `tristack/codes` of the user's data directory
+/// ($XDG_DATA_HOME, or ~/.local/share), each of which has a manifest, code.toml.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack codes --format json")]
 pub(super) struct Arguments {
@@ -15,8 +19,9 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-/// Prints every known code, and fails if one that is installed is broken.
+/// Prints every known code, and fails if one that is installed, or a folder of the user, is broken.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    let unreadable = read_user_folders();
     let codes = find_all(&Code::all());
     let tables = [inventory(&codes)];
     let people = || tables[0].shown().terminal();
@@ -29,7 +34,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     for (name, reason) in &broken {
         tell!("{name} failed: {reason}");
     }
-    Ok(match broken.is_empty() {
+    for error in &unreadable {
+        tell!("{error}");
+    }
+    Ok(match broken.is_empty() && unreadable.is_empty() {
         true => printed,
         false => printed.max(ExitStatus::CodeFailed),
     })

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod code_names;
 mod codes;
 mod command_line;
 mod convention;

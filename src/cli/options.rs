@@ -1,17 +1,15 @@
 //! Options that several commands share.
 
+pub(super) use super::code_names::CodeParser;
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
-use crate::code::{Code, ManifestError};
+use crate::code::Code;
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
     PAPER_STIFFNESS_RATIO, Stack,
 };
 use crate::output::{DataTable, json};
 use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
-use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -256,50 +254,6 @@ pub(super) fn recording_directory() -> Result<PathBuf, InvalidValue> {
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
     value.map(PathBuf::from)
-}
-
-/// Reads a code: its name, or the path of a folder with its manifest. A path contains a `/` and ends in `:NAME` if
-/// the folder describes several codes.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct CodeParser;
-
-impl TypedValueParser for CodeParser {
-    type Value = Code;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<Code, clap::Error> {
-        let text = value.to_string_lossy();
-        if text.contains('/') {
-            return code_in_folder(&text).map_err(|error| {
-                clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
-            });
-        }
-        let name = names().parse_ref(command, argument, value)?;
-        Ok(Code::named(&name).unwrap_or(Code::NATIVE))
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let names = Code::all().into_iter().map(Code::as_str);
-        Some(Box::new(names.map(PossibleValue::new)))
-    }
-}
-
-fn names() -> PossibleValuesParser {
-    PossibleValuesParser::new(Code::all().into_iter().map(Code::as_str))
-}
-
-/// The code in the folder `text`, or in `FOLDER:NAME`.
-pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
-    match text.rsplit_once(':') {
-        Some((folder, name)) if !name.contains('/') => {
-            Code::in_folder(Path::new(folder), Some(name))
-        }
-        _ => Code::in_folder(Path::new(text), None),
-    }
 }
 
 /// The codes named, each of which must be installed; all codes if none is named.

@@ -95,11 +95,20 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");
         }
     }
+    for finding in findings {
+        if let Some(growth) = finding.growth() {
+            tell!("{}: {growth}", finding.code);
+        }
+    }
     let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(
-        "{agreeing} of {} properties are as declared, {differing} differ, {} are inconclusive",
+        "{agreeing} of {} properties are as declared{}, {differing} differ, {} are inconclusive",
         findings.len(),
+        match findings.iter().any(|own| own.declared.is_none()) {
+            true => " or measured where nothing is declared",
+            false => "",
+        },
         findings.len() - agreeing - differing
     );
     if INTERRUPT.requested() {

@@ -224,7 +224,8 @@ fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
 /// leaves out the forces between the cylinders.
 fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
     if code != Code::NATIVE {
-        return Ok(Frames::of_series(&run.series, run.case.protocol.wall_speed));
+        let speed = run.case.protocol.wall_speed;
+        return Ok(Frames::of_series(&run.series, speed)?);
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
     let (_, frames) = repeated.map_err(|error| {

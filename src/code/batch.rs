@@ -106,7 +106,8 @@ impl<'a, T: Task> Batch<'a, T> {
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let (file, parameters) = (&self.code.definition.parameters, task.parameters());
+            let file = &self.code.definition.parameters;
+            let parameters = file.numbers(task);
             only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
             let content = file.format.content(&parameters);
             write(&directory.join(&file.file), content.as_bytes())?;

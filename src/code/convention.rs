@@ -1,7 +1,7 @@
 //! The convention of a code: the keys that its manifest declares, and those that a probe settles.
 
 use crate::model::{Arms, ContactConvention};
-use toml::{Table, Value};
+use toml::de::DeTable;
 
 /// A key of a manifest on the convention of a code, which the probe measures where it is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -96,7 +96,7 @@ impl ConventionKey {
 
     /// The keys that `manifest` leaves out. A kinematic arm is declared with the torque arm, which it is where it is not
     /// written.
-    pub(super) fn left_out_of(manifest: &Table) -> Vec<Self> {
+    pub(super) fn left_out_of(manifest: &DeTable) -> Vec<Self> {
         let keys = Self::ALL.into_iter();
         let left_out = keys.filter(|key| match key {
             Self::PairKinematicArm => !key.is_in(manifest) && !Self::PairTorqueArm.is_in(manifest),
@@ -108,10 +108,10 @@ impl ConventionKey {
         left_out.collect()
     }
 
-    fn is_in(self, manifest: &Table) -> bool {
+    fn is_in(self, manifest: &DeTable) -> bool {
         let (tables, key) = self.as_str().rsplit_once('.').unwrap_or_default();
         let inner = tables.split('.').try_fold(manifest, |table, name| {
-            table.get(name).and_then(Value::as_table)
+            table.get(name)?.get_ref().as_table()
         });
         inner.is_some_and(|table| table.contains_key(key))
     }
@@ -184,6 +184,11 @@ impl Settled {
         }
     }
 
+    /// The uncertainties of the arms if any of them was measured.
+    pub fn measured_arms(&self) -> Option<Arms> {
+        (self.arm_uncertainty != Arms::PAPER).then_some(self.arm_uncertainty)
+    }
+
     /// The sum of the uncertainties of the arms.
     pub fn arms_open(&self) -> f64 {
         let arms = ConventionKey::ARMS.into_iter();
@@ -218,8 +223,8 @@ mod tests {
     use super::*;
 
     fn left_out_of(manifest: &str) -> Vec<&'static str> {
-        let manifest = manifest.parse().unwrap();
-        let left_out = ConventionKey::left_out_of(&manifest).into_iter();
+        let manifest = DeTable::parse(manifest).unwrap();
+        let left_out = ConventionKey::left_out_of(manifest.get_ref()).into_iter();
         left_out.map(ConventionKey::as_str).collect()
     }
 

@@ -44,19 +44,29 @@ pub(super) struct CoveredFiles {
 }
 
 impl CoveredFiles {
-    /// The files behind `program`, which gets `words` as arguments in its `environment`.
-    pub fn of(program: &Path, words: &[String], environment: &Environment) -> Self {
+    /// The files behind `program`, which gets `words` as arguments in its `environment`, and `decks` to read. An
+    /// interpreter of Python is given what decks import from its packages.
+    pub fn of<'a>(
+        program: &Path,
+        words: &[String],
+        environment: &Environment,
+        decks: impl IntoIterator<Item = &'a [u8]>,
+    ) -> Self {
         let mut search = Search::default();
         search.add_program(program);
+        for deck in decks {
+            search.add_imports(Path::new(""), &String::from_utf8_lossy(deck));
+        }
         for word in words.iter().map(Path::new) {
             if word.is_absolute() && word.is_file() {
                 search.add_program(word);
             }
         }
         let (files, libraries) = (search.files.clone(), search.libraries.clone());
+        let environment = search.packages.with_libraries(environment);
         let mapped = search.loaders.iter().flat_map(|(program, loader)| {
             // Extensions of an interpreter are mapped into it as soon as they are imported.
-            mapped_by_loader(loader, program, &libraries, environment)
+            mapped_by_loader(loader, program, &libraries, &environment)
         });
         let all: BTreeSet<PathBuf> = mapped.chain(files).chain(libraries.clone()).collect();
         Self::hashed(all)
@@ -134,6 +144,8 @@ struct Search {
     libraries: BTreeSet<PathBuf>,
     /// Programs with the loader that each of them names.
     loaders: Vec<(PathBuf, PathBuf)>,
+    /// The packages beside the interpreters of Python that were found.
+    packages: Packages,
 }
 
 impl Search {
@@ -142,6 +154,7 @@ impl Search {
         if !path.is_file() || !self.files.insert(path.to_owned()) {
             return;
         }
+        self.packages.add_beside(path);
         let content = beginning(path);
         if let Some(line) = content.strip_prefix(b"#!") {
             self.add_script(path, line, &String::from_utf8_lossy(&content));
@@ -167,10 +180,12 @@ impl Search {
                 self.add_program(&real);
             }
         }
-        match name.starts_with("python") {
-            true => self.add_python(path, text),
-            false => self.add_shell(path, text),
+        if name.starts_with("python") {
+            return self.add_python(path, text);
         }
+        self.add_shell(path, text);
+        // Where the path of an interpreter is too long, a shell hands the script on to it.
+        self.add_imports(Path::new(""), text);
     }
 
     /// Adds programs that a shell script names, by path, in the search path, or beside it.
@@ -213,23 +228,32 @@ impl Search {
                 self.add_modules(Path::new(word));
             }
         }
+        self.add_imports(script.parent().unwrap_or(Path::new("")), text);
+    }
+
+    /// Adds modules that a Python `text` imports from `directory`, if that is given, and packages that it imports from
+    /// those of its interpreter.
+    fn add_imports(&mut self, directory: &Path, text: &str) {
+        let own = (directory != Path::new("")).then(|| directory.to_owned());
+        let places: Vec<PathBuf> = own.into_iter().chain(self.packages.0.clone()).collect();
+        if places.is_empty() {
+            return;
+        }
         let imports = text
             .lines()
             .map(str::trim_start)
             .filter(|line| line.starts_with("import ") || line.starts_with("from "));
-        for name in imports.flat_map(words) {
-            let Some(directory) = script.parent() else {
-                return;
+        for word in imports.flat_map(words) {
+            let name = word.trim_start_matches('.').split('.').next();
+            let Some(name) = name.filter(|name| !name.is_empty()) else {
+                continue;
             };
-            let name = name
-                .trim_start_matches('.')
-                .split('.')
-                .next()
-                .unwrap_or_default();
-            self.add_module(&directory.join(format!("{name}.py")));
-            let package = directory.join(name);
-            if !name.is_empty() && package.join("__init__.py").is_file() {
-                self.add_modules(&package);
+            for place in &places {
+                self.add_module(&place.join(format!("{name}.py")));
+                let package = place.join(name);
+                if package.join("__init__.py").is_file() {
+                    self.add_modules(&package);
+                }
             }
         }
     }
@@ -241,21 +265,61 @@ impl Search {
         }
     }
 
-    /// Adds all modules and extensions below `directory`, unless there are too many.
+    /// Adds all modules, extensions and programs below `directory`, unless there are too many.
     fn add_modules(&mut self, directory: &Path) {
         let mut found = Vec::new();
         if modules_below(directory, MOST_LEVELS, &mut found) {
             for path in found {
-                match is_library(&path) {
-                    true => _ = self.libraries.insert(path),
-                    false => _ = self.files.insert(path),
+                match is_module(&path) {
+                    true => _ = self.files.insert(path),
+                    false => self.add_file(&path),
                 }
             }
         }
     }
 }
 
-/// Collects modules and extensions; returns whether there are few enough.
+/// The directories with the packages of virtual environments whose interpreters were found.
+#[derive(Default)]
+struct Packages(BTreeSet<PathBuf>);
+
+impl Packages {
+    /// Adds those of the environment in which `program` is the interpreter.
+    fn add_beside(&mut self, program: &Path) {
+        let environment = program.parent().and_then(Path::parent);
+        let is_interpreter = file_name(&program.to_string_lossy()).starts_with("python");
+        let Some(environment) =
+            environment.filter(|place| place.join("pyvenv.cfg").is_file() && is_interpreter)
+        else {
+            return;
+        };
+        let versions = std::fs::read_dir(environment.join("lib"));
+        let versions = versions.into_iter().flatten().flatten();
+        let packages = versions.map(|version| version.path().join("site-packages"));
+        self.0.extend(packages.filter(|place| place.is_dir()));
+    }
+
+    /// `environment` with a search path for the libraries that packages put beside these directories.
+    fn with_libraries(&self, environment: &Environment) -> Environment {
+        const SEARCH_PATH: &str = "LD_LIBRARY_PATH";
+        let mut environment = environment.clone();
+        let own = environment.get(SEARCH_PATH).cloned();
+        let libraries = self
+            .0
+            .iter()
+            .filter_map(|place| place.ancestors().nth(2)?.to_str());
+        let places: Vec<String> = own
+            .into_iter()
+            .chain(libraries.map(str::to_owned))
+            .collect();
+        if !places.is_empty() {
+            environment.insert(SEARCH_PATH.to_owned(), places.join(":"));
+        }
+        environment
+    }
+}
+
+/// Collects modules, extensions and programs; returns whether there are few enough.
 fn modules_below(directory: &Path, levels: usize, found: &mut Vec<PathBuf>) -> bool {
     let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
     for entry in entries {
@@ -265,7 +329,7 @@ fn modules_below(directory: &Path, levels: usize, found: &mut Vec<PathBuf>) -> b
             if !modules_below(&path, levels - 1, found) {
                 return false;
             }
-        } else if path.is_file() && is_source(&path) {
+        } else if path.is_file() && (is_source(&path) || is_executable(&path)) {
             found.push(path);
         }
         if found.len() > MOST_MODULES {
@@ -304,6 +368,10 @@ fn is_executable(path: &Path) -> bool {
 fn is_library(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name.ends_with(".so") || name.contains(".so.")
+}
+
+fn is_module(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end == "py")
 }
 
 /// Whether it is one of the files that scripts read and execute.

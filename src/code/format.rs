@@ -1,9 +1,8 @@
 //! The named formats of parameter files and results.
 
 use crate::model::{Case, ContactTest, Pyramid};
-use crate::series::{Motion, PyramidRun, Series, SeriesError};
+use crate::series::{ColumnSources, Header, Motion, PyramidRun, Row, Series, SeriesError};
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 
 /// LIGGGHTS cuts the words of a header to so many characters.
 const CUT: usize = 8;
@@ -38,68 +37,88 @@ impl ParameterFormat {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResultFormat {
-    /// Comma-separated columns under their names.
+    /// Comma-separated columns under a header, in any order and among others.
     Csv,
-    /// The last table in the log of LAMMPS or LIGGGHTS with the columns in their order. The header names them in
-    /// full or by their first 8 characters, with or without `v_`.
+    /// The last table in the log of LAMMPS or LIGGGHTS that has the columns. The header names them in full or by their
+    /// first 8 characters, with or without `v_`.
     LammpsThermo,
 }
 
 impl ResultFormat {
-    /// The series of `case` in a result file.
-    pub fn series(self, content: &[u8], case: &Case) -> Result<Series, SeriesError> {
+    /// The series of `case` in a result file, of which some columns may be others.
+    pub fn series(
+        self,
+        content: &[u8],
+        sources: &ColumnSources,
+        case: &Case,
+    ) -> Result<Series, SeriesError> {
         let protocol = &case.protocol;
         match self {
-            Self::Csv => Series::read(content, protocol),
-            Self::LammpsThermo => Series::new(last_table(content, &Series::COLUMNS)?, protocol),
+            Self::Csv => Series::read_from(content, sources, protocol),
+            Self::LammpsThermo => {
+                let (rows, absent) = last_table(content, sources)?;
+                Series::without(absent, rows, protocol)
+            }
         }
     }
 
-    /// The motion of a micro-test in a result file.
-    pub fn motion(self, content: &[u8], test: &ContactTest) -> Result<Motion, SeriesError> {
+    /// The motion of a micro-test in a result file, of which some columns may be others.
+    pub fn motion(
+        self,
+        content: &[u8],
+        sources: &ColumnSources,
+        test: &ContactTest,
+    ) -> Result<Motion, SeriesError> {
         match self {
-            Self::Csv => Motion::read(content, test.steps),
-            Self::LammpsThermo => Motion::new(last_table(content, &Motion::COLUMNS)?, test.steps),
+            Self::Csv => Motion::read_from(content, sources, test.steps),
+            Self::LammpsThermo => Motion::new(last_table(content, sources)?.0, test.steps),
         }
     }
 }
 
-/// The rows of the last table in `log` with these `columns`: from its header to `Loop time`.
-fn last_table<Row: DeserializeOwned>(
+/// The rows of the last table in `log` with the columns of `R`, from its header to `Loop time`, and the names of the
+/// columns that it leaves out.
+fn last_table<R: Row>(
     log: &[u8],
-    columns: &[&str],
-) -> Result<Vec<Row>, SeriesError> {
+    sources: &ColumnSources,
+) -> Result<(Vec<R>, Vec<&'static str>), SeriesError> {
     let log = String::from_utf8_lossy(log);
     let lines: Vec<&str> = log.lines().collect();
-    let start = lines
-        .iter()
-        .rposition(|line| is_header(line, columns))
-        .ok_or_else(|| {
-            let columns = columns.join(" ");
-            SeriesError::absent(format!("the log has no table with the columns {columns}"))
-        })?;
-    lines[start + 1..]
+    let tables = (0..lines.len()).rev().filter_map(|line| {
+        let header = Header::<R>::find(&header_words(lines[line]), sources, is_cut).ok()?;
+        Some((line, header))
+    });
+    let (start, header) = tables.take(1).next().ok_or_else(|| {
+        let columns = R::columns().iter().filter(|column| !column.is_optional);
+        let columns: Vec<&str> = columns.map(|column| column.name).collect();
+        let columns = columns.join(" ");
+        SeriesError::absent(format!("the log has no table with the columns {columns}"))
+    })?;
+    let rows = lines[start + 1..]
         .iter()
         .take_while(|line| !line.starts_with("Loop time"))
         .enumerate()
-        .map(|(index, line)| parse_row(index + 1, line))
+        .map(|(index, line)| parse_row(&header, index + 1, line));
+    let rows: Vec<R> = rows.collect::<Result<_, _>>()?;
+    Ok((rows, header.absent()))
+}
+
+/// The words of a header without the `v_` of variables.
+fn header_words(line: &str) -> Vec<&str> {
+    let words = line.split_whitespace();
+    words
+        .map(|word| word.strip_prefix("v_").unwrap_or(word))
         .collect()
 }
 
-fn is_header(line: &str, columns: &[&str]) -> bool {
-    let words = line.split_whitespace();
-    let words: Vec<&str> = words
-        .map(|word| word.strip_prefix("v_").unwrap_or(word))
-        .collect();
-    let names = |(word, column): (&&str, &&str)| word == column || Some(*word) == column.get(..CUT);
-    words.len() == columns.len() && words.iter().zip(columns).all(names)
+fn is_cut(word: &str, name: &str) -> bool {
+    Some(word) == name.get(..CUT)
 }
 
-fn parse_row<Row: DeserializeOwned>(row: usize, line: &str) -> Result<Row, SeriesError> {
-    let fields: csv::StringRecord = line.split_whitespace().collect();
-    fields
-        .deserialize(None)
-        .map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
+fn parse_row<R: Row>(header: &Header<R>, row: usize, line: &str) -> Result<R, SeriesError> {
+    let fields: Vec<&str> = line.split_whitespace().collect();
+    let parsed = header.row(|place| fields.get(place).copied());
+    parsed.map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
 }
 
 /// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
@@ -156,7 +175,7 @@ mod tests {
     const ROW: &str = "0 0 1.5e-3 0 2.7 0 1 0.9 0 -1 0.9 0 0.1 -0.02 0.1 0.02";
 
     fn table(log: &str) -> Result<Vec<Sample>, SeriesError> {
-        last_table(log.as_bytes(), &Series::COLUMNS)
+        last_table(log.as_bytes(), &ColumnSources::new()).map(|(rows, _)| rows)
     }
 
     fn header() -> String {
@@ -178,14 +197,21 @@ mod tests {
     }
 
     #[test]
-    fn columns_in_another_order_are_no_table() {
-        let swapped = header().replace("x1 y1", "y1 x1");
-        let refusal = table(&format!("{swapped}\n{ROW}\n")).unwrap_err();
-        assert!(
-            refusal.to_string().contains("columns step time wall_force"),
-            "{refusal}"
-        );
-        assert!(table("ERROR: Invalid model").is_err());
+    fn columns_may_be_in_any_order_and_among_others() {
+        let swapped = header().replace("x1 y1", "y1 v_other x1");
+        let row = ROW.replacen("0 2.7", "2.7 77 0", 1);
+        let samples = table(&format!("{swapped}\n{row}\n")).unwrap();
+        assert_eq!((samples[0].x1, samples[0].y1), (0.0, 2.7));
+        assert_eq!(samples[0].floor_t3, 0.02);
+    }
+
+    #[test]
+    fn a_table_without_the_forces_is_none() {
+        for log in [&header().replace("floor_n2", "n2"), "ERROR: Invalid model"] {
+            let refusal = table(&format!("{log}\n{ROW}\n")).unwrap_err().to_string();
+            let expected = "columns step time wall_force floor_n2";
+            assert!(refusal.contains(expected), "{refusal}");
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestio
 use super::provenance::Identity;
 use super::question::answer;
 use super::registry::Code;
-use super::search_path::in_search_path;
+use super::search_path::find_program;
 use crate::model::{readable, shown};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -33,12 +33,17 @@ pub(crate) struct ExternalCode {
 }
 
 impl ExternalCode {
-    /// The code `name` with the program `word`, looked for in the search path. The package manager or the program itself
+    /// The code `name` with the program `word`, looked for in the directories of the manifest and in the search path. The
+    /// package manager or the program itself
     /// is asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
     /// broken: its runs would be kept under a wrong name.
     pub fn find(name: Code, word: &str) -> Option<Box<dyn InstalledCode>> {
         let program = name.definition().program.as_ref()?;
-        let file = in_search_path(word)?;
+        let directories = program
+            .search
+            .iter()
+            .map(|directory| directory.get_ref().as_str());
+        let file = find_program(directories, word)?;
         Some(match identify(&file, program) {
             Ok((version, package)) => Box::new(Self::identified(
                 name, program, word, file, version, package,
@@ -56,7 +61,8 @@ impl ExternalCode {
         package: Option<String>,
     ) -> Self {
         let arguments = program.command.get(1..).unwrap_or_default();
-        let covered = CoveredFiles::of(&file, arguments, &program.environment);
+        let decks = name.definition().decks();
+        let covered = CoveredFiles::of(&file, arguments, &program.environment, decks);
         let mut code = Self {
             name,
             definition: name.definition(),

@@ -1,19 +1,28 @@
 //! The keys of a manifest.
 
+use super::columns::read_columns;
 use super::convention::{ConventionKey, Settled};
 use super::format::{ParameterFormat, ResultFormat};
+use super::manifest_error::Place;
 use crate::model::ContactConvention;
+use crate::series::ColumnSources;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
-use toml::Table;
+use toml::{Spanned, Table};
 
 /// One code, as the manifest describes it.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
-    pub(super) schema: i64,
+    /// Version of the keys: 1.
+    #[serde(rename = "schema")]
+    _schema: i64,
+    /// Name of the code: lower-case letters, digits and hyphens.
     pub(super) name: String,
+    /// The code whose keys and files are taken where these are absent: the name of a built-in one, or the path of a folder.
+    #[serde(rename = "extends")]
+    _extends: Option<String>,
     /// Name in prose and figures; the variants of a folder share it.
     #[serde(default)]
     pub(super) title: String,
@@ -49,11 +58,15 @@ pub struct Definition {
     /// Placeholders of the command.
     #[serde(default)]
     pub(super) set: BTreeMap<String, String>,
-    #[serde(default)]
-    pub(super) variants: BTreeMap<String, Table>,
+    /// Further codes, by name, with the keys in which they differ.
+    #[serde(default, rename = "variants")]
+    _variants: BTreeMap<String, Table>,
     /// Name in the manifest, which variants share.
     #[serde(skip)]
     pub(super) family: String,
+    /// Where its name stands.
+    #[serde(skip)]
+    pub(super) place: Place,
 }
 
 /// The kinds of tasks.
@@ -68,6 +81,21 @@ pub enum TaskKind {
     Motion,
     /// Carry a pyramid.
     Pyramid,
+}
+
+impl TaskKind {
+    /// All kinds.
+    pub(crate) const ALL: [Self; 4] = [Self::Stack, Self::SideWalls, Self::Motion, Self::Pyramid];
+
+    /// Its name in manifests.
+    pub(crate) fn as_str(self) -> &'static str {
+        match self {
+            Self::Stack => "stack",
+            Self::SideWalls => "side-walls",
+            Self::Motion => "motion",
+            Self::Pyramid => "pyramid",
+        }
+    }
 }
 
 /// Mark of a code in figures.
@@ -128,6 +156,10 @@ pub(super) type Environment = BTreeMap<String, String>;
 pub(super) struct Program {
     /// Words with placeholders, never a line for a shell.
     pub(super) command: Vec<String>,
+    /// Directories in which the first word is looked for before the search path: `{folder}` is the folder of the
+    /// manifest, `$NAME` an environment variable; a directory with one that is not set is left out.
+    #[serde(default)]
+    pub(super) search: Vec<Spanned<String>>,
     /// A build of the program that computes with more digits.
     pub(super) higher_precision: Option<String>,
     #[serde(default)]
@@ -157,6 +189,17 @@ pub(super) struct VersionQuestion {
 pub(super) struct ParameterFile {
     pub(super) file: String,
     pub(super) format: ParameterFormat,
+    pub(super) content: ParameterContent,
+}
+
+/// The parameters that a deck is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ParameterContent {
+    /// Everything that a deck needs (docs/formats.md, `task`).
+    Task,
+    /// What the decks that come with tristack read, which know the units, the bodies and where these start.
+    Deck,
 }
 
 impl Default for ParameterFile {
@@ -164,6 +207,7 @@ impl Default for ParameterFile {
         Self {
             file: "task.json".to_owned(),
             format: ParameterFormat::Json,
+            content: ParameterContent::Task,
         }
     }
 }
@@ -174,6 +218,10 @@ impl Default for ParameterFile {
 pub struct ResultFile {
     pub(super) file: String,
     pub(super) format: ResultFormat,
+    /// Columns under other names, in other units or directions: the name that tristack gives them, and the name in the
+    /// result, with a factor if there is one.
+    #[serde(deserialize_with = "read_columns")]
+    pub(super) columns: ColumnSources,
 }
 
 impl Default for ResultFile {
@@ -181,6 +229,7 @@ impl Default for ResultFile {
         Self {
             file: "result.csv".to_owned(),
             format: ResultFormat::Csv,
+            columns: ColumnSources::new(),
         }
     }
 }
@@ -193,6 +242,9 @@ pub(super) struct TaskFiles {
     pub(super) files: Vec<String>,
     /// Its result file, if not the common one.
     pub(super) result: Option<String>,
+    /// Its columns, where they are not the common ones.
+    #[serde(default, deserialize_with = "read_columns")]
+    pub(super) columns: ColumnSources,
     #[serde(skip)]
     pub(super) contents: Vec<Vec<u8>>,
 }

@@ -1,6 +1,6 @@
 //! The parameters of tasks, under the same names for every code. Units r = m = k_n = 1.
 
-use super::definition::refused;
+use super::manifest_error::refused;
 use crate::model::{
     Case, ContactConvention, ContactLaw, ContactTest, InvalidValue, PreparationSteps, Pyramid,
     Stack,
@@ -108,7 +108,7 @@ pub(super) fn of_pyramid(pyramid: &Pyramid) -> Value {
 }
 
 /// One object with the entries of all `objects`.
-fn merged<const N: usize>(objects: [Value; N]) -> Value {
+pub(super) fn merged<const N: usize>(objects: [Value; N]) -> Value {
     let mut entries = Map::new();
     for mut object in objects {
         entries.append(object.as_object_mut().unwrap_or(&mut Map::new()));

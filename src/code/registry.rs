@@ -1,29 +1,14 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
 use super::convention::{Declaration, Settled};
-use super::definition::{ManifestError, refused};
+use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
+use super::manifest_error::{ManifestError, refused};
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
-
-/// The files of a folder, named from the top of the project.
-macro_rules! folder {
-    ($folder:literal, $($file:literal)+) => {
-        ($folder, &[$(($file, include_str!(concat!("../../", $folder, "/", $file)))),+])
-    };
-}
-
-/// The only place that names the built-in folders. Their order is that of tables and figures.
-static BUILT_IN: [(&str, &[(&str, &str)]); 4] = [
-    folder!("src/code/native", "code.toml"),
-    folder!("liggghts_inputs", "code.toml" "stack.in" "side_walls.in" "probe.in" "pyramid.in" "contacts.in"
-        "top_wall.in" "wall.stl" "side_wall.stl"),
-    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "cases.py"),
-    folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
-];
 
 #[derive(Default)]
 struct Registry {
@@ -33,9 +18,9 @@ struct Registry {
 }
 
 static REGISTRY: LazyLock<Mutex<Registry>> = LazyLock::new(|| {
-    let folders = BUILT_IN.iter();
-    let definitions = folders.flat_map(|(folder, files)| {
-        Definition::embedded(folder, files).expect("a folder of this program is in order")
+    let definitions = BUILT_IN.iter().flat_map(|folder| {
+        let definitions = Definition::read_folder(Folder::BuiltIn(*folder));
+        definitions.expect("a folder of this program is in order")
     });
     Mutex::new(Registry {
         definitions: definitions.map(leaked).collect(),
@@ -70,31 +55,36 @@ impl Code {
         Self::all().into_iter().find(|code| code.as_str() == name)
     }
 
+    /// The codes in `folder`, in the order of their names. A folder is read once.
+    ///
+    /// # Errors
+    /// If the folder describes no code, or one whose name is taken.
+    pub(crate) fn all_in_folder(folder: &Path) -> Result<Vec<Self>, ManifestError> {
+        let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        let mut registry = registry();
+        if !registry.folders.contains_key(&place) {
+            let own = registry.add(Definition::read(folder)?)?;
+            registry.folders.insert(place.clone(), own);
+        }
+        Ok(registry.folders[&place].clone())
+    }
+
     /// The code in `folder` that has the `name`; without a name the only one, or the one that is named like the
-    /// manifest. A folder is read once.
+    /// manifest.
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
     pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
-        let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        let mut registry = registry();
-        if !registry.folders.contains_key(&place) {
-            let read = Definition::read(folder)?;
-            let own = registry.add(folder, read)?;
-            registry.folders.insert(place.clone(), own);
-        }
-        let codes = &registry.folders[&place];
-        let definition = |code: &Code| registry.definitions[code.0];
+        let codes = Self::all_in_folder(folder)?;
         let wanted = |code: &&Code| match name {
-            Some(name) => definition(code).name == name,
-            None => codes.len() == 1 || definition(code).name == definition(code).family,
+            Some(name) => code.as_str() == name,
+            None => codes.len() == 1 || code.as_str() == code.definition().family,
         };
         codes.iter().find(wanted).copied().ok_or_else(|| {
-            let names = codes.iter().map(|code| definition(code).name.as_str());
-            let names: Vec<&str> = names.collect();
+            let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
             let asked = name.unwrap_or("no name");
             let message = format!("{asked} is given; accepted is one of {}", names.join(", "));
-            ManifestError::new(folder, message)
+            ManifestError::of_folder(folder, &message)
         })
     }
 
@@ -290,24 +280,45 @@ impl Code {
         self.definition().seconds.step
     }
 
-    /// Instructions for installing it.
-    pub(crate) fn installation_hint(self) -> &'static str {
-        &self.definition().install
+    /// Instructions for installing it; without any, where its program is looked for.
+    pub(crate) fn installation_hint(self) -> String {
+        let definition = self.definition();
+        if !definition.install.is_empty() {
+            return definition.install.clone();
+        }
+        let program = definition.program.as_ref();
+        let word = program.and_then(|program| program.command.first());
+        let word = word.map_or("", String::as_str);
+        format!("put its program `{word}` {}", self.places())
+    }
+
+    /// The places in which its program is looked for, in words.
+    pub(crate) fn places(self) -> String {
+        let program = self.definition().program.iter();
+        let directories = program.flat_map(|program| &program.search);
+        let mut places: Vec<&str> = directories.map(|place| place.get_ref().as_str()).collect();
+        places.push("the search path");
+        format!("in {}", places.join(" or "))
     }
 }
 
 impl Registry {
-    /// Adds the codes of `folder`, whose names must be new.
-    fn add(&mut self, folder: &Path, read: Vec<Definition>) -> Result<Vec<Code>, ManifestError> {
-        let mut taken = self.definitions.iter();
-        if let Some(other) = taken.find(|own| read.iter().any(|new| new.name == own.name)) {
-            let message = format!("name is {}; accepted is a name that is free", other.name);
-            return Err(ManifestError::new(folder, message));
+    /// Adds the codes of a folder, whose names must be new.
+    fn add(&mut self, read: Vec<Definition>) -> Result<Vec<Code>, ManifestError> {
+        let is_taken = |new: &&Definition| self.definitions.iter().any(|own| own.name == new.name);
+        if let Some(new) = read.iter().find(is_taken) {
+            let message = format!(
+                "`name` is {}; accepted is a name that no other code has",
+                new.name
+            );
+            return Err(ManifestError::new(new.place.clone(), &message));
         }
         if let Some(new) = read.iter().find(|new| new.program.is_none()) {
-            let accepted = "accepted is one with a command";
-            let message = format!("{} has no [program]; {accepted}", new.name);
-            return Err(ManifestError::new(folder, message));
+            let message = format!(
+                "{} has no [program]; accepted is one with a command",
+                new.name
+            );
+            return Err(ManifestError::new(new.place.clone(), &message));
         }
         let first = self.definitions.len();
         self.definitions.extend(read.into_iter().map(leaked));

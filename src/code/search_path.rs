@@ -1,12 +1,86 @@
-//! Programs in the search path.
+//! Programs in the directories that a manifest names, and in the search path.
 
+use super::manifest_error::refused;
+use crate::model::InvalidValue;
 use nix::unistd::{AccessFlags, access};
-use std::path::PathBuf;
+use std::path::{Component, Path, PathBuf};
+
+/// In a manifest: the folder of the manifest.
+pub(super) const FOLDER: &str = "{folder}";
 
 /// The program of this name in the search path.
 pub(super) fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path)
-        .filter_map(|directory| std::path::absolute(directory.join(program)).ok())
-        .find(|candidate| candidate.is_file() && access(candidate, AccessFlags::X_OK).is_ok())
+    std::env::split_paths(&path).find_map(|directory| in_directory(&directory, program))
+}
+
+/// The program of this name in one of `directories`, which a manifest names, or in the search path.
+pub(super) fn find_program<'a>(
+    directories: impl IntoIterator<Item = &'a str>,
+    program: &str,
+) -> Option<PathBuf> {
+    let mut directories = directories.into_iter().filter_map(filled_in);
+    let found = directories.find_map(|directory| in_directory(&directory, program));
+    found.or_else(|| in_search_path(program))
+}
+
+fn in_directory(directory: &Path, program: &str) -> Option<PathBuf> {
+    let candidate = std::path::absolute(directory.join(program)).ok()?;
+    let runs = candidate.is_file() && access(&candidate, AccessFlags::X_OK).is_ok();
+    runs.then_some(candidate)
+}
+
+/// `directory` with the values of environment variables in place of parts such as `$VIRTUAL_ENV`; `None` if one of them
+/// is not set.
+fn filled_in(directory: &str) -> Option<PathBuf> {
+    let parts = Path::new(directory).components().map(|part| {
+        let Component::Normal(name) = part else {
+            return Some(PathBuf::from(part.as_os_str()));
+        };
+        match name.to_str().and_then(|name| name.strip_prefix('$')) {
+            Some(variable) => std::env::var_os(variable)
+                .filter(|value| !value.is_empty())
+                .map(PathBuf::from),
+            None => Some(PathBuf::from(name)),
+        }
+    });
+    parts.collect()
+}
+
+/// Refuses a directory that depends on where tristack is started.
+pub(super) fn check_directory(directory: &str) -> Result<(), InvalidValue> {
+    let rest = directory.strip_prefix(FOLDER);
+    let is_definite = match rest {
+        Some(rest) => rest.is_empty() || rest.starts_with('/'),
+        None => directory.starts_with(['/', '$']),
+    };
+    if is_definite && !rest.unwrap_or(directory).contains(['{', '}']) {
+        return Ok(());
+    }
+    let accepted = "a directory that begins with `/`, `{folder}` or an environment variable such as `$VIRTUAL_ENV`";
+    Err(refused("program.search", directory, accepted))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variables_are_filled_in_and_one_that_is_not_set_skips_the_directory() {
+        let home = std::env::var_os("PATH").expect("tests run with a search path");
+        let filled = filled_in("$PATH/bin").expect("it is set");
+        assert_eq!(filled, Path::new(&home).join("bin"));
+        assert_eq!(filled_in("$TRISTACK_NEVER_SET/bin"), None);
+        assert_eq!(filled_in("/opt/x/bin"), Some(PathBuf::from("/opt/x/bin")));
+    }
+
+    #[test]
+    fn directories_must_be_definite() {
+        for good in ["/opt", "{folder}", "{folder}/venv/bin", "$VIRTUAL_ENV/bin"] {
+            assert_eq!(check_directory(good), Ok(()));
+        }
+        for bad in ["venv/bin", "{folder}s/bin", "{home}/bin", "/opt/{deck}", ""] {
+            assert!(check_directory(bad).is_err(), "{bad}");
+        }
+    }
 }

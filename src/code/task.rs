@@ -1,7 +1,8 @@
 //! Tasks: cases, micro-tests and pyramids, each with its inputs and its outcome.
 
 use super::format::pyramid_in_log;
-use super::manifest::{ResultFile, TaskKind};
+use super::full_parameters;
+use super::manifest::{Definition, ParameterContent, ParameterFile, ResultFile, TaskKind};
 use super::parameters;
 use super::registry::Code;
 use super::written::{STANDARD_ERROR, STANDARD_OUTPUT, read};
@@ -26,8 +27,11 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     /// Upper bound of its run time, in steps of a stack.
     fn steps(&self) -> u64;
 
-    /// Named numbers for the deck.
+    /// Named numbers for the decks that come with tristack.
     fn parameters(&self) -> serde_json::Value;
+
+    /// Everything that a deck needs, as named numbers: these, and the units, bodies and starting positions.
+    fn all_parameters(&self) -> serde_json::Value;
 
     /// Refuses values out of range.
     fn validate(&self) -> Result<(), InvalidValue> {
@@ -66,8 +70,13 @@ impl Task for Case {
         parameters::of_case(self)
     }
 
+    fn all_parameters(&self) -> serde_json::Value {
+        full_parameters::of_case(self)
+    }
+
     fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Series, SeriesError> {
-        result.format.series(&read(directory, &result.file)?, self)
+        let content = read(directory, &result.file)?;
+        result.format.series(&content, &result.columns, self)
     }
 }
 
@@ -90,8 +99,13 @@ impl Task for ContactTest {
         parameters::of_contact_test(self)
     }
 
+    fn all_parameters(&self) -> serde_json::Value {
+        full_parameters::of_contact_test(self)
+    }
+
     fn read_outcome(&self, directory: &Path, result: &ResultFile) -> Result<Motion, SeriesError> {
-        result.format.motion(&read(directory, &result.file)?, self)
+        let content = read(directory, &result.file)?;
+        result.format.motion(&content, &result.columns, self)
     }
 }
 
@@ -116,6 +130,10 @@ impl Task for Pyramid {
         parameters::of_pyramid(self)
     }
 
+    fn all_parameters(&self) -> serde_json::Value {
+        full_parameters::of_pyramid(self)
+    }
+
     fn validate(&self) -> Result<(), InvalidValue> {
         Self::validate(self)
     }
@@ -131,6 +149,16 @@ impl Task for Pyramid {
     ) -> Result<PyramidRun, SeriesError> {
         let [log, dump] = [result.file.as_str(), CENTRES].map(|name| read(directory, name));
         pyramid_in_log(&log?, &dump?, self)
+    }
+}
+
+impl ParameterFile {
+    /// The parameters of `task` as this file has them.
+    pub(super) fn numbers(&self, task: &impl Task) -> serde_json::Value {
+        match self.content {
+            ParameterContent::Task => task.all_parameters(),
+            ParameterContent::Deck => task.parameters(),
+        }
     }
 }
 
@@ -150,17 +178,62 @@ impl Code {
         names.chain([definition.result(kind).file]).collect()
     }
 
-    /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command
-    /// and environment. For the native code its sources take the place of the files.
+    /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command and
+    /// environment, and columns that are not what their names say. For the native code its sources take the place of the files.
     pub fn deck_hash<T: Task>(self, task: &T) -> String {
-        let definition = self.definition();
-        let kind = task.kind();
-        let file = &definition.parameters;
-        let content = file.format.content(&task.parameters());
-        let command = definition.command(kind, &[".".to_owned()]);
-        let program = definition.program.as_ref();
-        let environment = program.map(|program| &program.environment);
-        let given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
-        sha256_hex(format!("{}\n{given}", self.files_hash(kind)).as_bytes())
+        let files_hash = self.files_hash(task.kind());
+        self.definition().input_hash(&files_hash, task)
+    }
+}
+
+impl Definition {
+    /// Hash of all inputs for `task`, of whose files it is `files_hash`.
+    fn input_hash<T: Task>(&self, files_hash: &str, task: &T) -> String {
+        let (kind, file) = (task.kind(), &self.parameters);
+        let content = file.format.content(&file.numbers(task));
+        let command = self.command(kind, &[".".to_owned()]);
+        let environment = self.program.as_ref().map(|program| &program.environment);
+        let mut given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
+        let columns = self.result(kind).columns;
+        if !columns.is_empty() {
+            // They decide what the numbers of a result mean.
+            given += &format!("\n{columns:?}");
+        }
+        sha256_hex(format!("{files_hash}\n{given}").as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::code::witness_test;
+
+    /// The hash of a micro-test for a manifest with these further `lines`.
+    fn hash(lines: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let manifest = format!(
+            "schema = 1\nname = \"mydem\"\n[program]\ncommand = [\"mydem\"]\n\
+             [tasks]\nstack = {{ files = [\"code.toml\"] }}\n{lines}"
+        );
+        std::fs::write(folder.path().join("code.toml"), manifest).unwrap();
+        let definition = Definition::read(folder.path()).unwrap().remove(0);
+        definition.input_hash("", &witness_test(ContactConvention::PAPER))
+    }
+
+    #[test]
+    fn other_columns_or_parameters_make_other_runs() {
+        let plain = hash("");
+        assert_eq!(hash("[result]\ncolumns = {}"), plain);
+        let others = [
+            "[result]\ncolumns = { x1 = \"x\" }",
+            "[result]\ncolumns = { x1 = { from = \"x1\", factor = -1.0 } }",
+            "motion = { files = [\"code.toml\"], columns = { x1 = \"x\", y1 = \"y\" } }",
+            "[parameters]\ncontent = \"deck\"",
+        ];
+        let hashes: Vec<String> = others.into_iter().map(hash).collect();
+        for (index, own) in hashes.iter().enumerate() {
+            assert_ne!(*own, plain, "{}", others[index]);
+            assert!(!hashes[..index].contains(own), "{}", others[index]);
+        }
     }
 }

@@ -7,6 +7,7 @@ use super::{
     largest_forces, measured_convention, probe, pyramids, regimes, scaling, simulations, theory,
     trajectories,
 };
+use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
 
 const TOP: &str = "# Tables and their columns
@@ -51,6 +52,7 @@ pub fn formats_page() -> String {
         simulations(&[]),
         series(),
         motion(),
+        task(),
         bench(&[]),
         scaling(&[]),
         pyramids(&[]),
@@ -81,6 +83,28 @@ fn motion() -> DataTable<'static> {
         "the result file that the manifest of the code names",
         &MotionRow::COLUMNS,
     )
+}
+
+/// The parameters that the deck of a code is given.
+fn task() -> DataTable<'static> {
+    let mut columns = Columns::<()>::new(
+        "task",
+        "One flat object of numbers: everything that a deck needs, in the units r = m = k_n = 1. Each task has those of \
+         its own; a manifest with `content = \"deck\"` under `[parameters]` gets fewer, those that its decks read.",
+        "task.json, or the file that `[parameters]` of a manifest names",
+    );
+    for parameter in PARAMETERS {
+        let kinds: Vec<&str> = parameter.tasks.iter().map(|kind| kind.as_str()).collect();
+        let meaning = match kinds.len() == TaskKind::ALL.len() {
+            true => parameter.meaning.to_owned(),
+            false => format!("{} ({})", parameter.meaning, kinds.join(", ")),
+        };
+        columns = columns
+            .number(parameter.name, parameter.unit, |()| f64::NAN)
+            // A page is made once.
+            .means(meaning.leak());
+    }
+    columns.rows([])
 }
 
 fn file<R: 'static>(

@@ -6,7 +6,7 @@ use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
 use crate::study::convention::{ArmEffects, MeasuredKey, Passport, TOLERANCE, reservations};
-use serde_json::json;
+use serde::Serialize;
 
 /// Name and version of the format.
 pub(crate) const PASSPORT: &str = "tristack/passport/1";
@@ -72,25 +72,53 @@ pub(crate) fn arm_effects(effects: &[ArmEffects]) -> DataTable<'_> {
 /// The passport as JSON, made by `command`.
 pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
     let provenance = &passport.findings.provenance;
-    let names = |codes: &[Code]| codes.iter().map(|code| code.as_str()).collect::<Vec<_>>();
-    let object = json!({
-        "schema": PASSPORT,
-        "command": command,
-        "code": passport.code,
-        "title": passport.code.title(),
-        "verdict": passport.verdict(),
-        "twins": names(&passport.twins),
-        "same_arms": names(&passport.same_arms),
-        "program": provenance.identity,
-        "deck_hash": passport.code.files_hash(TaskKind::Motion),
-        "answers_hash": provenance.deck_hash,
-        "probed": { "tristack": provenance.tristack, "date": provenance.date, "machine": provenance.machine },
-        "convention": measured_convention(&passport.convention).part(),
-        "arm_effects": arm_effects(&passport.effects).part(),
-        "properties": probe(&passport.findings.findings).part(),
-        "reservations": reservations(passport.findings),
-    });
-    serde_json::to_string_pretty(&object).expect("plain values have a JSON form") + "\n"
+    let convention = measured_convention(&passport.convention);
+    let effects = arm_effects(&passport.effects);
+    let properties = probe(&passport.findings.findings);
+    let document = Document {
+        schema: PASSPORT,
+        command,
+        code: passport.code,
+        title: passport.code.title(),
+        verdict: passport.verdict(),
+        twins: &passport.twins,
+        same_arms: &passport.same_arms,
+        program: &provenance.identity,
+        deck_hash: passport.code.files_hash(TaskKind::Motion),
+        answers_hash: &provenance.deck_hash,
+        tristack: &provenance.tristack,
+        date: &provenance.date,
+        machine: &provenance.machine,
+        reservations: reservations(passport.findings),
+        convention: convention.part(),
+        arm_effects: effects.part(),
+        properties: properties.part(),
+    };
+    serde_json::to_string_pretty(&document).expect("plain values have a JSON form") + "\n"
+}
+
+/// The entries of a passport in JSON.
+#[derive(Serialize)]
+struct Document<'a, T> {
+    schema: &'static str,
+    command: &'a str,
+    code: Code,
+    title: &'static str,
+    verdict: Verdict,
+    twins: &'a [Code],
+    same_arms: &'a [Code],
+    program: &'a Identity,
+    /// SHA-256 of the files of the micro-tests.
+    deck_hash: String,
+    /// SHA-256 of everything that the micro-tests were given.
+    answers_hash: &'a str,
+    tristack: &'a str,
+    date: &'a str,
+    machine: &'a str,
+    reservations: Vec<String>,
+    convention: T,
+    arm_effects: T,
+    properties: T,
 }
 
 /// The passport as a page.
@@ -109,8 +137,11 @@ pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
     for line in reservations(findings) {
         page += &format!("- {}\n", markdown_text(&line));
     }
+    if !page.ends_with("\n\n") {
+        page += "\n";
+    }
     page += &format!(
-        "\n## What a contact is to it\n\nr₁ in R = r + r₁ × overlap is an arm. {}\n\n{}",
+        "## What a contact is to it\n\nr₁ in R = r + r₁ × overlap is an arm. {}\n\n{}",
         twins(passport),
         measured_convention(&passport.convention).shown().markdown()
     );

@@ -19,6 +19,7 @@ pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
         include_str!("../series/mechanics.rs"),
         include_str!("../series/pair_contact.rs"),
         include_str!("../series/polynomial.rs"),
+        include_str!("../series/reported.rs"),
         include_str!("../series/samples.rs"),
         include_str!("summary.rs"),
     ];
@@ -46,6 +47,9 @@ pub struct RunSummary {
     /// The largest deviation from each law of mechanics; absent from older recordings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
+    /// The columns that the code does not report.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub absent: Vec<String>,
 }
 
 impl RunSummary {
@@ -58,8 +62,18 @@ impl RunSummary {
             estimates: YieldEstimates::read(&run.series, &run.case),
             last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
             mechanics: Some(Mechanics::read(&run.series, &run.case)),
-            start: first.map(|sample| [sample.x2, sample.y1, sample.y2]),
-            contact_force: first.map(|sample| sample.bottom_contact_force() * stack.stiffness),
+            start: first
+                .map(|sample| [sample.x2, sample.y1, sample.y2])
+                .filter(|start| !start.iter().any(|place| place.is_nan())),
+            contact_force: first
+                .map(|sample| sample.bottom_contact_force() * stack.stiffness)
+                .filter(|force| !force.is_nan()),
+            absent: run
+                .series
+                .absent()
+                .iter()
+                .map(|&name| name.to_owned())
+                .collect(),
             case: run.case,
             provenance: run.provenance,
         }

@@ -1,18 +1,60 @@
 //! Columns of the files that codes deliver, each declared once.
 
 /// One column of the rows `R` of a file.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(crate) struct Column<R> {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
     pub(crate) meaning: &'static str,
+    /// Whether a file may leave it out.
+    pub(crate) is_optional: bool,
     pub(crate) value: fn(&R) -> f64,
+    /// Sets the value; false if it cannot be that number.
+    pub(crate) set: fn(&mut R, f64) -> bool,
 }
 
-/// Declares the rows of a file by their columns, in order: name, type, unit and meaning.
+/// A row of a file.
+pub(crate) trait Row: Sized + 'static {
+    /// A row in which nothing has been reported yet.
+    const BLANK: Self;
+
+    /// Its columns, in order.
+    fn columns() -> &'static [Column<Self>];
+}
+
+/// A number in a row.
+pub(super) trait Number: Copy {
+    /// In place of a number that is not reported.
+    const ABSENT: Self;
+
+    /// `value` as a number of this type, if it is one.
+    fn of(value: f64) -> Option<Self>;
+}
+
+impl Number for f64 {
+    const ABSENT: Self = Self::NAN;
+
+    fn of(value: f64) -> Option<Self> {
+        Some(value)
+    }
+}
+
+impl Number for u64 {
+    const ABSENT: Self = 0;
+
+    fn of(value: f64) -> Option<Self> {
+        /// Up to here every whole number is a double.
+        const MOST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+        let is_count = value.fract() == 0.0 && (0.0..=MOST).contains(&value);
+        is_count.then_some(value as Self)
+    }
+}
+
+/// Declares the rows of a file by their columns, in order: name, type, unit and meaning, and `optional` if a file may
+/// leave the column out.
 macro_rules! columns {
     ($(#[$doc:meta])* $row:ident of $file:ident, $count:literal:
-     $($name:ident: $kind:ty, $unit:literal, $meaning:literal;)*) => {
+     $($name:ident: $kind:ty, $unit:literal, $meaning:literal $(, $optional:ident)?;)*) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -27,13 +69,26 @@ macro_rules! columns {
                 name: stringify!($name),
                 unit: $unit,
                 meaning: $meaning,
+                is_optional: super::column::is_optional!($($optional)?),
                 value: |row| row.$name as f64,
+                set: |row, value| {
+                    let number = <$kind as super::column::Number>::of(value);
+                    number.map(|number| row.$name = number).is_some()
+                },
             }),*];
 
             /// Whether every value is a finite number.
             pub fn is_finite(&self) -> bool {
                 let mut columns = Self::COLUMNS.iter();
                 columns.all(|column| (column.value)(self).is_finite())
+            }
+        }
+
+        impl super::column::Row for $row {
+            const BLANK: Self = Self { $($name: <$kind as super::column::Number>::ABSENT),* };
+
+            fn columns() -> &'static [super::column::Column<Self>] {
+                &Self::COLUMNS
             }
         }
 
@@ -44,4 +99,14 @@ macro_rules! columns {
     };
 }
 
-pub(super) use columns;
+/// Whether a column is declared `optional`.
+macro_rules! is_optional {
+    () => {
+        false
+    };
+    (optional) => {
+        true
+    };
+}
+
+pub(super) use {columns, is_optional};

@@ -110,7 +110,8 @@ pub(crate) fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
 /// The precision of a column; `None` if it holds nothing but zeros.
 fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     let (mut digits, mut highest) = (0, i32::MIN);
-    for value in values.filter(|value| *value != 0.0) {
+    // What is not reported is not a number.
+    for value in values.filter(|value| *value != 0.0 && !value.is_nan()) {
         let (own, exponent) = decimal(value);
         if own >= EXACT {
             return Some(PrintedDigits::IN_FULL);

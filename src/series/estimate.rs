@@ -4,6 +4,7 @@ use super::differences::FiveRows;
 use super::digits::{PrintedDigits, Rounding};
 use super::pair_contact::PairContact;
 use super::polynomial::value_at_zero;
+use super::reported::{FLOOR, PAIR, reports};
 use super::samples::{Sample, Series};
 use crate::model::{Case, ContactLaw, CoulombOperand, SlidingSpring, Stack};
 use serde::{Deserialize, Serialize};
@@ -71,7 +72,7 @@ impl YieldEstimates {
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
         // Where cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
         let is_last = |beyond: usize| samples[beyond].bottom_contact_force() <= 0.0;
-        let ends = slides.filter(|&(beyond, ..)| is_last(beyond));
+        let ends = slides.filter(|&(beyond, ..)| reports(samples, &FLOOR) && is_last(beyond));
         let departure = ends.and_then(|(beyond, row, friction)| {
             Sliding::of(case, friction, rounding).departure(samples, beyond, row)
         });
@@ -257,6 +258,9 @@ fn pair_friction(
     case: &Case,
     rounding: Rounding,
 ) -> Option<f64> {
+    if !reports(samples, &PAIR) {
+        return None;
+    }
     let law = case.convention.law(case.stack.stiffness_ratio);
     let ratios = (beyond..samples.len()).map_while(|row| {
         let bears = samples[row].wall_force > 0.0 && samples[row].floor_n2 > 0.0;

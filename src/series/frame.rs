@@ -1,6 +1,7 @@
 //! The stack at one moment, with every force that is known then: what figures and animations are made of.
 
 use super::samples::{Sample, Series};
+use crate::model::InvalidValue;
 
 /// A cylinder of radius 1 as it is at one moment. Lengths in r.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,14 +90,25 @@ pub struct Frames {
 impl Frames {
     /// Frames of a series: the forces of the walls, and none between the cylinders. The wall starts where it
     /// touches cylinder 1 at the first row, and moves down at `wall_speed`.
-    pub fn of_series(series: &Series, wall_speed: f64) -> Self {
+    ///
+    /// # Errors
+    /// If the code does not report all positions and angles, with those that are absent.
+    pub fn of_series(series: &Series, wall_speed: f64) -> Result<Self, InvalidValue> {
+        if !series.absent().is_empty() {
+            return Err(InvalidValue {
+                key: "series".to_owned(),
+                value: format!("without {}", series.absent().join(", ")),
+                accepted: "one with the positions and angles of all cylinders to be drawn"
+                    .to_owned(),
+            });
+        }
         let samples = series.samples();
         let start = samples.first().map_or(0.0, |first| first.y1 + 1.0);
         let frame = |sample: &Sample| Frame::of_sample(sample, start - wall_speed * sample.time);
-        Self {
+        Ok(Self {
             frames: samples.iter().map(frame).collect(),
             pair_forces_known: false,
-        }
+        })
     }
 }
 

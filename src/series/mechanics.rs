@@ -9,6 +9,7 @@ use super::differences::{COORDINATE, FiveRows, Rates};
 use super::digits::Rounding;
 use super::estimate::sticking_rows;
 use super::pair_contact::PairContact;
+use super::reported::{PAIR, reports};
 use super::samples::{Sample, Series};
 use crate::model::{Case, ContactLaw, Preparation, Schedule};
 use serde::{Deserialize, Serialize};
@@ -142,6 +143,32 @@ fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
+/// The positions and angles that a series holds.
+#[derive(Debug, Clone, Copy)]
+struct Reported {
+    /// The height of cylinder 1.
+    top: bool,
+    /// The heights of cylinders 2 and 3.
+    bottom: [bool; 2],
+    /// All that the balances of cylinders 1 and 2 need.
+    pair: bool,
+}
+
+impl Reported {
+    fn of(samples: &[Sample]) -> Self {
+        Self {
+            top: reports(samples, &["y1"]),
+            bottom: [reports(samples, &["y2"]), reports(samples, &["y3"])],
+            pair: reports(samples, &PAIR) && reports(samples, &["x3"]),
+        }
+    }
+
+    /// Whether the sum of the heights is known.
+    fn heights(self) -> bool {
+        self.top && self.bottom == [true; 2]
+    }
+}
+
 /// What the laws need to know of a case.
 struct Stack<'a> {
     case: &'a Case,
@@ -152,6 +179,7 @@ struct Stack<'a> {
     frequency: f64,
     schedule: Schedule,
     rounding: Rounding,
+    reported: Reported,
     /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
     is_smooth: bool,
 }
@@ -166,6 +194,7 @@ impl<'a> Stack<'a> {
             frequency: case.stack.highest_frequency(&case.convention),
             schedule: case.protocol.schedule(),
             rounding: Rounding::read(samples),
+            reported: Reported::of(samples),
             is_smooth: matches!(case.protocol.preparation, Preparation::GravityRamp { .. }),
         }
     }
@@ -175,14 +204,21 @@ impl<'a> Stack<'a> {
         let sample = &samples[row];
         let five = FiveRows::around(samples, row, self.rounding.coordinate)
             .filter(|five| self.is_smooth && self.has_its_speed(five));
+        let reported = self.reported;
+        let heights = five.filter(|_| reported.heights());
         let mut sides = vec![
-            (Law::ForceBalance, self.vertical(sample, five)),
+            (Law::ForceBalance, self.vertical(sample, heights)),
             (Law::MirrorSymmetry, self.mirror(sample)),
-            (Law::WallOverlap, self.wall(sample, five)),
         ];
-        let halves = [false, true].map(|left| self.floor(sample, five, left));
-        sides.extend(halves.map(|floor| (Law::FloorOverlap, floor)));
-        if let Some(five) = five.filter(keeps_its_contacts) {
+        if reported.top {
+            sides.push((Law::WallOverlap, self.wall(sample, five)));
+        }
+        for left in [false, true] {
+            if reported.bottom[usize::from(left)] {
+                sides.push((Law::FloorOverlap, self.floor(sample, five, left)));
+            }
+        }
+        if let Some(five) = five.filter(|five| reported.pair && keeps_its_contacts(five)) {
             let cylinders = self.cylinders(sample, five);
             sides.extend(cylinders.map(|balance| (Law::ForceBalance, balance)));
         }
@@ -255,7 +291,7 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// The pair of values that mirror each other worst.
+    /// The pair of values that mirror each other worst, among those that are reported.
     fn mirror(&self, sample: &Sample) -> Sides {
         let pairs = [
             (sample.x1, -sample.x1),
@@ -269,6 +305,7 @@ impl<'a> Stack<'a> {
         let distance = |pair: &(f64, f64)| (pair.0 - pair.1).abs();
         let worst = pairs
             .into_iter()
+            .filter(|pair| !pair.0.is_nan() && !pair.1.is_nan())
             .max_by(|left, right| distance(left).total_cmp(&distance(right)));
         let (found, expected) = worst.unwrap_or_default();
         Sides {

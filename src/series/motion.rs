@@ -3,6 +3,7 @@
 use super::SeriesError;
 use super::column::columns;
 use super::digits::most_digits;
+use super::header::{ColumnSources, csv_rows};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
@@ -106,15 +107,21 @@ impl Motion {
         Ok(Self { rows })
     }
 
-    /// Reads a motion in CSV and checks it.
+    /// Reads a motion in CSV and checks it. Columns may be in any order, and further ones are ignored.
     pub fn read(input: impl Read, steps: u64) -> Result<Self, SeriesError> {
-        let mut reader = csv::Reader::from_reader(input);
-        let rows = reader.deserialize().enumerate().map(|(index, row)| {
-            row.map_err(|error: csv::Error| SeriesError::garbled(index + 1, error))
-        });
+        Self::read_from(input, &ColumnSources::new(), steps)
+    }
+
+    /// The same of a CSV in which some columns are others.
+    pub fn read_from(
+        input: impl Read,
+        sources: &ColumnSources,
+        steps: u64,
+    ) -> Result<Self, SeriesError> {
         // One row too many is enough to refuse the motion.
-        let rows = rows.take(planned_rows(steps).saturating_add(1));
-        Self::new(rows.collect::<Result<_, _>>()?, steps)
+        let limit = planned_rows(steps).saturating_add(1);
+        let (rows, _) = csv_rows(input, sources, limit)?;
+        Self::new(rows, steps)
     }
 
     /// The most significant digits with which a number is printed; 17 are all.

@@ -1,27 +1,29 @@
 //! The time series that every code delivers.
 
-use super::column::columns;
+use super::column::{Column, columns};
 use super::drop::DropWatch;
-use crate::model::{Protocol, Schedule, readable, readable_lines};
+use super::header::{ColumnSources, csv_rows};
+use crate::model::{Protocol, Schedule, readable_lines};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use thiserror::Error;
 
 columns! {
-    /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n).
+    /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n). What a code does
+    /// not report is not a number; [`Series::absent`] names it.
     Sample of Series, 16:
     step: u64, "1", "steps since the wall began to move";
     time: f64, "√(m/k_n)", "time since the wall began to move";
     wall_force: f64, "k_n r", "force of the top wall on cylinder 1, positive in compression";
-    x1: f64, "r", "horizontal position of cylinder 1 (top)";
-    y1: f64, "r", "height of its centre above the floor";
-    theta1: f64, "rad", "its rotation, counter-clockwise";
-    x2: f64, "r", "horizontal position of cylinder 2 (right)";
-    y2: f64, "r", "height of its centre above the floor";
-    theta2: f64, "rad", "its rotation, counter-clockwise";
-    x3: f64, "r", "horizontal position of cylinder 3 (left)";
-    y3: f64, "r", "height of its centre above the floor";
-    theta3: f64, "rad", "its rotation, counter-clockwise";
+    x1: f64, "r", "horizontal position of cylinder 1 (top)", optional;
+    y1: f64, "r", "height of its centre above the floor", optional;
+    theta1: f64, "rad", "its rotation, counter-clockwise", optional;
+    x2: f64, "r", "horizontal position of cylinder 2 (right)", optional;
+    y2: f64, "r", "height of its centre above the floor", optional;
+    theta2: f64, "rad", "its rotation, counter-clockwise", optional;
+    x3: f64, "r", "horizontal position of cylinder 3 (left)", optional;
+    y3: f64, "r", "height of its centre above the floor", optional;
+    theta3: f64, "rad", "its rotation, counter-clockwise", optional;
     floor_n2: f64, "k_n r", "normal force of the floor on cylinder 2";
     floor_t2: f64, "k_n r", "tangential force of the floor on cylinder 2, along +x";
     floor_n3: f64, "k_n r", "normal force of the floor on cylinder 3";
@@ -30,10 +32,12 @@ columns! {
 
 impl Sample {
     /// c, elastic part of the normal force between cylinders 2 and 3, in k_n r: their overlap 2 − |r₂ − r₃|
-    /// times k_n = 1, and 0 where they do not touch. At rest it is the whole force.
+    /// times k_n = 1, and 0 where they do not touch. At rest it is the whole force. Not a number where their positions
+    /// are not reported.
     pub fn bottom_contact_force(&self) -> f64 {
         let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
-        (2.0 - (dx * dx + dy * dy).sqrt()).max(0.0)
+        let overlap = 2.0 - (dx * dx + dy * dy).sqrt();
+        if overlap < 0.0 { 0.0 } else { overlap }
     }
 }
 
@@ -45,8 +49,8 @@ pub enum SeriesError {
     Absent { message: String },
     #[error("row {row}: {message}")]
     Garbled { row: usize, message: String },
-    #[error("the columns are `{found}`, but must be `{}`", Series::COLUMNS.join(","))]
-    Columns { found: String },
+    #[error("the columns are `{found}`; {problem}")]
+    Columns { found: String, problem: String },
     #[error("row {row} (step {step}): `{column}` is {value}, but must be a finite number")]
     NotFinite {
         row: usize,
@@ -105,18 +109,40 @@ fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
 }
 
 /// A checked time series of one compression.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Series {
     samples: Vec<Sample>,
+    absent: Vec<&'static str>,
+}
+
+impl PartialEq for Series {
+    /// Equal in all that is reported.
+    fn eq(&self, other: &Self) -> bool {
+        let numbers = |series: &Self| -> Vec<f64> {
+            let rows = series.samples.iter();
+            rows.flat_map(|row| series.present().map(|column| (column.value)(row)))
+                .collect()
+        };
+        self.absent == other.absent && numbers(self) == numbers(other)
+    }
 }
 
 impl Series {
     /// A series of `samples`, which must be finite and lie exactly at the steps of `protocol`.
     pub fn new(samples: Vec<Sample>, protocol: &Protocol) -> Result<Self, SeriesError> {
+        Self::without(Vec::new(), samples, protocol)
+    }
+
+    /// The same without the columns that are named `absent`, which are not looked at.
+    pub(crate) fn without(
+        absent: Vec<&'static str>,
+        samples: Vec<Sample>,
+        protocol: &Protocol,
+    ) -> Result<Self, SeriesError> {
         let schedule = protocol.schedule();
         let mut planned = schedule.sampled_steps();
         for (row, sample) in (1..).zip(&samples) {
-            check_finite(row, sample)?;
+            check_finite(row, sample, &absent)?;
             let Some(expected) = planned.next() else {
                 break;
             };
@@ -133,44 +159,47 @@ impl Series {
         if found > expected || (found < expected && !ends_with_the_drop(&samples, &schedule)) {
             return Err(SeriesError::Truncated { found, expected });
         }
-        Ok(Self { samples })
+        Ok(Self { samples, absent })
     }
 
-    /// Reads the shared CSV format and checks it against the plan.
+    /// Names of the columns that the code does not report.
+    pub fn absent(&self) -> &[&'static str] {
+        &self.absent
+    }
+
+    fn present(&self) -> impl Iterator<Item = Column<Sample>> {
+        let columns = Sample::COLUMNS.into_iter();
+        columns.filter(|column| !self.absent.contains(&column.name))
+    }
+
+    /// Reads the shared CSV format and checks it against the plan. Columns may be in any order, and further ones are
+    /// ignored.
     pub fn read(input: impl Read, protocol: &Protocol) -> Result<Self, SeriesError> {
-        let mut reader = csv::Reader::from_reader(input);
-        let header = reader.headers();
-        let header = header.map_err(|error| SeriesError::garbled(0, error))?;
-        if !header.iter().eq(Series::COLUMNS) {
-            return Err(SeriesError::Columns {
-                found: readable(&header.iter().collect::<Vec<_>>().join(",")),
-            });
-        }
-        let mut record = csv::ByteRecord::new();
-        // Fields are taken by position: the header has them in the order of `Sample`.
-        let mut row = move || match reader.read_byte_record(&mut record) {
-            Ok(true) => Some(record.deserialize(None)),
-            Ok(false) => None,
-            Err(error) => Some(Err(error)),
-        };
-        let garbled = SeriesError::garbled;
-        let rows = (1..).map_while(|index| Some(row()?.map_err(|error| garbled(index, error))));
+        Self::read_from(input, &ColumnSources::new(), protocol)
+    }
+
+    /// The same of a CSV in which some columns are others.
+    pub fn read_from(
+        input: impl Read,
+        sources: &ColumnSources,
+        protocol: &Protocol,
+    ) -> Result<Self, SeriesError> {
         // One row too many is enough to refuse the series.
-        let rows = rows.take(planned_rows(&protocol.schedule()).saturating_add(1));
-        Self::new(rows.collect::<Result<_, _>>()?, protocol)
+        let limit = planned_rows(&protocol.schedule()).saturating_add(1);
+        let (samples, absent) = csv_rows(input, sources, limit)?;
+        Self::without(absent, samples, protocol)
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.
     pub fn to_csv(&self) -> Vec<u8> {
+        const WRITTEN: &str = "numbers are written to memory";
         let mut writer = csv::Writer::from_writer(Vec::new());
-        if self.samples.is_empty() {
-            let header = writer.write_record(Self::COLUMNS);
-            header.expect("names are written to memory");
-        }
+        let names = self.present().map(|column| column.name);
+        writer.write_record(names).expect(WRITTEN);
         for sample in &self.samples {
-            writer
-                .serialize(sample)
-                .expect("rows of numbers are written to memory");
+            let numbers = self.present().skip(1).map(|column| (column.value)(sample));
+            let numbers: Vec<f64> = numbers.collect();
+            writer.serialize((sample.step, numbers)).expect(WRITTEN);
         }
         writer.into_inner().expect("memory is flushed")
     }
@@ -181,9 +210,10 @@ impl Series {
     }
 }
 
-fn check_finite(row: usize, sample: &Sample) -> Result<(), SeriesError> {
-    let mut columns = Sample::COLUMNS.iter();
-    let offending = columns.find(|column| !(column.value)(sample).is_finite());
+fn check_finite(row: usize, sample: &Sample, absent: &[&str]) -> Result<(), SeriesError> {
+    let offending = Sample::COLUMNS
+        .into_iter()
+        .find(|column| !(column.value)(sample).is_finite() && !absent.contains(&column.name));
     offending.map_or(Ok(()), |column| {
         Err(SeriesError::NotFinite {
             row,

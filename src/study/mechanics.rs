@@ -1,7 +1,7 @@
 //! Series are held to the laws of mechanics before anything is concluded from them.
 
 use super::verdict::{Ground, Grounds};
-use crate::series::{Deviation, Law, Mechanics};
+use crate::series::{Deviation, Law, Mechanics, not_tested};
 
 impl Grounds {
     /// Adds what `mechanics` says of the series of each run, in order; absent where a run was recorded without it.
@@ -21,6 +21,19 @@ impl Grounds {
                 ))),
             }
         }
+    }
+
+    /// Doubts an agreement that some checks could not contradict, because the code does not report the columns `absent`.
+    pub(super) fn doubt_what_is_not_tested(&mut self, absent: &[String]) {
+        if absent.is_empty() {
+            return;
+        }
+        let checks: Vec<&str> = not_tested(absent).collect();
+        self.add(Ground::Doubt(format!(
+            "not tested, because the code does not report {}: {}",
+            absent.join(", "),
+            checks.join("; ")
+        )));
     }
 }
 

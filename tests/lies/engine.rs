@@ -59,8 +59,25 @@ impl Honest {
 
     /// The row of an engine that tells `lie` in every run.
     pub fn judge(&self, lie: &Lie) -> Said {
+        self.judge_runs(self.runs(lie))
+    }
+
+    /// The runs of an engine that tells `lie` in each of them.
+    pub fn runs(&self, lie: &Lie) -> Vec<Run> {
         let cases = self.measurement.cases.iter();
-        let runs = cases.map(|case| RunSummary::new(self.run(case, lie)));
+        cases.map(|case| self.run(case, lie)).collect()
+    }
+
+    /// The row of `runs`, if the columns `absent` are not reported.
+    pub fn judge_without(&self, absent: &[&str], mut runs: Vec<Run>) -> Said {
+        for run in &mut runs {
+            run.series = without(&run.series, absent, &run.case);
+        }
+        self.judge_runs(runs)
+    }
+
+    fn judge_runs(&self, runs: Vec<Run>) -> Said {
+        let runs = runs.into_iter().map(RunSummary::new);
         let evaluation = self.measurement.evaluate(vec![runs.collect()]);
         let grounds = evaluation.grounds;
         Said {
@@ -112,4 +129,23 @@ impl Honest {
             ),
         }
     }
+}
+
+/// `series` as a code writes it that does not report the columns `absent`.
+fn without(series: &Series, absent: &[&str], case: &Case) -> Series {
+    let text = String::from_utf8(series.to_csv()).expect("text");
+    let names = Series::COLUMNS.iter().enumerate();
+    let kept: Vec<usize> = names
+        .filter(|(_, name)| !absent.contains(name))
+        .map(|(place, _)| place)
+        .collect();
+    let lines = text.lines().map(|line| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let kept: Vec<&str> = kept.iter().map(|place| fields[*place]).collect();
+        kept.join(",") + "\n"
+    });
+    let text: String = lines.collect();
+    let series = Series::read(text.as_bytes(), &case.protocol).expect("a series without them");
+    assert_eq!(series.absent(), absent);
+    series
 }

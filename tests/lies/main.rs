@@ -127,6 +127,46 @@ fn what_agreed_once_agrees_no_more() {
     }
 }
 
+/// Positions and angles, which a code may leave out.
+const OPTIONAL: [&str; 9] = [
+    "x1", "y1", "theta1", "x2", "y2", "theta2", "x3", "y3", "theta3",
+];
+
+/// An honest code that does not report everything is not accused, and cannot agree: what is not reported cannot
+/// contradict it.
+#[test]
+fn an_engine_that_leaves_columns_out_gains_no_agreement() {
+    let native = Code::named("native").expect("it is built in");
+    for (mu, stiffness) in engine::STACKS {
+        let honest = Honest::new(native, &Stack::paper(mu, stiffness));
+        let runs = honest.runs(&Lie::none());
+        let each = OPTIONAL.iter().map(std::slice::from_ref);
+        for absent in each.chain([&OPTIONAL[..]]) {
+            let said = honest.judge_without(absent, runs.clone());
+            let notes = said.notes.join("\n");
+            assert_eq!(said.verdict, Verdict::Inconclusive, "{absent:?}: {notes}");
+            let told = format!("does not report {}", absent.join(", "));
+            assert!(notes.contains(&told), "{notes}");
+        }
+    }
+}
+
+/// What positions would show, and the forces do not.
+#[test]
+fn a_lie_that_only_positions_show_does_not_agree_without_them() {
+    let native = Code::named("native").expect("it is built in");
+    let honest = Honest::new(native, &Stack::paper(0.3, 1e2));
+    for lie in [
+        Lie::of(Kind::MadeUp, 1.0),
+        Lie::of(Kind::WallSpeed, 0.1),
+        Lie::of(Kind::BothSides, 0.1),
+        Lie::of(Kind::MomentOfInertia, 0.2),
+    ] {
+        let said = honest.judge_without(&OPTIONAL, honest.runs(&lie));
+        assert_ne!(said.verdict, Verdict::Agrees, "{lie:?}: {:?}", said.notes);
+    }
+}
+
 #[test]
 fn a_lie_that_moves_the_yield_force_never_agrees() {
     let honest = Honest::all();

@@ -92,7 +92,8 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
         rows.last_mut().expect("a row").x2 = far;
         rows.last_mut().expect("a row").y1 = far.abs();
         let series = Series::new(rows.clone(), &case.protocol);
-        let frames = Frames::of_series(&series.expect("finite"), case.protocol.wall_speed);
+        let series = series.expect("finite");
+        let frames = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }
 }

@@ -5,7 +5,7 @@ use super::{Seed, marked, series};
 use tristack::code::{ResultFormat, pyramid_in_log, version_in_answer};
 use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::{ContactConvention, Pyramid};
-use tristack::series::Motion;
+use tristack::series::{ColumnSources, Motion};
 
 /// Separator of log and dump in an input.
 const BETWEEN: u8 = 0;
@@ -18,13 +18,15 @@ pub fn check(data: &[u8]) {
     match kind % 4 {
         0 => {
             let case = short_case();
-            if let Ok(series) = ResultFormat::LammpsThermo.series(log, &case) {
+            if let Ok(series) = ResultFormat::LammpsThermo.series(log, &ColumnSources::new(), &case)
+            {
                 series::is_sound(&series, &case);
             }
         }
         1 => {
             let test = short_test();
-            if let Ok(motion) = ResultFormat::LammpsThermo.motion(log, &test) {
+            if let Ok(motion) = ResultFormat::LammpsThermo.motion(log, &ColumnSources::new(), &test)
+            {
                 assert_eq!(motion.rows().len() as u64, test.steps + 1);
             }
         }

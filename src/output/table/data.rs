@@ -25,8 +25,8 @@ impl DataTable<'_> {
     }
 
     /// The JSON object without a command, to stand in a larger one.
-    pub(crate) fn part(&self) -> serde_json::Value {
-        serde_json::to_value(self.object(None)).expect("plain values have a JSON form")
+    pub(crate) fn part(&self) -> impl Serialize + '_ {
+        self.object(None)
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -262,7 +262,7 @@ fn diagnosis(beside: &Beside, case: &Case) -> Vec<String> {
         return Vec::new();
     }
     vec![format!(
-        "no single mistake of those that were tried gives this series; {all} of {} columns are not those of the native DEM, \
+        "no single mistake of those that were tried gives this series (micro-tests are below); {all} of {} columns are not those of the native DEM, \
          most of all {}",
         beside.columns.len(),
         names.join(", ")

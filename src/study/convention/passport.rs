@@ -49,9 +49,9 @@ pub struct ArmEffects {
     pub stack: Stack,
     /// The limit with the paper's arms, in m g.
     pub paper_force: Option<f64>,
-    /// By how much each arm of the code alone changes it, in m g.
+    /// By how much each arm of the code alone changes it, in m g; absent where the arm is not known.
     pub changes: [Option<f64>; 4],
-    /// The limit with all arms of the code, in m g.
+    /// The limit with all arms of the code, in m g; absent where one is not known.
     pub force: Option<f64>,
     /// What the uncertainties of the measured arms leave open of it, in m g.
     pub uncertainty: Option<f64>,
@@ -146,16 +146,19 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
     };
     let arms = measured.convention.arms;
     let paper_force = force(Arms::PAPER);
+    let known = |key: &ConventionKey| measured.reason(*key).is_none();
     let alone = |key: ConventionKey| {
         let mut one = Arms::PAPER;
-        key.set_arm(&mut one, key.arm(&arms)?);
+        key.set_arm(&mut one, key.arm(&arms).filter(|_| known(&key))?);
         Some(force(one)? - paper_force?)
     };
+    let all_known = ConventionKey::ARMS.iter().all(known);
     ArmEffects {
         stack,
         paper_force,
         changes: ConventionKey::ARMS.map(alone),
-        force: force(arms),
-        uncertainty: limit_uncertainty(&stack, &measured.convention, &measured.arm_uncertainty),
+        force: force(arms).filter(|_| all_known),
+        uncertainty: limit_uncertainty(&stack, &measured.convention, &measured.arm_uncertainty)
+            .filter(|_| all_known),
     }
 }

@@ -9,6 +9,8 @@ use crate::code::{ConventionKey, Declaration, Settled};
 /// the least tolerance.
 const FINEST: f64 = 1e-9;
 
+const NOT_SHOWN: &str = "its motions do not show it";
+
 /// The convention that `properties` show, where `declaration` leaves something out.
 pub(super) fn settled(declaration: &Declaration, properties: &[Property]) -> Settled {
     let mut settled = declaration.unsettled("");
@@ -66,6 +68,9 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
 /// uncertainty. It is part of the address of a case, which must not depend on digits that mean nothing.
 fn number(properties: &[&Property]) -> Result<Measured, String> {
     let known = known(properties)?;
+    if properties.first() != known.first() {
+        return Err(NOT_SHOWN.to_owned());
+    }
     let first = known[0].measured;
     let apart = |own: &&&Property| {
         let allowed = first.uncertainty + own.measured.uncertainty + TOLERANCE;
@@ -108,16 +113,16 @@ fn alternative<T: Copy>(alternatives: &[(T, f64)], properties: &[&Property]) -> 
     })
 }
 
-/// Those of `properties` that could be measured, the first of them among them.
+/// Those of `properties` that could be measured, if there are any.
 fn known<'a>(properties: &[&'a Property]) -> Result<Vec<&'a Property>, String> {
     let is_known = |own: &&&Property| {
         let Measured { value, uncertainty } = own.measured;
         value.is_finite() && uncertainty.is_finite()
     };
     let known: Vec<&Property> = properties.iter().filter(is_known).copied().collect();
-    match properties.first() {
-        Some(first) if known.first() == Some(first) => Ok(known),
-        _ => Err("its motions do not show it".to_owned()),
+    match known.is_empty() {
+        true => Err(NOT_SHOWN.to_owned()),
+        false => Ok(known),
     }
 }
 
@@ -201,9 +206,16 @@ mod tests {
             why.contains("`convention.moment_of_inertia` is 0.1"),
             "{why}"
         );
-        let dumb = [property("pair_torque_arm", f64::NAN, f64::INFINITY)];
-        let why = reason(ConventionKey::PairTorqueArm, &dumb);
-        assert_eq!(why, "its motions do not show it");
+        let dumb = |name: &str| property(name, f64::NAN, f64::INFINITY);
+        let why = reason(ConventionKey::PairTorqueArm, &[dumb("pair_torque_arm")]);
+        assert_eq!(why, NOT_SHOWN);
+        // The arm of the damping alone is not that of the spring.
+        let damping = property("pair_damping_arm", -0.5, 1e-9);
+        let why = reason(
+            ConventionKey::PairKinematicArm,
+            &[dumb("pair_kinematic_arm"), damping],
+        );
+        assert_eq!(why, NOT_SHOWN);
     }
 
     #[test]
@@ -221,6 +233,9 @@ mod tests {
             reason(key, &memory(0.3, 0.3)),
             "pair_sliding_spring_memory is 0.300000, not 1 or 0"
         );
+        let found = settled_by(key, &memory(f64::NAN, 1.0));
+        assert_eq!(found.convention.sliding_spring, SlidingSpring::Frozen);
+        assert_eq!(found.unknown, []);
         let why = reason(key, &memory(1.0, 0.0));
         assert!(
             why.contains("floor_sliding_spring_memory is 0.000000"),

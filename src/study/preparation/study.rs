@@ -241,6 +241,9 @@ impl Study for PreparationPlan {
         let changes = change(COARSE_TIME_STEP_RUN).zip(change(SHORT_RAMP_RUN));
         let yield_force = self.yield_force(&runs);
         let mut grounds = Grounds::new();
+        if let Some(run) = runs.iter().find(|run| !run.absent.is_empty()) {
+            grounds.doubt_what_is_not_tested(&run.absent);
+        }
         if runs.is_empty() {
             grounds.add(Ground::NoYield(Some("nothing yields".to_owned())));
         } else if yield_force.is_none() {

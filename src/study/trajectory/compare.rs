@@ -16,6 +16,7 @@ use crate::study::{Evaluation, Ground, Grounds, Study, Verdict};
 pub struct Rows {
     identity: Identity,
     samples: Vec<Sample>,
+    absent: Vec<&'static str>,
     mechanics: Mechanics,
 }
 
@@ -27,6 +28,7 @@ impl Reading for Rows {
             mechanics: Mechanics::read(&run.series, &run.case),
             identity: run.provenance.identity,
             samples: run.series.samples().to_vec(),
+            absent: run.series.absent().to_vec(),
         }
     }
 
@@ -65,6 +67,13 @@ impl Study for Trajectory {
             comparisons: Vec::new(),
         };
         let mut grounds = Grounds::new();
+        if let Some(run) = runs.iter().flatten().find(|run| !run.absent.is_empty()) {
+            grounds.add(Ground::Undecidable(format!(
+                "the code does not report {}: motions without all positions and angles are not compared",
+                run.absent.join(", ")
+            )));
+            return Evaluation { finding, grounds };
+        }
         match self.pairs(&samples) {
             Some(pairs) => {
                 finding.times = pairs.first().map(Pair::times);

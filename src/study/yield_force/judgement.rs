@@ -337,6 +337,9 @@ impl<'a> Reader<'a> {
         let runs = &self.finding.runs;
         self.grounds
             .hold_to_mechanics(runs.iter().map(|run| run.mechanics.as_ref()));
+        if let Some(run) = runs.iter().find(|run| !run.absent.is_empty()) {
+            self.grounds.doubt_what_is_not_tested(&run.absent);
+        }
         let prepared_alike = runs.get(..SPEEDS.len()).unwrap_or_default();
         let begun = prepared_alike.iter().map(|run| run.start);
         let (Some(rest), Some(begun), Some(Some(hastened))) = (

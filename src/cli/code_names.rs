@@ -1,0 +1,111 @@
+//! Names of codes on the command line: of the built-in ones, of folders by their path, and of folders in the user's data
+//! directory.
+
+use crate::code::{Code, ManifestError};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// Reads a code: its name, or the path of a folder with its manifest. A path contains a `/`. A path, or the name of a
+/// folder in the user's data directory, ends in `:NAME` if the folder describes several codes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CodeParser;
+
+impl TypedValueParser for CodeParser {
+    type Value = Code;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Code, clap::Error> {
+        let text = value.to_string_lossy();
+        if let Some(known) = Code::named(&text) {
+            return Ok(known);
+        }
+        let found = match text.contains('/') {
+            true => Some(in_folder(Path::new(""), &text)),
+            false => of_user(&text),
+        };
+        match found {
+            Some(found) => found.map_err(|error| {
+                clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
+            }),
+            // No code has this name: the error lists the names.
+            None => {
+                let names = PossibleValuesParser::new(names()).parse_ref(command, argument, value);
+                names.map(|_| Code::NATIVE)
+            }
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(names().into_iter().map(PossibleValue::new)))
+    }
+}
+
+/// The names of the codes that are known, and of the user's folders.
+fn names() -> Vec<String> {
+    let known = Code::all().into_iter().map(|code| code.as_str().to_owned());
+    let folders = user_folders().into_iter().filter_map(|folder| {
+        let name = folder.file_name()?.to_str()?;
+        Some(name.to_owned())
+    });
+    let mut names: Vec<String> = known.collect();
+    names.extend(folders.filter(|name| Code::named(name).is_none()));
+    names
+}
+
+/// The code in the folder at the path `text`, or in `PATH:NAME`.
+pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
+    in_folder(Path::new(""), text)
+}
+
+/// The code that `text` names in a folder whose path begins in `directory`: PATH or PATH:NAME.
+fn in_folder(directory: &Path, text: &str) -> Result<Code, ManifestError> {
+    match text.rsplit_once(':') {
+        Some((folder, name)) if !name.contains('/') => {
+            Code::in_folder(&directory.join(folder), Some(name))
+        }
+        _ => Code::in_folder(&directory.join(text), None),
+    }
+}
+
+/// The code of one of the user's folders that `text` names: by the name of the folder, or by its own.
+fn of_user(text: &str) -> Option<Result<Code, ManifestError>> {
+    let directory = user_directory()?;
+    let folder = text.split(':').next().unwrap_or(text);
+    if !folder.is_empty() && folder != ".." && directory.join(folder).is_dir() {
+        return Some(in_folder(&directory, text));
+    }
+    // Broken folders stay out of the way of the others.
+    let folders = user_folders().into_iter();
+    let codes = folders.filter_map(|folder| Code::all_in_folder(&folder).ok());
+    let mut codes = codes.flatten();
+    codes.find(|code| code.as_str() == text).map(Ok)
+}
+
+/// The place of the user's folders.
+fn user_directory() -> Option<PathBuf> {
+    dirs::data_dir().map(|data| data.join("tristack").join("codes"))
+}
+
+/// The user's folders, in the order of their names.
+fn user_folders() -> Vec<PathBuf> {
+    let directory = user_directory().and_then(|directory| std::fs::read_dir(directory).ok());
+    let entries = directory.into_iter().flatten().flatten();
+    let mut folders: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    folders.retain(|folder| folder.is_dir());
+    folders.sort();
+    folders
+}
+
+/// Adds the codes of the user's folders to those that are known; returns what is wrong with the others.
+pub(super) fn read_user_folders() -> Vec<ManifestError> {
+    let folders = user_folders().into_iter();
+    folders
+        .filter_map(|folder| Code::all_in_folder(&folder).err())
+        .collect()
+}

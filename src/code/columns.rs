@@ -1,0 +1,88 @@
+//! The columns of a result under other names, as a manifest writes them: `wall_force = "f_top"`, or with a factor
+//! `floor_n2 = { from = "fn2", factor = -1.0 }`.
+
+use crate::series::{ColumnSource, ColumnSources, Motion, Series};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Reads columns, whose names must be those of a series or a motion.
+pub(super) fn read_columns<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<ColumnSources, D::Error> {
+    let written = BTreeMap::<Name, Written>::deserialize(deserializer)?;
+    let columns = written.into_iter().map(|(name, written)| {
+        let (from, factor) = (written.from, written.factor);
+        (name.0, ColumnSource { from, factor })
+    });
+    Ok(columns.collect())
+}
+
+/// The name of a column.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Name(String);
+
+impl<'de> Deserialize<'de> for Name {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let further = Motion::COLUMNS.into_iter();
+        let further = further.filter(|column| !Series::COLUMNS.contains(column));
+        let known: Vec<&str> = Series::COLUMNS.into_iter().chain(further).collect();
+        if known.contains(&name.as_str()) {
+            return Ok(Self(name));
+        }
+        // In the words of serde, which does not take a list that is made here.
+        let known = known.join("`, `");
+        Err(Error::custom(format!(
+            "unknown field `{name}`, expected one of `{known}`"
+        )))
+    }
+}
+
+/// A column as it is written.
+struct Written {
+    from: String,
+    factor: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WithFactor {
+    from: String,
+    #[serde(default = "one")]
+    factor: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+struct Reader;
+
+impl<'de> Visitor<'de> for Reader {
+    type Value = Written;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("the name of a column, or { from = \"NAME\", factor = NUMBER }")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Written, E> {
+        Ok(Written {
+            from: name.to_owned(),
+            factor: one(),
+        })
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Written, A::Error> {
+        let WithFactor { from, factor } = WithFactor::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Written { from, factor })
+    }
+}

@@ -1,0 +1,231 @@
+//! Everything that a deck needs to carry out a task, so that nothing has to be derived: units, bodies, contacts, steps and
+//! starting positions. Each number is declared once.
+
+use super::manifest::TaskKind;
+use super::parameters::{self, merged};
+use crate::model::{Case, ContactConvention, ContactTest, PreparationSteps, Pyramid};
+use serde_json::{Value, json};
+
+/// Raised when a parameter goes or changes its meaning.
+const SCHEMA: u32 = 1;
+
+/// A named number of a task.
+#[derive(Debug)]
+pub(crate) struct Parameter {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub meaning: &'static str,
+    /// The tasks that have it.
+    pub tasks: &'static [TaskKind],
+}
+
+use TaskKind::{Motion, Pyramid as Pile, SideWalls, Stack};
+
+const EVERY: &[TaskKind] = &[Stack, SideWalls, Motion, Pile];
+const COMPRESSION: &[TaskKind] = &[Stack, SideWalls];
+const AT_REST: &[TaskKind] = &[Stack, SideWalls, Pile];
+const RAMP: &[TaskKind] = &[Stack, Pile];
+const WALL: &[TaskKind] = &[Stack, SideWalls, Motion];
+const WALLS: &[TaskKind] = &[SideWalls];
+const TEST: &[TaskKind] = &[Motion];
+const PILE: &[TaskKind] = &[Pile];
+
+const TIME: &str = "√(m/k_n)";
+const SPEED: &str = "r √(k_n/m)";
+const DAMPING: &str = "√(m k_n)";
+
+macro_rules! parameters {
+    ($($name:literal, $unit:expr, $tasks:expr, $meaning:literal;)*) => {
+        /// Every parameter of every task.
+        pub(crate) static PARAMETERS: &[Parameter] = &[$(Parameter {
+            name: $name,
+            unit: $unit,
+            meaning: $meaning,
+            tasks: $tasks,
+        }),*];
+    };
+}
+
+parameters! {
+    "schema", "1", EVERY, "version of this list";
+    "radius", "r", EVERY, "radius of a cylinder: 1, the unit of length";
+    "mass", "m", EVERY, "mass of a cylinder: 1, the unit of mass";
+    "moment_of_inertia", "m r²", EVERY, "moment of inertia of a cylinder about its axis";
+    "normal_stiffness", "k_n", EVERY, "stiffness of every contact along its normal, those of the walls included: 1";
+    "tangential_stiffness", "k_n", EVERY, "stiffness of the tangential spring of every contact with friction";
+    "restitution", "1", EVERY, "restitution that the damping of both springs gives";
+    "damping_normal", DAMPING, EVERY, "force of the dashpot beside the normal spring, over the speed of approach";
+    "damping_tangential", DAMPING, EVERY, "force of the dashpot beside the tangential spring, over the speed of sliding";
+    "floor_friction", "1", EVERY, "friction coefficient of cylinder and floor; the other walls have none";
+    "cylinder_friction", "1", EVERY, "friction coefficient between cylinders";
+    "gravity", "k_n r/m", EVERY, "gravity, downwards, at its full value, which it has from the first step where it does not rise; 0 in a micro-test";
+    "time_step", TIME, EVERY, "time step";
+    "initial_x1", "r", COMPRESSION, "horizontal position of cylinder 1 (top) before the first step; every body starts at rest and without rotation";
+    "initial_y1", "r", COMPRESSION, "height of its centre above the floor";
+    "initial_x2", "r", COMPRESSION, "horizontal position of cylinder 2 (right)";
+    "initial_y2", "r", COMPRESSION, "height of its centre above the floor";
+    "initial_x3", "r", COMPRESSION, "horizontal position of cylinder 3 (left)";
+    "initial_y3", "r", COMPRESSION, "height of its centre above the floor";
+    "ramp_steps", "1", RAMP, "steps in which gravity rises from 0 as x³(10 − 15x + 6x²), x = step/ramp_steps";
+    "push_speed", SPEED, WALLS, "speed with which the side walls, at ±2, move inwards";
+    "push_steps", "1", WALLS, "steps in which they do; cylinder 1 is held where it starts";
+    "hold_steps", "1", WALLS, "steps of rest after that";
+    "landing_height", "r", WALLS, "height of cylinder 1 where it is let go";
+    "fall", "r", WALLS, "distance by which it is lowered until there";
+    "fall_speed", SPEED, WALLS, "speed with which it is lowered, without rotation";
+    "fall_steps", "1", WALLS, "steps in which it is lowered";
+    "landing_speed", SPEED, WALLS, "its speed when it is let go, downwards";
+    "settle_steps", "1", WALLS, "steps of rest under cylinder 1";
+    "withdrawal_speed", SPEED, WALLS, "speed with which the side walls move outwards";
+    "withdrawal_steps", "1", WALLS, "steps in which they do; then they are gone";
+    "rest_steps", "1", AT_REST, "steps of rest before the compression, or before the timed steps";
+    "preparation_steps", "1", COMPRESSION, "steps before the compression in all";
+    "wall_speed", SPEED, WALL, "speed of the top wall, downwards; in a compression it starts where it just touches cylinder 1";
+    "compression_steps", "1", COMPRESSION, "steps of the compression, which step 0 of the series begins";
+    "coarse_every", "1", COMPRESSION, "steps between rows from step 0 on";
+    "fine_from_step", "1", COMPRESSION, "step from which rows are closer: a multiple of coarse_every";
+    "fine_every", "1", COMPRESSION, "steps between rows from there to the last step, with which the series ends";
+    "rows", "1", COMPRESSION, "number of rows in all";
+    "wall_height", "r", TEST, "height of the top wall at step 0";
+    "steps", "1", TEST, "number of steps; there is a row for each of them and for step 0";
+    "x1", "r", TEST, "horizontal position of cylinder 1 at step 0";
+    "y1", "r", TEST, "height of its centre above the floor";
+    "vx1", SPEED, TEST, "its horizontal velocity";
+    "vy1", SPEED, TEST, "its vertical velocity";
+    "spin1", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
+    "x2", "r", TEST, "horizontal position of cylinder 2 at step 0";
+    "y2", "r", TEST, "height of its centre above the floor";
+    "vx2", SPEED, TEST, "its horizontal velocity";
+    "vy2", SPEED, TEST, "its vertical velocity";
+    "spin2", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
+    "half_width", "r", PILE, "distance of the side walls from the middle; cylinders.data has the starting positions";
+    "timed_steps", "1", PILE, "steps whose duration is measured, the last ones";
+}
+
+/// The parameters of a case.
+pub(super) fn of_case(case: &Case) -> Value {
+    let (schedule, epsilon) = (case.protocol.schedule(), case.stack.epsilon());
+    let [top, height] = match &schedule.preparation {
+        PreparationSteps::GravityRamp { .. } => [1.0 + 3.0_f64.sqrt(), 1.0],
+        // Cylinder 1 is held, and the others start with their weight on the floor.
+        PreparationSteps::SideWalls(walls) => {
+            [walls.landing_height(epsilon) + walls.fall, 1.0 - epsilon]
+        }
+    };
+    merged([
+        of_bodies(&case.convention),
+        parameters::of_case(case),
+        json!({
+            "initial_x1": 0.0, "initial_y1": top,
+            "initial_x2": 1.0, "initial_y2": height,
+            "initial_x3": -1.0, "initial_y3": height,
+            "preparation_steps": schedule.preparation.total(),
+            "rows": schedule.rows(),
+        }),
+    ])
+}
+
+/// The parameters of a micro-test.
+pub(super) fn of_contact_test(test: &ContactTest) -> Value {
+    merged([
+        of_bodies(&test.convention),
+        parameters::of_contact_test(test),
+        json!({ "gravity": 0.0 }),
+    ])
+}
+
+/// The parameters of a pyramid.
+pub(super) fn of_pyramid(pyramid: &Pyramid) -> Value {
+    merged([
+        of_bodies(&pyramid.convention),
+        parameters::of_pyramid(pyramid),
+    ])
+}
+
+fn of_bodies(convention: &ContactConvention) -> Value {
+    json!({
+        "schema": SCHEMA,
+        "radius": 1.0,
+        "mass": 1.0,
+        "moment_of_inertia": convention.moment_of_inertia,
+        "restitution": convention.restitution,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::code::witness_test;
+    use crate::model::{Preparation, Protocol, Sampling, SideWalls as Walls, Stack as Groups};
+
+    fn case(preparation: Preparation) -> Case {
+        Case {
+            stack: Groups::paper(0.3, 100.0),
+            convention: ContactConvention::PAPER,
+            protocol: Protocol {
+                preparation,
+                time_step: 0.1,
+                wall_speed: 1e-4,
+                wall_travel: 0.7,
+                sampling: Sampling {
+                    coarse_interval: 60.0,
+                    fine_from_travel: 0.6,
+                    fine_interval: 2.0,
+                },
+                shortcuts: None,
+            },
+        }
+    }
+
+    fn ramp() -> Preparation {
+        Preparation::GravityRamp {
+            ramp_time: 100.0,
+            rest_time: 100.0,
+        }
+    }
+
+    #[test]
+    fn every_number_of_every_task_is_declared_and_given() {
+        let walls = Preparation::SideWalls(Walls::paper(0.005, 0.01));
+        for (kind, given) in [
+            (Stack, of_case(&case(ramp()))),
+            (SideWalls, of_case(&case(walls))),
+            (
+                Motion,
+                of_contact_test(&witness_test(ContactConvention::PAPER)),
+            ),
+            (
+                Pile,
+                of_pyramid(&Pyramid::touching(3, 100.0, ContactConvention::PAPER)),
+            ),
+        ] {
+            let given = given.as_object().expect("an object");
+            assert!(given.values().all(Value::is_number), "numbers only");
+            let given: Vec<&str> = given.keys().map(String::as_str).collect();
+            let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&kind));
+            let mut declared: Vec<&str> = own.map(|one| one.name).collect();
+            declared.sort_unstable();
+            assert_eq!(given, declared, "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn bodies_start_where_they_just_touch() {
+        let given = of_case(&case(ramp()));
+        let number = |name: &str| given[name].as_f64().expect("a number");
+        let distance = libm::hypot(
+            number("initial_x2"),
+            number("initial_y1") - number("initial_y2"),
+        );
+        assert!((distance - 2.0).abs() < 1e-15);
+        assert_eq!(
+            number("initial_x2") - number("initial_x3"),
+            2.0 * number("radius")
+        );
+        assert_eq!(number("preparation_steps"), 2000.0);
+        assert_eq!(
+            number("rows"),
+            case(ramp()).protocol.schedule().rows() as f64
+        );
+    }
+}

@@ -21,15 +21,7 @@ impl TypedValueParser for CodeParser {
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<Code, clap::Error> {
-        let text = value.to_string_lossy();
-        if let Some(known) = Code::named(&text) {
-            return Ok(known);
-        }
-        let found = match text.contains('/') {
-            true => Some(in_folder(Path::new(""), &text)),
-            false => of_user(&text),
-        };
-        match found {
+        match code_named(&value.to_string_lossy()) {
             Some(found) => found.map_err(|error| {
                 clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
             }),
@@ -46,8 +38,17 @@ impl TypedValueParser for CodeParser {
     }
 }
 
+/// The code that `text` names, as [`CodeParser`] has it; `None` if none has this name.
+pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
+    let known = Code::named(text).map(Ok);
+    known.or_else(|| match text.contains('/') {
+        true => Some(code_in_folder(text)),
+        false => of_user(text),
+    })
+}
+
 /// The names of the codes that are known, and of the user's folders.
-fn names() -> Vec<String> {
+pub(super) fn names() -> Vec<String> {
     let known = Code::all().into_iter().map(|code| code.as_str().to_owned());
     let folders = user_folders().into_iter().filter_map(|folder| {
         let name = folder.file_name()?.to_str()?;

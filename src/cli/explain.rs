@@ -1,5 +1,6 @@
 //! `tristack crosscheck --explain ROW`.
 
+use super::code_names::{code_named, names};
 use super::convention::settle;
 use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
@@ -20,14 +21,14 @@ pub(super) struct RowName {
 
 /// Reads CODE/MU/STIFFNESS.
 pub(super) fn row_name(text: &str) -> Result<RowName, String> {
-    let parts: Vec<&str> = text.split('/').collect();
-    let [code, mu, stiffness] = parts[..] else {
+    // The path of a folder may have more parts.
+    let parts: Vec<&str> = text.rsplitn(3, '/').collect();
+    let [stiffness, mu, code] = parts[..] else {
         return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
     };
-    let code = Code::named(code).ok_or_else(|| {
-        let names: Vec<&str> = Code::all().into_iter().map(Code::as_str).collect();
-        format!("`{code}` is no code; accepted are {}", names.join(", "))
-    })?;
+    let code = code_named(code)
+        .ok_or_else(|| format!("`{code}` is no code; accepted are {}", names().join(", ")))?
+        .map_err(|error| error.to_string())?;
     let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
     let stiffness: f64 = stiffness
         .parse()

@@ -3,6 +3,7 @@
 
 use super::definition::LONGEST_START;
 use super::manifest::Environment;
+use super::packages::Packages;
 use super::question::answer;
 use super::search_path::in_search_path;
 use crate::files::{Links, read_beginning, read_bounded};
@@ -235,7 +236,7 @@ impl Search {
     /// those of its interpreter.
     fn add_imports(&mut self, directory: &Path, text: &str) {
         let own = (directory != Path::new("")).then(|| directory.to_owned());
-        let places: Vec<PathBuf> = own.into_iter().chain(self.packages.0.clone()).collect();
+        let places: Vec<PathBuf> = own.into_iter().chain(self.packages.places()).collect();
         if places.is_empty() {
             return;
         }
@@ -276,46 +277,6 @@ impl Search {
                 }
             }
         }
-    }
-}
-
-/// The directories with the packages of virtual environments whose interpreters were found.
-#[derive(Default)]
-struct Packages(BTreeSet<PathBuf>);
-
-impl Packages {
-    /// Adds those of the environment in which `program` is the interpreter.
-    fn add_beside(&mut self, program: &Path) {
-        let environment = program.parent().and_then(Path::parent);
-        let is_interpreter = file_name(&program.to_string_lossy()).starts_with("python");
-        let Some(environment) =
-            environment.filter(|place| place.join("pyvenv.cfg").is_file() && is_interpreter)
-        else {
-            return;
-        };
-        let versions = std::fs::read_dir(environment.join("lib"));
-        let versions = versions.into_iter().flatten().flatten();
-        let packages = versions.map(|version| version.path().join("site-packages"));
-        self.0.extend(packages.filter(|place| place.is_dir()));
-    }
-
-    /// `environment` with a search path for the libraries that packages put beside these directories.
-    fn with_libraries(&self, environment: &Environment) -> Environment {
-        const SEARCH_PATH: &str = "LD_LIBRARY_PATH";
-        let mut environment = environment.clone();
-        let own = environment.get(SEARCH_PATH).cloned();
-        let libraries = self
-            .0
-            .iter()
-            .filter_map(|place| place.ancestors().nth(2)?.to_str());
-        let places: Vec<String> = own
-            .into_iter()
-            .chain(libraries.map(str::to_owned))
-            .collect();
-        if !places.is_empty() {
-            environment.insert(SEARCH_PATH.to_owned(), places.join(":"));
-        }
-        environment
     }
 }
 
@@ -433,4 +394,76 @@ fn mapped_by_loader(
         path.starts_with('/').then(|| PathBuf::from(path))
     });
     paths.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::os::unix::fs::PermissionsExt;
+
+    fn write(path: &Path, content: &str, mode: u32) {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+        fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    }
+
+    /// A virtual environment with a package whose module starts a program beside it.
+    fn environment() -> tempfile::TempDir {
+        let place = tempfile::tempdir().unwrap();
+        let at = |name: &str| place.path().join(name);
+        write(&at("pyvenv.cfg"), "", 0o644);
+        write(&at("bin/python3"), "#!/bin/sh\n", 0o755);
+        let package = at("lib/python3.1/site-packages/mydem");
+        for (file, mode) in [
+            ("__init__.py", 0o644),
+            ("start.py", 0o644),
+            ("core", 0o755),
+            ("data.txt", 0o644),
+        ] {
+            write(&package.join(file), file, mode);
+        }
+        place
+    }
+
+    /// Names of the files of an environment, in the order of their paths.
+    fn names(covered: &CoveredFiles, place: &Path) -> Vec<String> {
+        let paths = covered.hashes.keys();
+        let own = paths.filter(|path| path.starts_with(place));
+        own.map(|path| file_name(&path.to_string_lossy())).collect()
+    }
+
+    /// As pip writes it, or where the path of the interpreter is too long for the first line.
+    #[test]
+    fn a_script_of_a_virtual_environment_is_covered_with_the_package_that_it_starts() {
+        let place = environment();
+        let python = place.path().join("bin/python3");
+        for first in [
+            format!("#!{}\n", python.display()),
+            format!(
+                "#!/bin/sh\n'''exec' \"{}\" \"$0\" \"$@\"\n' '''\n",
+                python.display()
+            ),
+        ] {
+            let script = place.path().join("bin/mydem");
+            let text = format!("{first}import sys\nfrom mydem.start import main\n");
+            write(&script, &text, 0o755);
+            let covered = CoveredFiles::of(&script, &[], &Environment::new(), []);
+            let expected = ["mydem", "python3", "__init__.py", "core", "start.py"];
+            assert_eq!(names(&covered, place.path()), expected, "{first}");
+        }
+    }
+
+    #[test]
+    fn an_interpreter_is_covered_with_the_packages_that_its_decks_import() {
+        let place = environment();
+        let python = place.path().join("bin/python3");
+        let of = |deck: &str| {
+            let covered = CoveredFiles::of(&python, &[], &Environment::new(), [deck.as_bytes()]);
+            names(&covered, place.path())
+        };
+        assert_eq!(of("import json\n"), ["python3"]);
+        let expected = ["python3", "__init__.py", "core", "start.py"];
+        assert_eq!(of("import json\nimport mydem as dem\n"), expected);
+    }
 }

@@ -30,5 +30,7 @@ pub(crate) use measured::{
 };
 pub(crate) use micro_tests::ask;
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
+pub(crate) use probe::ROUNDS;
 pub use probe::probe;
+pub(crate) use settle::settle_by_files;
 pub use settle::{settle, settle_by};

@@ -5,6 +5,7 @@
 //! inputs are therefore written first, without an answer.
 
 mod file;
+mod inputs;
 mod limits;
 mod readme;
 mod trajectories;

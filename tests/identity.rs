@@ -61,50 +61,17 @@ fn verdicts(bench: &Bench, code: &str) -> (Vec<String>, bool) {
     (verdicts, message.contains("runs are there already"))
 }
 
-/// A folder with YADE under another name, which starts in less than a second.
-fn quick_folder(bench: &Bench) -> String {
-    let folder = bench.path("folder");
-    fs::create_dir(&folder).expect("a directory");
-    let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("yade_scripts");
-    for entry in fs::read_dir(original).expect("a folder").flatten() {
-        if entry.path().is_file() {
-            fs::copy(entry.path(), folder.join(entry.file_name())).expect("a copy");
-        }
-    }
-    let manifest = folder.join("code.toml");
-    let mut text = fs::read_to_string(&manifest).expect("a manifest");
-    for (from, to) in [
-        ("name = \"yade\"", "name = \"mydem\""),
-        ("[variants.yade", "[variants.mydem"),
-        ("start = 1.5", "start = 0.5"),
-        ("command = [\"yade\"", "command = [\"mydem\""),
-    ] {
-        assert!(text.contains(from), "{from}");
-        text = text.replace(from, to);
-    }
-    fs::write(manifest, text).expect("it can be written");
-    folder.display().to_string()
-}
-
 /// The witness notices what cannot be seen from outside.
 #[test]
 fn a_wrapper_whose_hidden_insides_change_is_run_anew() {
     let bench = Bench::with_system_programs();
     let [honest, rough] = honest_and_rough(&bench);
-    let folder = quick_folder(&bench);
-    let which = bench.path("which.txt");
-    // The path is put together when the script runs.
-    bench.install(
-        "mydem",
-        &format!("read inside < '{}'\n. \"$inside.txt\"", which.display()),
-    );
+    let folder = replay::quick_folder(&bench.path("folder"));
     for place in [&honest, &rough] {
         let inside = place.with_extension("txt");
         fs::write(&inside, replay::script(place, "")).expect("a script");
     }
-    let choose = |place: &Path| {
-        fs::write(&which, format!("{}\n", place.display())).expect("a choice");
-    };
+    let choose = |place: &Path| replay::install_wrapper(&bench, &place.with_extension("txt"));
     choose(&honest);
     assert_eq!(
         verdicts(&bench, &folder),
@@ -160,11 +127,16 @@ fn a_script_whose_imported_module_changes_is_run_anew() {
 }
 
 #[test]
-fn the_explanation_says_what_the_identity_covers() {
+fn the_explanation_says_how_mechanics_hold_and_what_the_identity_covers() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let text = standard_output(&mut bench.tristack("crosscheck --explain yade/0.3/100"));
-    for part in ["8. Identity: ", "programs/yade, and ", "Not covered: "] {
+    for part in [
+        "largest deviation in units of the allowed one: the balance of forces 0.",
+        "8. Identity: ",
+        "programs/yade, and ",
+        "Not covered: ",
+    ] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
 }

@@ -3,7 +3,9 @@
 
 mod common;
 
-use common::{Bench, OWN_PROGRAM, assert_only, json_rows, network, recording, released_program};
+use common::{
+    Bench, OWN_PROGRAM, assert_only, code_folder, json_rows, network, recording, released_program,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -192,6 +194,45 @@ fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
     assert_only(&bench.path("store/work"), &[]);
+}
+
+/// A code whose author says nothing of its convention is judged by what is measured, as if that had been declared.
+#[test]
+fn a_convention_that_is_left_out_is_measured_and_gives_the_same_verdicts() {
+    for code in installed()
+        .into_iter()
+        .filter(|code| code.is_first_variant())
+    {
+        let folder = match code.as_str() {
+            "liggghts" => "liggghts_inputs",
+            "lammps" => "lammps_inputs",
+            _ => continue,
+        };
+        let bench = Bench::with_system_programs();
+        code_folder(folder, &bench.path("copy"), |manifest| {
+            let (before, after) = manifest.split_once("[convention]").expect("a convention");
+            let (_, after) = after.split_once("[integration]").expect("an integration");
+            let renamed = before.replace(&format!("name = \"{code}\""), "name = \"copy\"");
+            format!("{renamed}[integration]{after}").replace("velocity_lag = 0.0\n", "")
+        });
+        let line = format!("crosscheck --codes {code},./copy --format json");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{message}");
+        let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+        let of = |name: &str| {
+            rows.iter()
+                .filter(|row| row["code"] == name)
+                .collect::<Vec<_>>()
+        };
+        let (declared, measured) = (of(code.as_str()), of("copy"));
+        assert_eq!([declared.len(), measured.len()], [18, 18]);
+        for (declared, measured) in declared.into_iter().zip(measured) {
+            for key in ["yield_force", "reference_force", "verdict"] {
+                assert_eq!(declared[key], measured[key], "{key}: {measured}");
+            }
+        }
+    }
 }
 
 #[test]

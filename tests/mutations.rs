@@ -35,9 +35,12 @@ enum Mutation {
     SpringGrowsWhileSliding,
     LimitWithoutNormalDamping,
     HalfTheTorqueOnPairs,
+    FloorSpringGrows,
+    PairSpringGrows,
+    NormalForceGrows,
 }
 
-const MUTATIONS: [Mutation; 12] = [
+const MUTATIONS: [Mutation; 15] = [
     Mutation::SignOfNormalDamping,
     Mutation::SignOfTangentialDamping,
     Mutation::SignOfSpin,
@@ -50,6 +53,9 @@ const MUTATIONS: [Mutation; 12] = [
     Mutation::SpringGrowsWhileSliding,
     Mutation::LimitWithoutNormalDamping,
     Mutation::HalfTheTorqueOnPairs,
+    Mutation::FloorSpringGrows,
+    Mutation::PairSpringGrows,
+    Mutation::NormalForceGrows,
 ];
 
 /// The paper's contact law, written a second time, with one line changed.
@@ -120,7 +126,17 @@ impl ContactModel<f64> for Twin {
             _ => arm * contact.spin,
         };
         let velocity = contact.sliding_speed - rolling;
-        let elastic = contact.overlap;
+        // LAMMPS has had floors like this since 2023; the normal force is that of spheres.
+        let root = contact.overlap.max(0.0).sqrt();
+        let stiffness = match self.mutation {
+            Mutation::FloorSpringGrows if !is_pair => self.stiffness * root,
+            Mutation::PairSpringGrows if is_pair => self.stiffness * root,
+            _ => self.stiffness,
+        };
+        let elastic = match self.mutation {
+            Mutation::NormalForceGrows => contact.overlap * root,
+            _ => contact.overlap,
+        };
         let normal = elastic - self.normal_damping * contact.separation_speed;
         let friction = match self.mutation {
             Mutation::FrictionOnePercentHigh => 1.01 * contact.friction,
@@ -136,7 +152,7 @@ impl ContactModel<f64> for Twin {
         }
         let growth = velocity * contact.time_step;
         let stretched = memory.length + growth;
-        let trial = -(self.stiffness * stretched) - self.damping * velocity;
+        let trial = -(stiffness * stretched) - self.damping * velocity;
         let sticks = trial.abs() < limit;
         if sticks || self.mutation == Mutation::SpringGrowsWhileSliding {
             memory.length = stretched;
@@ -378,6 +394,30 @@ fn every_changed_line_is_noticed() {
         table += &format!("{mutation:?} | {seen} | {alone}\n");
     }
     insta::assert_snapshot!(table);
+}
+
+#[test]
+fn a_stiffness_that_grows_with_the_overlap_is_named() {
+    for (mutation, said) in [
+        (
+            Mutation::FloorSpringGrows,
+            "floor k_t grows with the overlap (like overlap^0.50)",
+        ),
+        (
+            Mutation::PairSpringGrows,
+            "pair k_t grows with the overlap (like overlap^0.50)",
+        ),
+        (
+            Mutation::NormalForceGrows,
+            "pair k_n grows with the overlap (like overlap^0.50)",
+        ),
+    ] {
+        let judgement = crosscheck(mutation);
+        let notes = judgement.notes();
+        let last = notes.last().expect("the reason");
+        let reason = format!("not judged: its probe contradicts its declaration: {said}");
+        assert!(last.starts_with(&reason), "{mutation:?}: {last}");
+    }
 }
 
 /// The other way round: a right code under a wrong declaration.

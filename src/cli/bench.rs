@@ -1,10 +1,11 @@
 //! `tristack bench`.
 
-use super::options::{CodeParser, Format, selected_codes};
+use super::convention::settle;
+use super::options::{CodeParser, Format, RunOptions, selected_codes};
 use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
-use crate::files::{FileError, Layout};
+use crate::files::{FileError, Layout, Scratch};
 use crate::output::{
     DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let layout = Layout::tables("bench.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let temporary = std::env::temp_dir();
-    let directory = tempfile::tempdir().map_err(FileError::writing(&temporary))?;
+    let directory = Scratch::new().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
     let measured = match arguments.pyramids {
         true => time_pyramids(arguments, command, codes, &context),
@@ -68,6 +69,7 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     let mut names = vec![Code::NATIVE];
     names.extend(named);
     let codes = selected_codes(&names)?;
+    settle(&codes, &RunOptions::default())?;
     Ok(codes.iter().map(|selected| selected.name).collect())
 }
 

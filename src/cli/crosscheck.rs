@@ -1,5 +1,6 @@
 //! `tristack crosscheck`.
 
+use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
 use super::options::{
@@ -73,6 +74,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return explain(row, &arguments.stack, arguments.shortcuts, &arguments.run);
     }
     let codes = selected_codes(&arguments.codes.named)?;
+    settle(&codes, &arguments.run)?;
     let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];
     let layout = Layout::tables("crosscheck.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;

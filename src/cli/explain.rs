@@ -1,6 +1,7 @@
 //! `tristack crosscheck --explain ROW`.
 
 use super::code_names::{code_named, names};
+use super::convention::settle;
 use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
@@ -48,6 +49,7 @@ pub(super) fn explain(
 ) -> Result<ExitStatus, CliError> {
     let stack = others.stack(row.stack.floor_friction, row.stack.stiffness)?;
     let codes = [SelectedCode::find(row.code)];
+    settle(&codes, options)?;
     let measurement = plan(row.code, &stack, row.code.convention());
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),

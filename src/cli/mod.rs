@@ -4,6 +4,7 @@ mod bench;
 mod code_names;
 mod codes;
 mod command_line;
+mod convention;
 mod crosscheck;
 mod error;
 mod explain;

@@ -168,7 +168,7 @@ pub(super) fn options_of<T: Args>() -> Vec<clap::Id> {
 }
 
 /// The store of runs, and how runs are carried out.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub(super) struct RunOptions {
     /// Store of finished runs: a new or empty directory, or a store of yours [default: $TRISTACK_STORE, else tristack in the user's cache directory]
     #[arg(long, value_name = "DIR")]

@@ -1,13 +1,16 @@
 //! `tristack probe`.
 
 use super::options::{CodeOptions, Format, RunOptions, selected_codes};
+use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
-use crate::output::{probe, probe_by_code};
+use crate::files::Layout;
+use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code};
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
-use crate::study::convention::{Finding, Probed, probe_all};
+use crate::study::convention::{Finding, Probed, passport, probe_all};
 use clap::Args;
+use std::path::PathBuf;
 
 /// Measure the contact convention of each code, and compare it with the declared one
 ///
@@ -22,6 +25,10 @@ pub(super) struct Arguments {
     codes: CodeOptions,
     #[command(flatten)]
     run: RunOptions,
+    /// Directory for the passport of each code, CODE.json and the page CODE.md, and all_codes.json and all_codes.csv with
+    /// the findings
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Format of the findings
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -30,6 +37,7 @@ pub(super) struct Arguments {
 /// Probes the codes and prints the findings.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = selected_codes(&arguments.codes.named)?;
+    let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let settings = arguments.run.settings()?;
     let probed = probe_all(&codes, &settings, &Reporter::new());
     let findings: Vec<Finding> = probed
@@ -40,7 +48,31 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let people = || probe_by_code(&findings).terminal();
     let tables = [probe(&findings)];
     let printed = arguments.format.print(&tables, command, people);
-    Ok(conclude(&codes, &probed, &findings).max(printed))
+    let written = out.write(|| {
+        let mut files = vec![
+            ("all_codes.csv".to_owned(), tables[0].csv()),
+            (ALL_CODES.to_owned(), json(&tables, command)),
+        ];
+        let known = codes.iter().zip(&probed);
+        let known = known.filter_map(|(own, probed)| Some((own.name, probed.as_ref().ok()?)));
+        for (code, findings) in known {
+            let passport = passport(code, findings);
+            files.push((format!("{code}.json"), passport_json(&passport, command)));
+            files.push((format!("{code}.md"), passport_markdown(&passport, command)));
+        }
+        files
+    });
+    Ok(conclude(&codes, &probed, &findings)
+        .max(printed)
+        .max(written))
+}
+
+/// The file by which a directory with passports is known; no code has an underscore in its name.
+const ALL_CODES: &str = "all_codes.json";
+
+/// The files that are written.
+fn layout() -> Layout {
+    Layout::tables(ALL_CODES, &["all_codes.csv", "*.json", "*.md"])
 }
 
 /// Summarizes the findings on standard error, and returns the exit status.
@@ -63,11 +95,20 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");
         }
     }
+    for finding in findings {
+        if let Some(growth) = finding.growth() {
+            tell!("{}: {growth}", finding.code);
+        }
+    }
     let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();
     let (agreeing, differing) = (count(Verdict::Agrees), count(Verdict::Differs));
     tell!(
-        "{agreeing} of {} properties are as declared, {differing} differ, {} are inconclusive",
+        "{agreeing} of {} properties are as declared{}, {differing} differ, {} are inconclusive",
         findings.len(),
+        match findings.iter().any(|own| own.declared.is_none()) {
+            true => " or measured where nothing is declared",
+            false => "",
+        },
         findings.len() - agreeing - differing
     );
     if INTERRUPT.requested() {

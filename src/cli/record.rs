@@ -1,5 +1,6 @@
 //! `tristack record`.
 
+use super::convention::settle;
 use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
 use super::progress::Reporter;
 use super::trajectories::plans;
@@ -61,6 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     for selected in &codes {
         Recording::check_place(&directory, selected.name)?;
     }
+    settle(&codes, &arguments.run)?;
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
     for selected in codes {

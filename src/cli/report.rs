@@ -1,5 +1,6 @@
 //! `tristack report`.
 
+use super::convention::settle;
 use super::options::{CodeParser, RunOptions, selected_codes};
 use super::out::Out;
 use super::progress::Reporter;
@@ -42,6 +43,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         codes.push(Code::NATIVE);
     }
     let codes = selected_codes(&codes)?;
+    settle(&codes, &arguments.run)?;
     let register = Register::paper()?;
     let out = Out::claim(Some(&arguments.out), &layout())?;
     let settings = arguments.run.settings()?;

@@ -1,7 +1,9 @@
 //! `tristack simulate`.
 
+use super::convention::settle_one;
 use super::options::{
-    CodeParser, ConventionOptions, Format, StackOptions, as_flag, friction, options_of, time_limit,
+    CodeParser, ConventionOptions, Format, RunOptions, StackOptions, as_flag, friction, options_of,
+    time_limit,
 };
 use super::out::{Out, write};
 use super::{CliError, ExitStatus, INTERRUPT, tell};
@@ -107,6 +109,8 @@ fn replaced_by_case() -> Vec<Id> {
 
 /// Runs one case and prints both estimators.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    // Micro-tests go to the store, where the other commands find them.
+    settle_one(arguments.code, &RunOptions::default())?;
     let case = case(arguments)?;
     tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;

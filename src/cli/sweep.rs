@@ -1,5 +1,6 @@
 //! `tristack sweep`.
 
+use super::convention::settle_one;
 use super::crosscheck::conclude;
 use super::options::{
     CodeParser, ConventionOptions, Format, RunOptions, StackListOptions, as_flag, friction,
@@ -111,6 +112,7 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    settle_one(arguments.code, &arguments.run)?;
     let convention = arguments.convention.of(arguments.code)?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;

@@ -1,5 +1,6 @@
 //! `tristack trajectories`.
 
+use super::convention::settle;
 use super::interrupt::interrupted_after;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
 use super::out::Out;
@@ -43,6 +44,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     refuse_native(&arguments.codes.named)?;
     let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
+    settle(&codes, &arguments.run)?;
     let files = ["trajectories.csv", "trajectories.md"];
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;

@@ -3,7 +3,7 @@
 use super::failure::{Failure, FailureKind};
 use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
-use super::manifest::ResultFile;
+use super::manifest::{ResultFile, TaskKind};
 use super::parameters::only_numbers;
 use super::process::{Job, run};
 use super::task::Task;
@@ -98,7 +98,11 @@ impl<'a, T: Task> Batch<'a, T> {
     fn prepare(&self) -> Result<(), FailureKind> {
         self.code.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let accepted = self.code.name.check_convention(task.convention());
+            let name = self.code.name;
+            let accepted = match task.kind() {
+                TaskKind::Motion => name.check_declaration(task.convention()),
+                _ => name.check_convention(task.convention()),
+            };
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;

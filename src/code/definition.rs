@@ -1,6 +1,7 @@
 //! A code as its folder describes it: the manifest `code.toml` with its defaults and variants, and the files of its
 //! tasks.
 
+use super::convention::ConventionKey;
 use super::folder::Folder;
 use super::layers::Layers;
 use super::manifest::{Definition, ResultFile, TaskKind};
@@ -48,6 +49,7 @@ impl Definition {
     fn of_code(code: DeTable, family: &str, layers: &Layers) -> Result<Self, ManifestError> {
         let mut definition: Self = layers.read_as(code.clone())?;
         definition.place = layers.place_of(&code, "name");
+        definition.left_out = ConventionKey::left_out_of(&code);
         let finished = definition.finish(family, layers);
         finished.map_err(|invalid| layers.invalid(&code, &invalid))?;
         Ok(definition)

@@ -1,12 +1,14 @@
 //! The keys of a manifest.
 
 use super::columns::read_columns;
+use super::convention::{ConventionKey, Settled};
 use super::format::{ParameterFormat, ResultFormat};
 use super::manifest_error::Place;
 use crate::model::ContactConvention;
 use crate::series::ColumnSources;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 use toml::{Spanned, Table};
 
 /// One code, as the manifest describes it.
@@ -40,8 +42,15 @@ pub struct Definition {
     pub(super) result: ResultFile,
     #[serde(default)]
     pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
+    /// With the paper's values for the keys that are left out.
     #[serde(default)]
     pub(super) convention: ContactConvention,
+    /// The keys of the convention that are left out, which the probe measures.
+    #[serde(skip)]
+    pub(super) left_out: Vec<ConventionKey>,
+    /// The convention after the probe.
+    #[serde(skip)]
+    pub(super) settled: OnceLock<Settled>,
     #[serde(default)]
     pub(super) integration: Integration,
     #[serde(default)]

@@ -3,6 +3,7 @@
 use super::failure::FailureKind;
 use super::manifest::Environment;
 use super::process::{Interrupt, Job, run};
+use crate::files::Scratch;
 use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -35,7 +36,7 @@ pub(super) fn answer(
     environment: &Environment,
     time_limit: Duration,
 ) -> Result<Option<String>, FailureKind> {
-    let home = tempfile::tempdir()?;
+    let home = Scratch::new()?;
     let job = Job {
         command,
         directory: home.path(),

@@ -1,5 +1,6 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
+use super::convention::{Declaration, Settled};
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
@@ -39,15 +40,6 @@ fn leaked(definition: Definition) -> &'static Definition {
 /// A code. Codes are ordered as in tables and figures.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(usize);
-
-/// The properties that a manifest declares and the probe measures.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Declaration {
-    /// The contact convention.
-    pub convention: ContactConvention,
-    /// Steps by which reported velocities lag behind reported positions.
-    pub velocity_lag: f64,
-}
 
 impl Code {
     /// The DEM of this program.
@@ -142,22 +134,56 @@ impl Code {
             .any(|code| code.convention() == self.convention())
     }
 
-    /// The contact convention of the code; native, which accepts any, has the paper's as its default.
+    /// The contact convention of the code, with the paper's values for what is left out and not settled yet; native,
+    /// which accepts any, has the paper's as its default.
     pub fn convention(self) -> ContactConvention {
-        self.definition().convention
+        self.settled().convention
     }
 
     /// Properties of its time integration.
     pub(crate) fn integration(self) -> Integration {
-        self.definition().integration
+        Integration {
+            velocity_lag: self.settled().velocity_lag,
+            ..self.definition().integration
+        }
     }
 
     /// The properties that its manifest declares.
     pub fn declaration(self) -> Declaration {
+        let definition = self.definition();
         Declaration {
-            convention: self.convention(),
-            velocity_lag: self.integration().velocity_lag,
+            convention: definition.convention,
+            velocity_lag: definition.integration.velocity_lag,
+            left_out: definition.left_out.clone(),
         }
+    }
+
+    /// Its convention after its probe, or as long as it has not been probed, with the keys that are left out as unknown.
+    pub fn settled(self) -> Settled {
+        let settled = self.definition().settled.get();
+        settled.cloned().unwrap_or_else(|| {
+            let declaration = self.declaration();
+            declaration.unsettled("it has not been measured")
+        })
+    }
+
+    /// Whether nothing is left out of its convention, or what is left out has been probed.
+    pub fn is_settled(self) -> bool {
+        let definition = self.definition();
+        definition.left_out.is_empty() || definition.settled.get().is_some()
+    }
+
+    /// Settles its convention. A convention is settled once, because planned cases hold it; later ones are ignored.
+    pub(crate) fn settle(self, settled: Settled) {
+        // The first stays.
+        let _ = self.definition().settled.set(settled);
+    }
+
+    /// Whether its folder is part of this program.
+    pub(crate) fn is_built_in(self) -> bool {
+        let registry = registry();
+        let mut of_users = registry.folders.values().flatten();
+        !of_users.any(|own| *own == self)
     }
 
     /// Whether the convention is part of the case rather than of the code.
@@ -167,6 +193,19 @@ impl Code {
 
     /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
     pub(crate) fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+        self.check_against(self.convention(), asked)
+    }
+
+    /// The same for micro-tests, which are asked for under the declaration, whatever they have shown.
+    pub(super) fn check_declaration(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+        self.check_against(self.definition().convention, asked)
+    }
+
+    fn check_against(
+        self,
+        own: ContactConvention,
+        asked: &ContactConvention,
+    ) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
         }
@@ -177,10 +216,7 @@ impl Code {
             let accepted = format!("any other number for {self}: {because}");
             return Err(refused("convention.restitution", restitution, accepted));
         }
-        let own = ContactConvention {
-            restitution,
-            ..self.convention()
-        };
+        let own = ContactConvention { restitution, ..own };
         asked.difference(&own).map_or(Ok(()), |(key, value, own)| {
             let key = format!("convention.{key}");
             Err(refused(&key, value, format!("{own} for {self}")))

@@ -7,6 +7,7 @@ use super::installation::ExternalCode;
 use super::installed::RunContext;
 use super::manifest::TaskKind;
 use super::question::interrupt;
+use crate::files::Scratch;
 use crate::model::{ContactConvention, ContactTest, InitialMotion, sha256_hex};
 use crate::series::{Motion, MotionRow};
 
@@ -53,12 +54,12 @@ impl ExternalCode {
         {
             return None;
         }
-        let directory = tempfile::tempdir().ok()?;
+        let directory = Scratch::new().ok()?;
         let context = RunContext {
             time_limit: Some(LONGEST_START),
             ..RunContext::new(directory.path(), interrupt())
         };
-        let test = witness_test(self.name.convention());
+        let test = witness_test(self.name.declaration().convention);
         let mut motion = None;
         let mut batch = Batch::new(
             self,

@@ -4,10 +4,11 @@
 
 use super::FileError;
 use super::read::{Links, accept_regular, open_directory, open_regular};
+use nix::unistd::geteuid;
 use std::ffi::{OsStr, OsString};
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{ErrorKind, Write};
-use std::os::unix::fs::{OpenOptionsExt, PermissionsExt};
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -19,6 +20,8 @@ const RANDOM: usize = 12;
 const AS_USUAL: u32 = 0o666;
 /// The same for files that nobody else may write to.
 pub(super) const OWNER_WRITES: u32 = 0o644;
+/// Permissions of directories that nobody else may look into.
+const OWNER_ALONE: u32 = 0o700;
 
 /// Writes `content` to `path` such that a reader sees the old file or the new one, never a part. Drafts of the same
 /// file by killed programs are removed.
@@ -106,11 +109,16 @@ fn try_to_write(
     Ok(())
 }
 
-/// Removes the files and directories in `directory` that [`temporary`] may have made with `prefix` and that are not
-/// locked: a lock ends with its program.
+/// Removes the files and directories of this user in `directory` that [`temporary`] may have made with `prefix` and that
+/// are not locked: a lock ends with its program.
 pub(crate) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| is_temporary(&entry.file_name(), prefix)) {
+    let user = geteuid().as_raw();
+    let own = entries.filter(|entry| {
+        is_temporary(&entry.file_name(), prefix)
+            && entry.metadata().is_ok_and(|found| found.uid() == user)
+    });
+    for entry in own {
         let path = entry.path();
         let is_free = |file: File| file.try_lock().is_ok();
         // Another program may be faster.
@@ -142,6 +150,48 @@ pub(crate) fn locked_directory(
     let lock = open_directory(directory.path())?;
     let _ = lock.try_lock();
     Ok((directory, lock))
+}
+
+/// Attempts at a directory that no other program takes for abandoned before it is locked.
+const TRIES: usize = 100;
+/// Beginning of the names of [`Scratch`] directories.
+const SCRATCH: &str = "tristack-scratch-";
+
+/// A directory for temporary files, which is removed when dropped, or, if this program is killed, by the next one that
+/// makes one.
+pub(crate) struct Scratch {
+    directory: TempDir,
+    _lock: File,
+}
+
+impl Scratch {
+    /// A new directory among the temporary files of this machine.
+    pub fn new() -> std::io::Result<Self> {
+        let root = std::env::temp_dir();
+        remove_abandoned(&root, SCRATCH.as_ref());
+        for _ in 0..TRIES {
+            let mut directory = temporary(SCRATCH.as_ref());
+            let directory = directory.permissions(Permissions::from_mode(OWNER_ALONE));
+            let directory = directory.tempdir_in(&root)?;
+            // Before it is locked, another program may take it for abandoned.
+            let lock = open_directory(directory.path()).ok();
+            let free = |lock: &File| !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
+            if let Some(lock) = lock.filter(free)
+                && directory.path().is_dir()
+            {
+                return Ok(Self {
+                    directory,
+                    _lock: lock,
+                });
+            }
+        }
+        let message = format!("{} lost {TRIES} new directories", root.display());
+        Err(std::io::Error::other(message))
+    }
+
+    pub fn path(&self) -> &Path {
+        self.directory.path()
+    }
 }
 
 /// Writes a new file, which nobody else may write to, and which lasts through a power failure once its directory is

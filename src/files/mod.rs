@@ -11,8 +11,8 @@ mod results;
 pub(crate) use checksums::{CHECKSUMS, check, checksums, read_sealed, write_sealed};
 pub use checksums::{seal, unseal};
 pub(crate) use draft::{
-    create_anew, create_parent, is_draft, is_temporary, locked_directory, remove_abandoned,
-    remove_older, sync_directory, temporary, write_atomically, write_synced,
+    Scratch, create_anew, create_parent, is_draft, is_temporary, locked_directory,
+    remove_abandoned, remove_older, sync_directory, temporary, write_atomically, write_synced,
 };
 pub use error::FileError;
 pub(crate) use error::parse_json;

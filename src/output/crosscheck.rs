@@ -83,8 +83,13 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
             .number(part.name, "m g", move |(_, slip)| {
                 (part.value)(&slip.budget)
             })
-            .means(part.how)
-            .shown_as(part.heading, one_digit);
+            .means(part.how);
+        let absent = |slip: &Extrapolation| (part.value)(&slip.budget).is_none();
+        let mut slips = judgements.iter().filter_map(Judgement::slip).peekable();
+        // People see no column without a number.
+        if slips.peek().is_none() || !slips.all(absent) {
+            columns = columns.shown_as(part.heading, one_digit);
+        }
     }
     columns
         .number("uncertainty", "m g", |(_, slip)| slip.budget.total())

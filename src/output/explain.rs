@@ -4,7 +4,7 @@ use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
 use crate::model::{Case, Preparation, exact};
 use crate::runs::RunSummary;
-use crate::series::Estimate;
+use crate::series::{Estimate, Law};
 use crate::study::yield_force::{
     Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce,
 };
@@ -50,7 +50,9 @@ fn reference(row: &Judgement) -> String {
         exact(row.study.stack.cylinder_friction),
         arms.pair,
         arms.floor,
-        if row.arms_are_measured {
+        if row.study.convention_uncertainty.is_some() {
+            "measured, not declared: tristack probe"
+        } else if row.arms_are_measured {
             "measured: tristack probe"
         } else {
             "declared"
@@ -104,8 +106,35 @@ fn runs(row: &Judgement) -> String {
         .rows(runs);
     format!(
         "2. Runs: slip onset (judged) and peak of F = f/(m g), with the distance between interpolations of \
-         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}\n",
-        table.shown().terminal()
+         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}{}\n",
+        table.shown().terminal(),
+        mechanics(row.runs())
+    )
+}
+
+/// How far the runs go towards what each law of mechanics allows.
+fn mechanics(runs: &[RunSummary]) -> String {
+    if runs.is_empty() {
+        return String::new();
+    }
+    let laws = Law::ALL.map(|law| {
+        let deviations = runs
+            .iter()
+            .filter_map(|run| run.mechanics.as_ref()?.0.get(&law));
+        let share = deviations.map(|deviation| deviation.size / deviation.bound);
+        let share = share.fold(None, |most: Option<f64>, share| {
+            Some(share.max(most.unwrap_or(0.0)))
+        });
+        format!(
+            "{} {}",
+            law.as_str(),
+            share.map_or("not tested".to_owned(), |share| format!("{share:.2}"))
+        )
+    });
+    format!(
+        "   Mechanics (docs/theory.md, 8.6), largest deviation in units of the allowed one: {},\n   {}.\n",
+        laws[..2].join(", "),
+        laws[2..].join(", ")
     )
 }
 
@@ -129,7 +158,10 @@ fn extrapolation(slip: &Extrapolation) -> String {
 fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let reference = row.judged_reference();
     let load = reference.map_or(f64::NAN, |force| force + 3.0);
-    let parts = Budget::PARTS.map(|part| (part.heading, part.how, (part.value)(&slip.budget)));
+    let parts = Budget::PARTS.into_iter().filter_map(|part| {
+        let value = (part.value)(&slip.budget)?;
+        Some((part.heading, part.how, value))
+    });
     let total = ("total", "sum, as if all conspired", slip.budget.total());
     let table = Columns::<(&str, &str, f64)>::for_people()
         .left("part of u_num", |(name, ..)| name.to_string())
@@ -138,7 +170,7 @@ fn budget(row: &Judgement, slip: &Extrapolation) -> String {
         .right("of F + 3", move |(.., value)| {
             format!("{:.1e}", value / load)
         })
-        .rows(parts.into_iter().chain([total]));
+        .rows(parts.chain([total]));
     format!(
         "4. Numerical uncertainty of S (ASME V&V 20):\n{}\n",
         table.shown().terminal()

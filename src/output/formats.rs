@@ -3,8 +3,8 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces, probe, pyramids,
-    regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces,
+    measured_convention, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
@@ -40,6 +40,8 @@ pub fn formats_page() -> String {
         budget(&[]),
         trajectories(&[]),
         probe(&[]),
+        measured_convention(&[]),
+        arm_effects(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),

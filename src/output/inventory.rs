@@ -34,7 +34,7 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     })
     .means("distribution package and its version")
     .shown("package")
-    .convention(|(code, _)| code.convention())
+    .convention(|(code, _)| code.is_settled().then(|| code.convention()))
     .right("pair arm", |(code, _)| {
         arms(*code, code.convention().arms.pair)
     })
@@ -50,8 +50,11 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .rows(rows)
 }
 
-/// Arms for people, marked where they are only the default of a code that accepts any.
+/// Arms for people, marked where they are only the default of a code that accepts any. Nothing is measured for a list.
 fn arms(code: Code, arms: ContactArms) -> String {
+    if !code.is_settled() {
+        return "not declared".to_owned();
+    }
     match code.accepts_any_convention() {
         true => format!("{arms} (any)"),
         false => arms.to_string(),

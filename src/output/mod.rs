@@ -9,6 +9,7 @@ mod formats;
 mod inventory;
 mod number;
 mod page;
+mod passport;
 mod probe;
 mod regimes;
 mod simulation;
@@ -31,6 +32,7 @@ pub(crate) use forecast::{forecast_text, forecasts};
 pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
+pub(crate) use passport::{arm_effects, measured_convention, passport_json, passport_markdown};
 pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,

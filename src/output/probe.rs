@@ -23,7 +23,7 @@ pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
     .number("uncertainty", "1", |own| own.uncertainty)
     .means("three standard errors; absent with the measured value")
     .number("declared", "1", |own| own.declared)
-    .means("what the code declares")
+    .means("what the code declares; absent where it leaves that out and the measured value is used")
     .verdict(|own| own.verdict)
     .rows(findings)
 }
@@ -54,7 +54,7 @@ pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
 /// The measured value with its uncertainty in brackets, and the declared value where they disagree.
 fn cell(finding: &Finding) -> String {
     let (Some(measured), Some(uncertainty)) = (finding.measured, finding.uncertainty) else {
-        return format!("unknown, declared {}", finding.declared);
+        return format!("unknown{}", of_declared(finding));
     };
     let uncertainty = format!("({uncertainty:.0e})");
     match finding.verdict {
@@ -62,14 +62,19 @@ fn cell(finding: &Finding) -> String {
         Verdict::Differs => format!(
             "{} {uncertainty} differs from {}",
             significant(measured, 8),
-            finding.declared
+            finding.declared.unwrap_or(f64::NAN)
         ),
         _ => format!(
-            "{} {uncertainty} inconclusive, declared {}",
+            "{} {uncertainty} inconclusive{}",
             short(measured),
-            finding.declared
+            of_declared(finding)
         ),
     }
+}
+
+fn of_declared(finding: &Finding) -> String {
+    let declared = finding.declared;
+    declared.map_or_else(String::new, |declared| format!(", declared {declared}"))
 }
 
 /// `value` to six decimals, without trailing zeros.

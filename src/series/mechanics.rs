@@ -32,6 +32,14 @@ pub enum Law {
 }
 
 impl Law {
+    /// Every law.
+    pub const ALL: [Self; 4] = [
+        Self::ForceBalance,
+        Self::MirrorSymmetry,
+        Self::WallOverlap,
+        Self::FloorOverlap,
+    ];
+
     /// The words in messages.
     pub const fn as_str(self) -> &'static str {
         match self {

@@ -4,7 +4,7 @@ use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
 use super::verdict::{Ground, Grounds, Verdict};
-use crate::code::{Code, Identity, InstalledCode};
+use crate::code::{Code, ConventionKey, Identity, InstalledCode};
 use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
@@ -18,6 +18,11 @@ pub trait Study {
 
     /// The code that is judged.
     fn code(&self) -> Code;
+
+    /// Whether its result depends on `key` of the convention of the code.
+    fn depends_on(&self, _key: ConventionKey) -> bool {
+        true
+    }
 
     /// The tasks that the study needs to be carried out; those of the judged code come first.
     fn workloads(&self) -> Vec<Workload<TaskOf<Self>>>;
@@ -74,6 +79,22 @@ pub struct Judged<S, F> {
     pub finding: Option<F>,
     /// The grounds for a verdict on it.
     pub grounds: Grounds,
+}
+
+impl<S: Study> Judged<S, S::Finding> {
+    /// Withdraws a judgement that depends on a part of the convention which neither the manifest nor the probe says.
+    fn hold_to_settled(&mut self) {
+        for (key, because) in self.code.settled().unknown {
+            if self.study.depends_on(key) {
+                self.grounds.add(Ground::NotJudged {
+                    note: format!(
+                        "not judged: {key} is left out of its manifest and not known: {because}"
+                    ),
+                    contradicted: false,
+                });
+            }
+        }
+    }
 }
 
 impl<S, F> Judged<S, F> {
@@ -205,6 +226,9 @@ impl<'a> Campaign<'a> {
                 // Where nothing yields in theory nothing is run, and there is no judgement to withdraw.
                 if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
                     judged.grounds.hold_to_probe(probed, &identities);
+                    if probed.is_ok() {
+                        judged.hold_to_settled();
+                    }
                 }
             }
             Err(missing) => {

@@ -1,5 +1,6 @@
 //! The yield force without time stepping: the paper's theories, and the exact quasi-static limit.
 
+mod arms;
 mod closing;
 mod events;
 mod floor_slip;
@@ -14,6 +15,7 @@ mod side_walls;
 mod sliding;
 mod small_displacement;
 
+pub use arms::limit_uncertainty;
 use closing::closing_limit;
 pub use events::Event;
 pub use floor_slip::{floor_slip_force, floor_slip_forces};

@@ -97,6 +97,21 @@ impl Bench {
     }
 }
 
+/// A copy, in `place`, of the folder `original` of the project, with what `change` makes of its manifest.
+pub fn code_folder(original: &str, place: &Path, change: impl FnOnce(String) -> String) -> PathBuf {
+    fs::create_dir(place).expect("a directory");
+    let original = Path::new(env!("CARGO_MANIFEST_DIR")).join(original);
+    for entry in fs::read_dir(original).expect("a folder").flatten() {
+        if entry.path().is_file() {
+            fs::copy(entry.path(), place.join(entry.file_name())).expect("a copy");
+        }
+    }
+    let manifest = place.join("code.toml");
+    let text = fs::read_to_string(&manifest).expect("a manifest");
+    fs::write(manifest, change(text)).expect("it can be written");
+    place.to_owned()
+}
+
 /// Those of `codes` that are installed; fails if one that TRISTACK_REQUIRE_ENGINES names is not.
 pub fn installed(codes: &[Code]) -> Vec<Code> {
     let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();

@@ -136,3 +136,37 @@ done
 "#
     )
 }
+
+/// Makes `folder` one with YADE under another name, which starts in less than a second,
+/// and whose program is called mydem.
+pub fn quick_folder(folder: &Path) -> String {
+    fs::create_dir(folder).expect("a directory");
+    let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("yade_scripts");
+    for entry in fs::read_dir(original).expect("a folder").flatten() {
+        if entry.path().is_file() {
+            fs::copy(entry.path(), folder.join(entry.file_name())).expect("a copy");
+        }
+    }
+    let manifest = folder.join("code.toml");
+    let mut text = fs::read_to_string(&manifest).expect("a manifest");
+    for (from, to) in [
+        ("name = \"yade\"", "name = \"mydem\""),
+        ("[variants.yade", "[variants.mydem"),
+        ("start = 1.5", "start = 0.5"),
+        ("command = [\"yade\"", "command = [\"mydem\""),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    fs::write(manifest, text).expect("it can be written");
+    folder.display().to_string()
+}
+
+/// Installs on `bench` a program called mydem that does what the script `inside` says, whose path it puts together while
+/// it runs: from outside the script is not seen.
+pub fn install_wrapper(bench: &Bench, inside: &Path) {
+    let which = bench.path("which.txt");
+    fs::write(&which, format!("{}\n", inside.display())).expect("a choice");
+    let script = format!("read inside < '{}'\n. \"$inside\"", which.display());
+    bench.install("mydem", &script);
+}

@@ -26,6 +26,7 @@ pub enum ProcessFault {
     CodeStopped,
     GuardKilled,
     CodeReplaced,
+    HiddenCodeReplaced,
     ClockJumps,
     TwoAtOnce,
     TwoAtOnceOneKilled,
@@ -98,6 +99,7 @@ impl Fault {
             P::InterruptedTwice,
             P::CodeStopped,
             P::CodeReplaced,
+            P::HiddenCodeReplaced,
             P::TwoAtOnceOneKilled,
             P::ClockJumps,
         ];

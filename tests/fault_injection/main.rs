@@ -24,7 +24,7 @@ use std::sync::{Mutex, PoisonError};
 use workload::Workloads;
 
 /// Each fault once.
-const ROUNDS: usize = 49;
+const ROUNDS: usize = 50;
 const TRIES: u64 = 5;
 /// Number of rounds at once; a round mostly waits.
 const AT_ONCE: usize = 3;

@@ -1,10 +1,10 @@
 //! Faults that strike running processes.
 
-use super::common::wait_a_minute_for;
+use super::common::{replay, wait_a_minute_for};
 use super::fault::{ProcessFault, fake_clock};
 use super::processes::{self, Process};
-use super::round::{Aftermath, Round, is_running};
-use super::workload::{address, asked};
+use super::round::{Aftermath, HONEST, Round, is_running};
+use super::workload::{Workload, address, asked};
 use nix::sys::signal::Signal;
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,6 +12,8 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Output};
 use std::time::{Duration, Instant};
+use tristack::code::{Code, witness_test};
+use tristack::dem::compress_stack;
 use tristack::model::sha256_hex;
 
 /// A second interrupt is immediate: no more than this on a busy machine.
@@ -30,6 +32,7 @@ pub fn strike(fault: ProcessFault, round: &mut Round) -> Result<Aftermath, Strin
         ProcessFault::CodeStopped => Ok(signal_others(Process::is_foreign, Signal::SIGSTOP, round)),
         ProcessFault::GuardKilled => Ok(signal_others(Process::is_guard, Signal::SIGKILL, round)),
         ProcessFault::CodeReplaced => Ok(replace_code(round)),
+        ProcessFault::HiddenCodeReplaced => Ok(replace_hidden_code(round)),
         ProcessFault::ClockJumps => Ok(let_clock_jump(round)),
         ProcessFault::TwoAtOnce => run_two(round, false),
         ProcessFault::TwoAtOnceOneKilled => run_two(round, true),
@@ -197,6 +200,49 @@ fn replace_code(round: &mut Round) -> Aftermath {
         foreign: made_by_others(round, &program),
         ..Aftermath::default()
     }
+}
+
+/// After some runs, or all, a program with a rougher floor computes behind the same wrapper.
+fn replace_hidden_code(round: &mut Round) -> Aftermath {
+    let mut child = round.start("");
+    if round.random.bool() {
+        round.wait_for_a_moment(&mut child);
+        signal(&mut child, Signal::SIGKILL);
+    }
+    let honest = finish(child);
+    let kept = round.entries().len();
+    let rougher = 1.0 + 10f64.powf(-1.0 - 3.0 * round.random.f64());
+    let insides = "rough";
+    round.workloads.install_wrapped(&round.bench, insides);
+    install_rougher(&round.bench.path(insides), round.workload, rougher);
+    let output = round.run("");
+    let foreign = round.entries().len() - kept;
+    round.workloads.install_wrapped(&round.bench, HONEST);
+    Aftermath {
+        killed: vec![honest],
+        outputs: vec![output],
+        struck: kept > 0,
+        harmful: true,
+        foreign,
+        made_again: foreign,
+        ..Aftermath::default()
+    }
+}
+
+/// Puts into `insides` the answers of a program whose floor is rougher by the factor `rougher`.
+fn install_rougher(insides: &Path, workload: &Workload, rougher: f64) {
+    let yade = Code::named("yade").expect("it is built in");
+    for case in &workload.cases {
+        let mut changed = *case;
+        changed.stack.floor_friction *= rougher;
+        let series = compress_stack(&changed, || true).expect("a finite series");
+        let path = insides.join(format!("{}.csv", address(case)));
+        fs::write(path, series.to_csv()).expect("a series");
+    }
+    let asked = witness_test(yade.convention());
+    let mut changed = asked;
+    changed.floor_friction *= rougher;
+    replay::install_motion_as(insides, &asked, &changed);
 }
 
 /// Number of runs in the store that were not made by `program` as it is now.

@@ -13,6 +13,9 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 use tristack::model::sha256_hex;
 
+/// Insides of the wrapped code that compute as they should.
+pub const HONEST: &str = "honest";
+
 /// A place, something to compute there, and chance.
 pub struct Round<'a> {
     pub bench: Bench,
@@ -77,8 +80,11 @@ impl<'a> Round<'a> {
             workloads,
             random,
         };
-        if round.is_replayed() {
+        if std::ptr::eq(workload, &workloads.replayed) {
             workloads.install_replay(&round.bench);
+        }
+        if std::ptr::eq(workload, &workloads.wrapped) {
+            workloads.install_wrapped(&round.bench, HONEST);
         }
         let aftermath = match fault {
             Fault::Process(fault) => process_faults::strike(fault, &mut round),
@@ -102,9 +108,10 @@ impl<'a> Round<'a> {
         })
     }
 
-    /// Whether the code is the one that replays recorded runs.
+    /// Whether the code is one that replays recorded runs.
     pub fn is_replayed(&self) -> bool {
-        std::ptr::eq(self.workload, &self.workloads.replayed)
+        let fakes = [&self.workloads.replayed, &self.workloads.wrapped];
+        fakes.iter().any(|fake| std::ptr::eq(self.workload, *fake))
     }
 
     pub fn root(&self) -> PathBuf {
@@ -338,6 +345,7 @@ fn choose<'a>(fault: Fault, all: &'a Workloads, random: &mut fastrand::Rng) -> &
         Fault::Process(P::CodeKilled | P::GuardKilled) if std::ptr::eq(real, native) => {
             &all.replayed
         }
+        Fault::Process(P::HiddenCodeReplaced) => &all.wrapped,
         Fault::Store(StoreFault::MadeByAnotherProgram) => &all.replayed,
         _ if often_real => real,
         _ => &all.replayed,

@@ -25,6 +25,8 @@ pub struct Workloads {
     shared: Bench,
     /// A code that delivers recorded series.
     pub replayed: Workload,
+    /// The same code behind a wrapper that hides it.
+    pub wrapped: Workload,
     /// Native, and the real codes that are installed.
     pub real: Vec<Workload>,
 }
@@ -35,12 +37,12 @@ impl Workloads {
         replay::install(&shared, |_| Disturbance::None);
         let place = Bench::with_system_programs();
         install(&place, &shared.path("replay"));
-        let replayed = Workload::new(
-            &place,
-            Code::named("yade").expect("it is built in"),
-            &[0.2, 0.3],
-            100.0,
-        );
+        let yade = Code::named("yade").expect("it is built in");
+        let replayed = Workload::new(&place, yade, "yade", &[0.2, 0.3], 100.0);
+        let folder = replay::quick_folder(&shared.path("folder"));
+        let place = Bench::with_system_programs();
+        install_wrapped(&place, &shared.path("replay"), "honest");
+        let wrapped = Workload::new(&place, yade, &folder, &[0.2, 0.3], 100.0);
         let codes = [
             Code::named("liggghts").expect("it is built in"),
             Code::named("lammps").expect("it is built in"),
@@ -50,23 +52,26 @@ impl Workloads {
         let installed = codes.iter().filter(|code| code.find().is_some());
         real.extend(installed.map(|&code| (code, 100.0)));
         let real = real.into_iter().map(|(code, stiffness)| {
-            Workload::new(
-                &Bench::with_system_programs(),
-                code,
-                &[0.25, 0.35],
-                stiffness,
-            )
+            let place = Bench::with_system_programs();
+            Workload::new(&place, code, code.as_str(), &[0.25, 0.35], stiffness)
         });
         Self {
             real: real.collect(),
             shared,
             replayed,
+            wrapped,
         }
     }
 
     /// The replayed code on `bench`; what the bench has of its own in `replay` is delivered first.
     pub fn install_replay(&self, bench: &Bench) {
         install(bench, &self.shared.path("replay"));
+    }
+
+    /// The wrapped code on `bench`, by the name of its insides; what the bench has in a directory of that name is
+    /// delivered first.
+    pub fn install_wrapped(&self, bench: &Bench, insides: &str) {
+        install_wrapped(bench, &self.shared.path("replay"), insides);
     }
 
     /// The series that the replayed code delivers for `case`.
@@ -82,10 +87,11 @@ pub fn address(case: &Case) -> String {
 }
 
 impl Workload {
-    fn new(place: &Bench, code: Code, frictions: &[f64], stiffness: f64) -> Self {
+    /// A sweep of `code` under the `name` that the command line gives it.
+    fn new(place: &Bench, code: Code, name: &str, frictions: &[f64], stiffness: f64) -> Self {
         let [first, last] = [frictions[0], frictions[frictions.len() - 1]];
         let line = format!(
-            "sweep --code {code} --mu {first}:{last}:0.1 --stiffness {stiffness} --format csv --jobs 2"
+            "sweep --code {name} --mu {first}:{last}:0.1 --stiffness {stiffness} --format csv --jobs 2"
         );
         let cases = frictions.iter().flat_map(|&friction| {
             let stack = Stack::paper(friction, stiffness);
@@ -108,6 +114,14 @@ fn install(bench: &Bench, shared: &Path) {
     let own = bench.path("replay");
     std::fs::create_dir_all(&own).expect("a directory");
     bench.install("yade", &script(&own, shared));
+}
+
+fn install_wrapped(bench: &Bench, shared: &Path, insides: &str) {
+    let own = bench.path(insides);
+    std::fs::create_dir_all(&own).expect("a directory");
+    let inside = own.with_extension("txt");
+    std::fs::write(&inside, script(&own, shared)).expect("a script");
+    replay::install_wrapper(bench, &inside);
 }
 
 /// A YADE that takes 80 ms a case, notes what it is asked, and delivers what it finds: in `own`, then in `shared`.

@@ -2,7 +2,7 @@
 
 use super::{DataTable, Value};
 use crate::code::Code;
-use crate::model::{ContactConvention, Stack};
+use crate::model::{Arms, ContactConvention, Stack};
 use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 use serde::Serialize;
@@ -202,26 +202,33 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The part of a contact convention that moves the quasi-static limit.
-    pub(crate) fn convention(
+    pub(crate) fn convention<C: Into<Option<ContactConvention>>>(
         self,
-        convention: impl Fn(&R) -> ContactConvention + Copy + 'a,
+        convention: impl Fn(&R) -> C + Copy + 'a,
     ) -> Self {
-        let arms = move |row: &R| convention(row).arms;
+        let arm = move |row: &R, arm: fn(&Arms) -> f64| {
+            let convention: Option<ContactConvention> = convention(row).into();
+            convention.map(|convention| arm(&convention.arms))
+        };
         let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
         let floor = "the same of cylinder–wall contacts";
         let kinematic = "the same of the surface velocity";
-        self.number("pair_torque_arm", "1", move |row| arms(row).pair.torque)
-            .means(pair)
-            .number("pair_kinematic_arm", "1", move |row| {
-                arms(row).pair.kinematic
-            })
-            .means(kinematic)
-            .number("floor_torque_arm", "1", move |row| arms(row).floor.torque)
-            .means(floor)
-            .number("floor_kinematic_arm", "1", move |row| {
-                arms(row).floor.kinematic
-            })
-            .means(kinematic)
+        self.number("pair_torque_arm", "1", move |row| {
+            arm(row, |arms| arms.pair.torque)
+        })
+        .means(pair)
+        .number("pair_kinematic_arm", "1", move |row| {
+            arm(row, |arms| arms.pair.kinematic)
+        })
+        .means(kinematic)
+        .number("floor_torque_arm", "1", move |row| {
+            arm(row, |arms| arms.floor.torque)
+        })
+        .means(floor)
+        .number("floor_kinematic_arm", "1", move |row| {
+            arm(row, |arms| arms.floor.kinematic)
+        })
+        .means(kinematic)
     }
 
     /// The code of a row.

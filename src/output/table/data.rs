@@ -24,6 +24,11 @@ impl DataTable<'_> {
         }
     }
 
+    /// The JSON object without a command, to stand in a larger one.
+    pub(crate) fn part(&self) -> impl Serialize + '_ {
+        self.object(None)
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.rows == 0
     }

@@ -2,7 +2,7 @@
 
 use super::experiments::ContactKind;
 use super::regression::Measured;
-use crate::code::Code;
+use crate::code::{Code, ConventionKey};
 use crate::study::Verdict;
 
 /// Largest deviation of an external code that agrees, relative to the declared value (to 1 where that is 0): a tenth of
@@ -11,6 +11,9 @@ pub const TOLERANCE: f64 = 1e-6;
 
 /// The same for the native code, which deviates from its declaration by rounding alone.
 pub const NATIVE_TOLERANCE: f64 = 1e-9;
+
+/// Ends the name of the exponent with which a stiffness grows with the overlap.
+pub const EXPONENT: &str = "_stiffness_exponent";
 
 /// A property of one code, measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,14 +24,30 @@ pub struct Finding {
     pub version: String,
     /// Name of the property.
     pub property: String,
+    /// The key of the manifest that it belongs to, if there is one.
+    pub key: Option<ConventionKey>,
     /// Measured value; absent if the measurement failed.
     pub measured: Option<f64>,
     /// Three standard errors; absent with the measured value.
     pub uncertainty: Option<f64>,
-    /// Declared value.
-    pub declared: f64,
-    /// Whether the two agree.
+    /// Declared value; absent where the manifest leaves it out and the measured one is used.
+    pub declared: Option<f64>,
+    /// Whether the two agree, or, without a declaration, whether the measured value can be used.
     pub verdict: Verdict,
+}
+
+impl Finding {
+    /// That a stiffness changes with the overlap, in words, if it is this that was found.
+    pub fn growth(&self) -> Option<String> {
+        let stiffness = self.property.strip_suffix(EXPONENT)?;
+        let (kind, direction) = stiffness.split_once('_')?;
+        let k = if direction == "normal" { "k_n" } else { "k_t" };
+        let exponent = self.measured?;
+        let changes = if exponent < 0.0 { "falls" } else { "grows" };
+        Some(format!(
+            "{kind} {k} {changes} with the overlap (like overlap^{exponent:.2})"
+        ))
+    }
 }
 
 /// A property as measured and as declared.
@@ -38,8 +57,8 @@ pub struct Property {
     pub name: String,
     /// As measured.
     pub measured: Measured,
-    /// As declared.
-    pub declared: f64,
+    /// As declared; absent where the manifest leaves it out.
+    pub declared: Option<f64>,
 }
 
 impl Property {
@@ -48,7 +67,7 @@ impl Property {
         Self {
             name: name.to_owned(),
             measured,
-            declared,
+            declared: Some(declared),
         }
     }
 
@@ -57,9 +76,35 @@ impl Property {
         Self::new(&format!("{}_{name}", kind.as_str()), measured, declared)
     }
 
+    /// The key of the manifest that it belongs to, if there is one. The damping of a contact has the arm of its surface
+    /// velocity.
+    pub fn key(&self) -> Option<ConventionKey> {
+        Some(match self.name.as_str() {
+            "pair_torque_arm" => ConventionKey::PairTorqueArm,
+            "pair_kinematic_arm" | "pair_damping_arm" => ConventionKey::PairKinematicArm,
+            "floor_torque_arm" => ConventionKey::FloorTorqueArm,
+            "floor_kinematic_arm" | "floor_damping_arm" => ConventionKey::FloorKinematicArm,
+            "pair_history_update" => ConventionKey::HistoryUpdate,
+            "moment_of_inertia" => ConventionKey::MomentOfInertia,
+            "velocity_lag" => ConventionKey::VelocityLag,
+            name if name.ends_with("_coulomb_damping_share") => ConventionKey::CoulombOperand,
+            name if name.ends_with("_sliding_spring_memory") => ConventionKey::SlidingSpring,
+            name if name.ends_with("_pull") => ConventionKey::TensileForce,
+            _ => return None,
+        })
+    }
+
+    /// The same without a declared value if it belongs to one of the keys that are `left_out`.
+    pub fn unless_left_out(mut self, left_out: &[ConventionKey]) -> Self {
+        if self.key().is_some_and(|key| left_out.contains(&key)) {
+            self.declared = None;
+        }
+        self
+    }
+
     /// The finding on `code`.
     pub fn judge(self, code: Code, version: &str) -> Finding {
-        let scale = match self.declared {
+        let scale = match self.declared.unwrap_or_default() {
             0.0 => 1.0,
             declared => declared.abs(),
         };
@@ -72,11 +117,16 @@ impl Property {
         Finding {
             code,
             version: version.to_owned(),
+            key: self.key(),
             property: self.name,
             measured: known.then_some(value),
             uncertainty: known.then_some(uncertainty),
             declared: self.declared,
-            verdict: Verdict::of(value - self.declared, uncertainty, relative * scale),
+            verdict: match self.declared {
+                Some(declared) => Verdict::of(value - declared, uncertainty, relative * scale),
+                None if known => Verdict::of(0.0, uncertainty, relative),
+                None => Verdict::Inconclusive,
+            },
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::finding::Finding;
 use super::micro_tests::MicroTests;
 use super::probe::probe;
-use crate::code::{Code, Identity};
+use super::settled::settled;
+use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
 use crate::runs::{ProbeRecord, Progress, RunError, SelectedCode, Settings, Workload, read_all};
 use crate::series::ENOUGH_DIGITS;
 use crate::study::Verdict;
@@ -20,6 +21,20 @@ pub enum ProbeError {
         "the recorded probe of {0} answers other micro-tests than today's; refresh it with: tristack record --codes {0}"
     )]
     Outdated(Code),
+    /// The manifest has no micro-tests.
+    #[error("`tasks.motion` is absent from its manifest{}", not_stated(*.0))]
+    NoMicroTests(Code),
+}
+
+/// The keys of its convention that are not stated either.
+fn not_stated(code: Code) -> String {
+    let keys = code.declaration().left_out;
+    let keys: Vec<&str> = keys.into_iter().map(ConventionKey::as_str).collect();
+    match keys.len() {
+        0 => String::new(),
+        1 => format!(", and {} is not stated there", keys[0]),
+        _ => format!(", and not stated there are {}", keys.join(", ")),
+    }
 }
 
 impl ProbeError {
@@ -32,10 +47,14 @@ impl ProbeError {
 /// What was found out about a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Findings {
-    /// The program that was probed.
-    pub identity: Identity,
+    /// The origin of its answers.
+    pub provenance: Provenance,
     /// Its properties.
     pub findings: Vec<Finding>,
+    /// Its convention: as declared, and as measured where nothing is declared.
+    pub settled: Settled,
+    /// Its convention as measured, whatever is declared.
+    pub measured: Settled,
     /// The digits with which it has printed the motions, if they are too few to contradict a declaration.
     pub few_digits: Option<u32>,
 }
@@ -49,33 +68,60 @@ pub fn probe_all(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Probed> {
-    let records = probe_records(codes, settings, progress).into_iter();
-    let probed = codes.iter().zip(records);
-    probed
-        .map(|(who, record)| findings(who.name, record?))
-        .collect()
+    let records = answers(codes, settings, progress).into_iter();
+    let probed = codes.iter().zip(records).map(|(selected, record)| {
+        let code = selected.name;
+        read_probe(code, record.ok_or(ProbeError::NoMicroTests(code))??)
+    });
+    probed.collect()
 }
 
-/// The answers of each of `codes` to all micro-tests: from the store, live, or recorded.
+/// The answers of those of `codes` that have micro-tests: from the store, live, or recorded.
 pub(crate) fn probe_records(
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Result<ProbeRecord, RunError>> {
-    let workloads = codes.iter().map(|selected| Workload {
-        code: selected.name,
-        tasks: vec![MicroTests],
-    });
-    let workloads: Vec<Workload<MicroTests>> = workloads.collect();
-    let records = read_all(&workloads, codes, settings, progress);
+    let records = answers(codes, settings, progress);
     records.into_iter().flatten().collect()
 }
 
-fn findings(code: Code, record: ProbeRecord) -> Probed {
-    let properties = probe(&code.declaration(), |tests| {
+/// The answers of each of `codes`; `None` for one without micro-tests.
+fn answers(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Vec<Option<Result<ProbeRecord, RunError>>> {
+    let workloads = codes.iter().map(|selected| {
+        let code = selected.name;
+        let able = code.check_task(TaskKind::Motion).is_ok();
+        let tasks = if able { vec![MicroTests] } else { Vec::new() };
+        Workload { code, tasks }
+    });
+    let workloads: Vec<Workload<MicroTests>> = workloads.collect();
+    let records = read_all(&workloads, codes, settings, progress);
+    records
+        .into_iter()
+        .map(|own| own.into_iter().next())
+        .collect()
+}
+
+/// What the answers of `code` to all micro-tests say.
+///
+/// # Errors
+/// If they are answers to other micro-tests than today's.
+pub fn read_probe(code: Code, record: ProbeRecord) -> Probed {
+    let declaration = code.declaration();
+    let properties = probe(&declaration, |tests| {
         record.answer(tests).ok_or(ProbeError::Outdated(code))
     })?;
-    let identity = record.provenance.identity.clone();
+    let nothing = Declaration {
+        left_out: ConventionKey::ALL.into(),
+        ..declaration.clone()
+    };
+    let measured = settled(&nothing, &properties);
+    let settled = settled(&declaration, &properties);
+    let version = &record.provenance.identity.version;
     let digits = record
         .answers
         .iter()
@@ -84,7 +130,7 @@ fn findings(code: Code, record: ProbeRecord) -> Probed {
     let few_digits = digits.max().filter(|digits| *digits < ENOUGH_DIGITS);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
-        let finding = property.judge(code, &identity.version);
+        let finding = property.judge(code, version);
         match few_digits {
             Some(_) => undecided(finding),
             None => finding,
@@ -92,7 +138,9 @@ fn findings(code: Code, record: ProbeRecord) -> Probed {
     });
     Ok(Findings {
         findings: findings.collect(),
-        identity,
+        settled,
+        measured,
+        provenance: record.provenance,
         few_digits,
     })
 }
@@ -130,7 +178,7 @@ pub fn other_program<'a>(
     probed: &Probed,
     mut runs: impl Iterator<Item = &'a Identity>,
 ) -> Option<String> {
-    let probe = &probed.as_ref().ok()?.identity;
+    let probe = &probed.as_ref().ok()?.provenance.identity;
     let other = runs.find(|identity| *identity != probe)?;
     let code = &probe.code;
     Some(format!(
@@ -155,32 +203,38 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
         Err(error) => vec![format!(
             "its contact convention could not be measured: {error}"
         )],
-        Ok(probe) => {
-            let contradicting = probe.findings.iter();
-            let contradicting = contradicting.filter(|one| one.verdict != Verdict::Agrees);
-            let mut contradicting: Vec<&Finding> = contradicting.collect();
-            contradicting.sort_by_key(|finding| finding.verdict != Verdict::Differs);
-            contradicting
-                .into_iter()
-                .map(|finding| {
-                    let measured = finding
-                        .measured
-                        .map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
-                    let says = match finding.verdict {
-                        Verdict::Differs => "contradicts its declaration",
-                        _ => "decides nothing about its declaration",
-                    };
-                    let digits = probe.few_digits.map_or_else(String::new, |digits| {
-                        format!(" (printed with {digits} digits)")
-                    });
-                    format!(
-                        "its probe {says}: {} is {measured}, declared {}{digits}",
-                        finding.property, finding.declared
-                    )
-                })
-                .collect()
-        }
+        Ok(probe) => contradicting(probe),
     }
+}
+
+/// The findings that are no agreement with what is declared, one line each.
+pub fn contradicting(probe: &Findings) -> Vec<String> {
+    let declared = probe.findings.iter().filter(|one| one.declared.is_some());
+    let mut contradicting: Vec<&Finding> = declared
+        .filter(|one| one.verdict != Verdict::Agrees)
+        .collect();
+    // A stiffness that grows explains the others.
+    contradicting.sort_by_key(|one| (one.verdict != Verdict::Differs, one.growth().is_none()));
+    let digits = probe.few_digits.map_or_else(String::new, |digits| {
+        format!(" (printed with {digits} digits)")
+    });
+    let line = |one: &Finding| format!("{}{digits}", contradiction(one));
+    contradicting.into_iter().map(line).collect()
+}
+
+fn contradiction(finding: &Finding) -> String {
+    let says = match finding.verdict {
+        Verdict::Differs => "contradicts its declaration",
+        _ => "decides nothing about its declaration",
+    };
+    if let Some(growth) = finding.growth() {
+        return format!("its probe {says}: {growth}");
+    }
+    let measured = finding.measured;
+    let measured = measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
+    let declared = finding.declared.unwrap_or(f64::NAN);
+    let property = &finding.property;
+    format!("its probe {says}: {property} is {measured}, declared {declared}")
 }
 
 #[cfg(test)]
@@ -196,20 +250,24 @@ mod tests {
             code: Code::named("yade").unwrap(),
             version: String::new(),
             property: verdict.to_string(),
+            key: None,
             measured: Some(1.0),
             uncertainty: Some(1.0),
-            declared: 1.0,
+            declared: Some(1.0),
             verdict,
         };
+        let identity = Identity {
+            code: "yade".to_owned(),
+            version: "1".to_owned(),
+            package: None,
+            program_hash: None,
+            files_hash: None,
+            witness: None,
+        };
         Ok(Findings {
-            identity: Identity {
-                code: "yade".to_owned(),
-                version: "1".to_owned(),
-                package: None,
-                program_hash: None,
-                files_hash: None,
-                witness: None,
-            },
+            provenance: Provenance::now(identity, String::new(), Vec::new(), 1, 1.0),
+            settled: Code::NATIVE.settled(),
+            measured: Code::NATIVE.settled(),
             findings: verdicts.iter().map(finding).collect(),
             few_digits: None,
         })
@@ -241,7 +299,7 @@ mod tests {
     #[test]
     fn a_probe_vouches_for_runs_of_its_own_program_alone() {
         let probed = probed(&[Verdict::Agrees]);
-        let own = probed.as_ref().unwrap().identity.clone();
+        let own = probed.as_ref().unwrap().provenance.identity.clone();
         assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
         let newer = Identity {
             program_hash: Some("00".to_owned()),
@@ -301,7 +359,7 @@ mod tests {
             ..Identity::native().clone()
         };
         let provenance = Provenance::now(identity, String::new(), Vec::new(), 1, 1.0);
-        findings(
+        read_probe(
             code,
             ProbeRecord {
                 provenance,

@@ -8,20 +8,26 @@ mod clock;
 mod contact_frame;
 mod experiments;
 mod finding;
+mod growth;
 mod measured;
 mod micro_tests;
 mod normal;
+mod passport;
 mod plan;
 mod probe;
 mod properties;
 mod regression;
+mod settle;
+mod settled;
 mod sliding;
 mod tangential;
 
 pub(crate) use finding::Finding;
 pub use finding::TOLERANCE;
-pub use measured::probe_all;
+pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};
 pub(crate) use measured::{
-    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
+    arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
+pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub use probe::probe;
+pub use settle::{settle, settle_by};

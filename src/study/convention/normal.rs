@@ -1,7 +1,8 @@
 //! The normal law: stiffness, damping, and the times to which overlap and velocity belong.
 
 use super::contact_frame::ContactRow;
-use super::regression::{Measured, fit};
+use super::growth::exponent;
+use super::regression::{Measured, deviations, fit};
 
 /// f_n = k_n δ(t + o dt) − η_n v_n(t − λ dt).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +46,18 @@ impl NormalLaw {
             ),
         }
     }
+}
+
+/// The exponent with which the stiffness grows with the overlap, if it does, in rows with one time step.
+pub fn growth(rows: &[ContactRow]) -> Option<Measured> {
+    exponent(|p| {
+        let pressed = rows.iter().filter(|row| row.normal_force > 0.0);
+        let terms = pressed.map(|row| {
+            let overlap = row.overlap * libm::pow(row.overlap, p);
+            (vec![overlap, -row.separation_speed], row.normal_force)
+        });
+        deviations(&terms.collect::<Vec<_>>(), 2)
+    })
 }
 
 fn scaled(measured: Measured, factor: f64, further: f64) -> Measured {

@@ -4,11 +4,11 @@ use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
-use super::normal::{NormalLaw, pull};
-use super::properties::{normal_properties, sliding_properties, tangential_properties};
+use super::normal::{self, NormalLaw, pull};
+use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
 use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
-use super::tangential::TangentialLaw;
+use super::tangential::{self, TangentialLaw};
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 
@@ -138,13 +138,18 @@ impl Laws {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
         let mut properties = normal_properties(kind, &self.normal, self.pull, test);
+        let growing = || normal::growth(&self.rows[STICKING].concat());
+        properties.extend(growth(&properties[0], growing));
         if kind == ContactKind::Wall {
             properties.extend(self.wall_properties());
             return properties;
         }
         let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
-        properties.extend(tangential_properties(kind, &self.tangential, test));
+        let tangential = tangential_properties(kind, &self.tangential, test);
+        let growing = || tangential::growth(&self.rows[STICKING], &self.tangential);
+        properties.extend(growth(&tangential[0], growing));
+        properties.extend(tangential);
         let test = &self.plan.tests[SLIDING];
         properties.extend(sliding_properties(kind, &sliding, share, test));
         properties

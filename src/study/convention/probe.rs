@@ -11,7 +11,7 @@ use crate::series::Motion;
 
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
-/// Measures every property that `declared` names. `run` carries out micro-tests; it is called twice, because the speed
+/// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it is called twice, because the speed
 /// at which a contact reaches the slip threshold has to be measured first.
 ///
 /// # Errors
@@ -49,5 +49,7 @@ pub fn probe<E>(
         unread = others;
         properties.extend(laws.properties(own, &clock));
     }
-    Ok(properties)
+    let properties = properties.into_iter();
+    let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
+    Ok(properties.collect())
 }

@@ -1,12 +1,41 @@
 //! Every measured property beside the declared one.
 
 use super::experiments::ContactKind;
-use super::finding::Property;
+use super::finding::{EXPONENT, Property, TOLERANCE};
 use super::normal::NormalLaw;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
 use crate::model::{ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};
+
+/// Alternatives of a convention, each with the value of the property that shows it: the share of the damping in the
+/// operand.
+pub const OPERANDS: [(CoulombOperand, f64); 2] = [
+    (CoulombOperand::SpringAndDamping, 1.0),
+    (CoulombOperand::Spring, 0.0),
+];
+/// The same: the memory of a spring that has slid.
+pub const SLIDING_SPRINGS: [(SlidingSpring, f64); 2] = [
+    (SlidingSpring::Frozen, 1.0),
+    (SlidingSpring::FollowsLimit, 0.0),
+];
+/// The same: the change of a spring's length in units of 1 − cos dψ.
+pub const HISTORY_UPDATES: [(HistoryUpdate, f64); 3] = [
+    (HistoryUpdate::Rotated, 0.0),
+    (HistoryUpdate::Projected, -1.0),
+    (HistoryUpdate::Linearised, 1.0),
+];
+/// The same: the part of a pulling force that is exerted.
+pub const TENSILE_FORCES: [(TensileForce, f64); 2] = [
+    (TensileForce::MayPull, 1.0),
+    (TensileForce::NeverPulls, 0.0),
+];
+
+/// The value that shows `own` among `alternatives`.
+fn shown<T: PartialEq>(alternatives: &[(T, f64)], own: &T) -> f64 {
+    let found = alternatives.iter().find(|(one, _)| one == own);
+    found.map_or(f64::NAN, |(_, value)| *value)
+}
 
 /// A property of the contacts of one kind: name, as measured, as declared.
 type Row = (&'static str, Measured, f64);
@@ -25,10 +54,7 @@ pub fn normal_properties(
     test: &ContactTest,
 ) -> Vec<Property> {
     let declared = test.convention.law(test.stiffness_ratio);
-    let pulls = match test.convention.tensile_force {
-        TensileForce::MayPull => 1.0,
-        TensileForce::NeverPulls => 0.0,
-    };
+    let pulls = shown(&TENSILE_FORCES, &test.convention.tensile_force);
     let rows = [
         ("normal_stiffness", law.stiffness, declared.normal_stiffness),
         ("normal_damping", law.damping, declared.damping_normal),
@@ -37,6 +63,18 @@ pub fn normal_properties(
         ("pull", pull, pulls),
     ];
     at(kind, rows)
+}
+
+/// The exponent with which a `stiffness` that is not as declared grows with the overlap, if `growing` finds one.
+pub fn growth(stiffness: &Property, growing: impl Fn() -> Option<Measured>) -> Option<Property> {
+    let name = stiffness.name.strip_suffix("_stiffness")?;
+    let declared = stiffness.declared?;
+    let off = (stiffness.measured.value / declared - 1.0).abs();
+    if off.max(stiffness.measured.uncertainty / declared) <= TOLERANCE {
+        return None;
+    }
+    let measured = growing()?;
+    Some(Property::new(&format!("{name}{EXPONENT}"), measured, 0.0))
 }
 
 /// Properties of a sticking contact at `kind`.
@@ -52,11 +90,7 @@ pub fn tangential_properties(
         ContactKind::Pair => convention.arms.pair,
         ContactKind::Floor | ContactKind::Wall => convention.arms.floor,
     };
-    let update = match convention.history_update {
-        HistoryUpdate::Rotated => 0.0,
-        HistoryUpdate::Projected => -1.0,
-        HistoryUpdate::Linearised => 1.0,
-    };
+    let update = shown(&HISTORY_UPDATES, &convention.history_update);
     let turns = (kind == ContactKind::Pair).then_some(("history_update", law.transport, update));
     let rows = [
         ("tangential_stiffness", law.stiffness, stiffness),
@@ -76,14 +110,8 @@ pub fn sliding_properties(
     operand_damping: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
-    let share = match test.convention.coulomb_operand {
-        CoulombOperand::SpringAndDamping => 1.0,
-        CoulombOperand::Spring => 0.0,
-    };
-    let memory = match test.convention.sliding_spring {
-        SlidingSpring::Frozen => 1.0,
-        SlidingSpring::FollowsLimit => 0.0,
-    };
+    let share = shown(&OPERANDS, &test.convention.coulomb_operand);
+    let memory = shown(&SLIDING_SPRINGS, &test.convention.sliding_spring);
     let rows = [
         ("friction", law.friction, kind.friction(test)),
         ("coulomb_damping_share", operand_damping, share),

@@ -55,6 +55,19 @@ pub fn fit_rows(rows: &[(Vec<f64>, f64)], columns: usize) -> Vec<Measured> {
     solve(rows, columns).unwrap_or_else(|| vec![Measured::UNKNOWN; columns])
 }
 
+/// Mean square of what such a fit leaves of the targets, by freedom, and the number of freedoms; `None` where the
+/// coefficients are not resolved.
+pub fn deviations(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<(f64, f64)> {
+    let coefficients = solve(rows, columns)?;
+    let left = rows.iter().map(|(terms, target)| {
+        let terms = terms.iter().zip(&coefficients);
+        let fitted: f64 = terms.map(|(term, own)| term * own.value).sum();
+        (target - fitted) * (target - fitted)
+    });
+    let freedom = (rows.len() - columns) as f64;
+    Some((left.sum::<f64>() / freedom, freedom))
+}
+
 fn solve(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<Vec<Measured>> {
     let freedom = rows.len().checked_sub(columns)?;
     let mut matrix = DMatrix::from_fn(rows.len(), columns, |row, column| rows[row].0[column]);

@@ -1,7 +1,8 @@
 //! The tangential law of a contact that sticks: stiffness, damping, arms, history update.
 
 use super::contact_frame::ContactRow;
-use super::regression::{Measured, fit, fit_rows};
+use super::growth::exponent;
+use super::regression::{Measured, deviations, fit, fit_rows};
 
 /// Fraction of Coulomb's limit up to which rows count as sticking.
 const CERTAINLY_STICKING: f64 = 0.5;
@@ -59,32 +60,10 @@ impl TangentialLaw {
         radius: Measured,
         torque_arm: Measured,
     ) -> Self {
-        let columns = COEFFICIENTS + gentle.len();
-        let mut rows = Vec::new();
-        for (index, motion) in gentle.iter().enumerate() {
-            let mut growth = [0.0; 3];
-            let mut initial = 1.0;
-            let mut before: Option<&ContactRow> = None;
-            for row in *motion {
-                let factor = before.map_or(1.0, |before| carried(before, row, transport));
-                let speeds = speeds(row);
-                for (sum, speed) in growth.iter_mut().zip(speeds) {
-                    *sum = *sum * factor - speed * row.time_step;
-                }
-                initial *= factor;
-                let mut terms = growth.to_vec();
-                // Translation and spin are coupled by the contact force itself; the damping of each cannot
-                // be told apart, and belongs to the radius of the torque.
-                let [translation, spin, spin_overlap] = speeds;
-                terms.push(-(translation + radius.value * spin));
-                terms.push(-spin_overlap);
-                terms.resize(columns, 0.0);
-                terms[COEFFICIENTS + index] = initial;
-                rows.push((terms, row.tangential_force));
-                before = Some(row);
-            }
-        }
-        let found = fit_rows(&rows, columns);
+        let found = fit_rows(
+            &terms(gentle, transport, radius.value, 0.0),
+            COEFFICIENTS + gentle.len(),
+        );
         Self {
             stiffness: found[SPRING],
             damping: found[DAMPING],
@@ -143,6 +122,52 @@ impl TangentialLaw {
         }
         found
     }
+}
+
+/// The exponent with which the stiffness grows with the overlap, if it does.
+pub fn growth(gentle: &[Vec<ContactRow>], law: &TangentialLaw) -> Option<Measured> {
+    let gentle: Vec<&[ContactRow]> = gentle.iter().map(|rows| sticking(rows)).collect();
+    exponent(|p| {
+        let rows = terms(&gentle, 0.0, law.radius.value, p);
+        deviations(&rows, COEFFICIENTS + gentle.len())
+    })
+}
+
+/// The linear form of the law: terms and force of every row, the spring of a row being stiffer by the power `exponent` of
+/// its overlap.
+fn terms(
+    gentle: &[&[ContactRow]],
+    transport: f64,
+    radius: f64,
+    exponent: f64,
+) -> Vec<(Vec<f64>, f64)> {
+    let columns = COEFFICIENTS + gentle.len();
+    let mut rows = Vec::new();
+    for (index, motion) in gentle.iter().enumerate() {
+        let mut growth = [0.0; 3];
+        let mut initial = 1.0;
+        let mut before: Option<&ContactRow> = None;
+        for row in *motion {
+            let factor = before.map_or(1.0, |before| carried(before, row, transport));
+            let speeds = speeds(row);
+            for (sum, speed) in growth.iter_mut().zip(speeds) {
+                *sum = *sum * factor - speed * row.time_step;
+            }
+            initial *= factor;
+            let stiffer = libm::pow(row.overlap, exponent);
+            let mut terms: Vec<f64> = growth.iter().map(|spring| spring * stiffer).collect();
+            // Translation and spin are coupled by the contact force itself; the damping of each cannot
+            // be told apart, and belongs to the radius of the torque.
+            let [translation, spin, spin_overlap] = speeds;
+            terms.push(-(translation + radius * spin));
+            terms.push(-spin_overlap);
+            terms.resize(columns, 0.0);
+            terms[COEFFICIENTS + index] = initial * stiffer;
+            rows.push((terms, row.tangential_force));
+            before = Some(row);
+        }
+    }
+    rows
 }
 
 /// The first rows, as long as the contact certainly sticks.

@@ -2,7 +2,7 @@
 
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::code::{Code, Provenance};
+use crate::code::{Code, ConventionKey, Provenance};
 use crate::model::{CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
@@ -224,6 +224,10 @@ impl Study for PreparationPlan {
 
     fn code(&self) -> Code {
         self.code
+    }
+
+    fn depends_on(&self, key: ConventionKey) -> bool {
+        key.moves_limit()
     }
 
     fn workloads(&self) -> Vec<Workload> {

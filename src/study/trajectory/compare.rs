@@ -205,8 +205,10 @@ impl<'a> Pair<'a> {
     fn compare(&self, quantity: Quantity, branch: Branch) -> Comparison {
         let growth = self.growth(quantity, branch);
         let series = self.series.iter().zip(&self.twin).zip(&self.runs.cases);
+        // Arms that were measured displace surfaces by no more than their uncertainty, since overlaps are below r.
+        let open: f64 = self.code.settled().arms_open();
         let distances = series.map(|((series, twin), case)| Distance {
-            round_off: growth * round_off(case),
+            round_off: growth * (round_off(case) + open),
             ..self.between(quantity, branch, case.protocol.time_step, series, twin)
         });
         let distances: Vec<Distance> = distances.collect();

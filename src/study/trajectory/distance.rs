@@ -128,7 +128,7 @@ pub struct Distance {
     pub rms: f64,
     /// Time of the first row that deviates by more than each of `DEVIATIONS`.
     pub first_above: [Option<f64>; 3],
-    /// The part of the largest distance that may be rounding.
+    /// The part of the largest distance that may be rounding, or the uncertainty of measured arms.
     pub round_off: f64,
 }
 

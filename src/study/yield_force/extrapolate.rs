@@ -26,6 +26,8 @@ pub struct Budget {
     /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
     /// Their error is mostly linear in the wall speed, and vanishes with it.
     pub shortcuts: f64,
+    /// Change of the exact limit within the uncertainty of arms that were measured; absent where all are declared.
+    pub convention: Option<f64>,
 }
 
 /// One part of a [`Budget`], as tables and explanations give it.
@@ -37,61 +39,70 @@ pub(crate) struct BudgetPart {
     pub heading: &'static str,
     /// Its formula, in words.
     pub how: &'static str,
-    /// Its value in m g.
-    pub value: fn(&Budget) -> f64,
+    /// Its value in m g; absent where it does not apply.
+    pub value: fn(&Budget) -> Option<f64>,
 }
 
 impl Budget {
     /// The parts, in order; the uncertainty is their sum.
-    pub(crate) const PARTS: [BudgetPart; 7] = [
+    pub(crate) const PARTS: [BudgetPart; 8] = [
         BudgetPart {
             name: "wall_speed",
             heading: "wall speed",
             how: "parabola minus straight line",
-            value: |budget| budget.wall_speed,
+            value: |budget| Some(budget.wall_speed),
         },
         BudgetPart {
             name: "time_step",
             heading: "time step",
             how: "run 4 minus run 2 (time step doubled)",
-            value: |budget| budget.time_step,
+            value: |budget| Some(budget.time_step),
         },
         BudgetPart {
             name: "preparation",
             heading: "preparation",
             how: "run 5 minus run 2 (gravity ramp halved)",
-            value: |budget| budget.preparation,
+            value: |budget| Some(budget.preparation),
         },
         BudgetPart {
             name: "sampling",
             heading: "sampling",
             how: "distance between interpolations, weighted",
-            value: |budget| budget.sampling,
+            value: |budget| Some(budget.sampling),
         },
         BudgetPart {
             name: "round_off",
             heading: "round-off",
             how: "random walk of rounding, amplified, weighted",
-            value: |budget| budget.round_off,
+            value: |budget| Some(budget.round_off),
         },
         BudgetPart {
             name: "print_precision",
             heading: "print precision",
             how: "half a unit of the last digit printed, amplified, weighted",
-            value: |budget| budget.print_precision,
+            value: |budget| Some(budget.print_precision),
         },
         BudgetPart {
             name: "shortcuts",
             heading: "shortcuts",
             how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
-            value: |budget| budget.shortcuts,
+            value: |budget| Some(budget.shortcuts),
+        },
+        BudgetPart {
+            name: "convention",
+            heading: "convention",
+            how: "slopes of the limit times the uncertainty of measured arms, if any",
+            value: |budget| budget.convention,
         },
     ];
 
     /// The expanded uncertainty: the sum of the parts, which is never below their root sum of squares, by which V&V 20
     /// combines independent parts.
     pub fn total(&self) -> f64 {
-        Self::PARTS.iter().map(|part| (part.value)(self)).sum()
+        Self::PARTS
+            .iter()
+            .filter_map(|part| (part.value)(self))
+            .sum()
     }
 }
 
@@ -195,6 +206,7 @@ pub fn extrapolate(
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
         shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
+        convention: None,
     };
     let coarse = |run: usize| estimates[run].printed.is_some();
     let noise = |(run, estimate): (usize, &Estimate)| {
@@ -325,6 +337,7 @@ mod tests {
             round_off: 16.0,
             print_precision: 32.0,
             shortcuts: 64.0,
+            convention: None,
         };
         let parts = [
             ("wall speed", 1.0),
@@ -335,9 +348,19 @@ mod tests {
             ("print precision", 32.0),
             ("shortcuts", 64.0),
         ];
-        let named = Budget::PARTS.map(|part| (part.heading, (part.value)(&budget)));
-        assert_eq!(named, parts);
+        let named = |budget: &Budget| {
+            let parts = Budget::PARTS.into_iter();
+            let named = parts.filter_map(|part| Some((part.heading, (part.value)(budget)?)));
+            named.collect::<Vec<_>>()
+        };
+        assert_eq!(named(&budget), parts);
         assert_eq!(budget.total(), 127.0);
+        let measured = Budget {
+            convention: Some(128.0),
+            ..budget
+        };
+        assert_eq!(named(&measured).last(), Some(&("convention", 128.0)));
+        assert_eq!(measured.total(), 255.0);
     }
 
     #[test]

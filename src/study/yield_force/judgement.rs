@@ -3,7 +3,7 @@
 use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error};
 use super::plan::{Measurement, Method};
 use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
-use crate::code::Code;
+use crate::code::{Code, ConventionKey};
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::{
@@ -35,6 +35,10 @@ impl Study for Measurement {
 
     fn code(&self) -> Code {
         self.code
+    }
+
+    fn depends_on(&self, key: ConventionKey) -> bool {
+        key.moves_limit()
     }
 
     fn workloads(&self) -> Vec<Workload> {
@@ -174,6 +178,7 @@ impl<'a> Reader<'a> {
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
             self.doubt_few_digits(peak.budget.print_precision, reference);
+            self.doubt_measured_arms(reference);
             if onset.is_none() {
                 return self.grounds.add(Ground::Remark(SLIDES_AT_REST.to_owned()));
             }
@@ -182,6 +187,7 @@ impl<'a> Reader<'a> {
         };
         self.compare(slip.force, slip.budget.total(), onset);
         self.doubt_few_digits(slip.budget.print_precision, onset);
+        self.doubt_measured_arms(onset);
         if reference != onset {
             self.finding.force = Some((peak.force, peak_uncertainty));
         }
@@ -205,9 +211,11 @@ impl<'a> Reader<'a> {
         let printed = self.estimates.iter().filter_map(|run| run.printed);
         let printing = printed.map(|printed| printing_error(&printed, slow));
         let printing = printing.fold(0.0, f64::max);
-        let uncertainty = TWO_GRIDS * change + slow.sampling + allowance + printing;
+        let measured_arms = self.measurement.convention_uncertainty.unwrap_or(0.0);
+        let uncertainty = TWO_GRIDS * change + slow.sampling + allowance + printing + measured_arms;
         self.compare(slow.force, uncertainty, reference);
         self.doubt_few_digits(printing, reference);
+        self.doubt_measured_arms(reference);
         self.doubt_friction();
         if self.grounds.verdict() == Verdict::Inconclusive {
             let excess = (slow.force - reference) / reference;
@@ -260,6 +268,18 @@ impl<'a> Reader<'a> {
         if let Some(digits) = self.digits().filter(|_| too_large) {
             self.doubt(format!(
                 "printed with {digits} digits, by which the yield force may be off by {uncertainty:.1e}; 17 are needed"
+            ));
+        }
+    }
+
+    /// Arms that were not measured well enough are no error of the code.
+    fn doubt_measured_arms(&mut self, reference: f64) {
+        let open = self.measurement.convention_uncertainty.unwrap_or(0.0);
+        if open > MAX_TOLERANCE * (reference + 3.0) {
+            let arms = self.measurement.convention.arms;
+            self.doubt(format!(
+                "its arms are measured as {}, {}, by whose uncertainty the limit may be off by {open:.1e}",
+                arms.pair, arms.floor
             ));
         }
     }

@@ -4,14 +4,11 @@ use super::extrapolate::{Extrapolation, extrapolate};
 use super::runs::{MIDDLE_RUN, SPEEDS};
 use super::touch::max_touch_speed;
 use crate::code::Code;
-use crate::model::{
-    Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack, exact,
-};
+use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, quasistatic_limit};
+use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
-use thiserror::Error;
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
@@ -34,24 +31,6 @@ const STIFF: f64 = 2e4;
 const LONGEST_COMPRESSION: f64 = 2.9e5;
 /// Planned speeds have six digits.
 const LEAST_DIGITS: f64 = 1.0 + 1e-5;
-
-/// Refusal to run a stack that does not yield at the floor.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("`--mu` is {}, but nothing yields there: {reason}{}", exact(stack.floor_friction), accepted(*range))]
-pub struct NoYield {
-    /// The stack.
-    pub stack: Stack,
-    /// The event that comes instead of the yield.
-    pub reason: String,
-    /// Lowest and highest floor friction at which such a stack yields, if there is any.
-    pub range: Option<(f64, f64)>,
-}
-
-fn accepted(range: Option<(f64, f64)>) -> String {
-    range.map_or_else(String::new, |(lowest, highest)| {
-        format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
-    })
-}
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
 pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
@@ -82,6 +61,9 @@ pub struct Measurement {
     pub limit: Limit,
     /// Distance of that limit from the one under the paper's convention, relative to F + 3.
     pub model_form: Option<f64>,
+    /// By how much the limit may be off because arms were measured and not declared, in m g; absent where all are
+    /// declared.
+    pub convention_uncertainty: Option<f64>,
     /// How its yield force is read.
     pub method: Method,
     /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
@@ -114,7 +96,9 @@ impl Measurement {
         estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        extrapolate(estimates, &steps, self.stack.stiffness, estimator)
+        let mut found = extrapolate(estimates, &steps, self.stack.stiffness, estimator)?;
+        found.budget.convention = self.convention_uncertainty;
+        Some(found)
     }
 
     /// The same with shortcuts in every run, and the two faster runs once more without, which show the effect of the
@@ -173,11 +157,14 @@ fn planned(
     });
     let cases: Vec<Case> = cases.collect();
     let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
+    let measured_arms = code.settled().measured_arms();
     Measurement {
         code,
         stack: *stack,
         convention,
         method,
+        convention_uncertainty: measured_arms
+            .and_then(|open| limit_uncertainty(stack, &convention, &open)),
         is_gentle: is_surely_gentle(fastest, stack)
             || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
         cases,
@@ -315,55 +302,10 @@ fn rounded(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-/// The refusal to run a stack that does not yield, with the accepted frictions.
-pub(crate) fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
-    NoYield {
-        stack: *stack,
-        reason: limit
-            .reason
-            .as_deref()
-            .unwrap_or("no yield force")
-            .to_owned(),
-        range: yielding_frictions(stack, convention),
-    }
-}
-
-/// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
-/// four digits; `None` if there is none.
-fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
-    const GRID: f64 = 0.01;
-    let yields = |floor_friction: f64| {
-        let stack = Stack {
-            floor_friction,
-            ..*stack
-        };
-        quasistatic_limit(&stack, convention).yield_force.is_some()
-    };
-    let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
-    let first = grid.iter().position(|&friction| yields(friction))?;
-    let last = grid.iter().rposition(|&friction| yields(friction))?;
-    let border = |mut inside: f64, mut outside: f64| {
-        while (inside - outside).abs() > 1e-5 {
-            let middle = 0.5 * (inside + outside);
-            if yields(middle) {
-                inside = middle
-            } else {
-                outside = middle
-            }
-        }
-        inside
-    };
-    Some((
-        border(grid[first], grid[first] - GRID),
-        border(grid[last], grid[last] + GRID),
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
     use super::*;
-    use crate::model::CRITICAL_FRICTION;
 
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
@@ -487,14 +429,5 @@ mod tests {
             ContactConvention::PAPER,
         );
         assert!(measurement.cases.is_empty());
-    }
-
-    #[test]
-    fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
-        let (lowest, highest) =
-            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::PAPER).unwrap();
-        assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
-        // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
-        assert!((highest - 0.53994).abs() < 2e-5);
     }
 }

@@ -1,0 +1,56 @@
+//! Conventions that manifests leave out, measured before a command plans anything by them.
+
+use super::options::RunOptions;
+use super::progress::Reporter;
+use super::{CliError, tell};
+use crate::code::{Code, ConventionKey};
+use crate::runs::SelectedCode;
+use crate::study::convention;
+
+/// Settles the conventions of `codes`, and says on standard error what was measured. Nothing happens where the manifests
+/// leave nothing out.
+pub(super) fn settle(codes: &[SelectedCode], options: &RunOptions) -> Result<(), CliError> {
+    if codes.iter().all(|selected| selected.name.is_settled()) {
+        return Ok(());
+    }
+    let settings = options.settings()?;
+    for (code, probed) in convention::settle(codes, &settings, &Reporter::new()) {
+        match probed {
+            Ok(_) => tell_settled(code),
+            Err(error) => tell!("{code}: its contact convention could not be measured: {error}"),
+        }
+    }
+    Ok(())
+}
+
+/// The same for one `code`, which is looked up where something is left out.
+pub(super) fn settle_one(code: Code, options: &RunOptions) -> Result<(), CliError> {
+    match code.is_settled() {
+        true => Ok(()),
+        false => settle(&[SelectedCode::find(code)], options),
+    }
+}
+
+/// What the probe of `code` has put in place of the keys that are left out.
+fn tell_settled(code: Code) {
+    let settled = code.settled();
+    let left_out = code.declaration().left_out;
+    let measured = left_out
+        .iter()
+        .filter(|&&key| settled.reason(key).is_none());
+    let measured = measured.map(|&key| format!("{key} = {}", settled.value(key)));
+    let measured: Vec<String> = measured.collect();
+    if !measured.is_empty() {
+        tell!(
+            "{code}: measured, because its manifest leaves it out: {}",
+            measured.join(", ")
+        );
+    }
+    for (key, because) in &settled.unknown {
+        let matters = match ConventionKey::moves_limit(*key) {
+            true => "the yield force depends on it",
+            false => "the yield force does not depend on it",
+        };
+        tell!("{code}: {key} is left out of its manifest and not known ({because}); {matters}");
+    }
+}

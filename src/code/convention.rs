@@ -1,0 +1,256 @@
+//! The convention of a code: the keys that its manifest declares, and those that a probe settles.
+
+use crate::model::{Arms, ContactConvention};
+use toml::de::DeTable;
+
+/// A key of a manifest on the convention of a code, which the probe measures where it is left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ConventionKey {
+    /// `convention.pair.torque_arm`.
+    PairTorqueArm,
+    /// `convention.pair.kinematic_arm`.
+    PairKinematicArm,
+    /// `convention.floor.torque_arm`.
+    FloorTorqueArm,
+    /// `convention.floor.kinematic_arm`.
+    FloorKinematicArm,
+    /// `convention.coulomb_operand`.
+    CoulombOperand,
+    /// `convention.sliding_spring`.
+    SlidingSpring,
+    /// `convention.history_update`.
+    HistoryUpdate,
+    /// `convention.tensile_force`.
+    TensileForce,
+    /// `convention.moment_of_inertia`.
+    MomentOfInertia,
+    /// `integration.velocity_lag`.
+    VelocityLag,
+}
+
+impl ConventionKey {
+    /// All keys, in the order of a manifest.
+    pub const ALL: [Self; 10] = [
+        Self::PairTorqueArm,
+        Self::PairKinematicArm,
+        Self::FloorTorqueArm,
+        Self::FloorKinematicArm,
+        Self::CoulombOperand,
+        Self::SlidingSpring,
+        Self::HistoryUpdate,
+        Self::TensileForce,
+        Self::MomentOfInertia,
+        Self::VelocityLag,
+    ];
+
+    /// The keys that move the quasi-static limit (docs/theory.md, section 2.3).
+    pub const ARMS: [Self; 4] = [
+        Self::PairTorqueArm,
+        Self::PairKinematicArm,
+        Self::FloorTorqueArm,
+        Self::FloorKinematicArm,
+    ];
+
+    /// The key with its tables, separated by points.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::PairTorqueArm => "convention.pair.torque_arm",
+            Self::PairKinematicArm => "convention.pair.kinematic_arm",
+            Self::FloorTorqueArm => "convention.floor.torque_arm",
+            Self::FloorKinematicArm => "convention.floor.kinematic_arm",
+            Self::CoulombOperand => "convention.coulomb_operand",
+            Self::SlidingSpring => "convention.sliding_spring",
+            Self::HistoryUpdate => "convention.history_update",
+            Self::TensileForce => "convention.tensile_force",
+            Self::MomentOfInertia => "convention.moment_of_inertia",
+            Self::VelocityLag => "integration.velocity_lag",
+        }
+    }
+
+    /// Whether it moves the quasi-static limit, as the arms alone do (docs/theory.md, section 2.3).
+    pub fn moves_limit(self) -> bool {
+        Self::ARMS.contains(&self)
+    }
+
+    /// Puts `value` into the coefficient of `arms` that it names, if it names one.
+    pub fn set_arm(self, arms: &mut Arms, value: f64) {
+        match self {
+            Self::PairTorqueArm => arms.pair.torque = value,
+            Self::PairKinematicArm => arms.pair.kinematic = value,
+            Self::FloorTorqueArm => arms.floor.torque = value,
+            Self::FloorKinematicArm => arms.floor.kinematic = value,
+            _ => {}
+        }
+    }
+
+    /// The coefficient of `arms` that it names; `None` if it names none.
+    pub fn arm(self, arms: &Arms) -> Option<f64> {
+        Some(match self {
+            Self::PairTorqueArm => arms.pair.torque,
+            Self::PairKinematicArm => arms.pair.kinematic,
+            Self::FloorTorqueArm => arms.floor.torque,
+            Self::FloorKinematicArm => arms.floor.kinematic,
+            _ => return None,
+        })
+    }
+
+    /// The keys that `manifest` leaves out. A kinematic arm is declared with the torque arm, which it is where it is not
+    /// written.
+    pub(super) fn left_out_of(manifest: &DeTable) -> Vec<Self> {
+        let keys = Self::ALL.into_iter();
+        let left_out = keys.filter(|key| match key {
+            Self::PairKinematicArm => !key.is_in(manifest) && !Self::PairTorqueArm.is_in(manifest),
+            Self::FloorKinematicArm => {
+                !key.is_in(manifest) && !Self::FloorTorqueArm.is_in(manifest)
+            }
+            _ => !key.is_in(manifest),
+        });
+        left_out.collect()
+    }
+
+    fn is_in(self, manifest: &DeTable) -> bool {
+        let (tables, key) = self.as_str().rsplit_once('.').unwrap_or_default();
+        let inner = tables.split('.').try_fold(manifest, |table, name| {
+            table.get(name)?.get_ref().as_table()
+        });
+        inner.is_some_and(|table| table.contains_key(key))
+    }
+}
+
+impl std::fmt::Display for ConventionKey {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+/// The properties that a manifest declares and the probe measures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// The contact convention, with the paper's values for the keys that are left out. Micro-tests are asked for under
+    /// it, whatever they show.
+    pub convention: ContactConvention,
+    /// Steps by which reported velocities lag behind reported positions.
+    pub velocity_lag: f64,
+    /// The keys that are left out, which are unknown until they are measured.
+    pub left_out: Vec<ConventionKey>,
+}
+
+/// The convention of a code after its probe: what its manifest declares, and what was measured in place of the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settled {
+    /// The contact convention. Keys that are still unknown have the paper's values.
+    pub convention: ContactConvention,
+    /// Steps by which reported velocities lag behind reported positions.
+    pub velocity_lag: f64,
+    /// Uncertainties of the arm coefficients: 0 for those that are declared.
+    pub arm_uncertainty: Arms,
+    /// The same of the moment of inertia.
+    pub inertia_uncertainty: f64,
+    /// The same of the velocity lag.
+    pub lag_uncertainty: f64,
+    /// The keys that are left out and that the probe does not decide, each with the reason.
+    pub unknown: Vec<(ConventionKey, String)>,
+}
+
+impl Settled {
+    /// The value of `key`, as a manifest spells it, without quotation marks.
+    pub fn value(&self, key: ConventionKey) -> String {
+        let path = key.as_str().strip_prefix("convention.");
+        let path = path.map(|path| format!("/{}", path.replace('.', "/")));
+        let convention = serde_json::to_value(self.convention).unwrap_or_default();
+        let value = path.and_then(|path| convention.pointer(&path).cloned());
+        match value {
+            Some(serde_json::Value::String(word)) => word,
+            Some(number) => number.to_string(),
+            None => self.velocity_lag.to_string(),
+        }
+    }
+
+    /// The value of `key` if that is a number.
+    pub fn number(&self, key: ConventionKey) -> Option<f64> {
+        match key {
+            ConventionKey::MomentOfInertia => Some(self.convention.moment_of_inertia),
+            ConventionKey::VelocityLag => Some(self.velocity_lag),
+            _ => key.arm(&self.convention.arms),
+        }
+    }
+
+    /// The uncertainty of that number.
+    pub fn uncertainty(&self, key: ConventionKey) -> Option<f64> {
+        match key {
+            ConventionKey::MomentOfInertia => Some(self.inertia_uncertainty),
+            ConventionKey::VelocityLag => Some(self.lag_uncertainty),
+            _ => key.arm(&self.arm_uncertainty),
+        }
+    }
+
+    /// The uncertainties of the arms if any of them was measured.
+    pub fn measured_arms(&self) -> Option<Arms> {
+        (self.arm_uncertainty != Arms::PAPER).then_some(self.arm_uncertainty)
+    }
+
+    /// The sum of the uncertainties of the arms.
+    pub fn arms_open(&self) -> f64 {
+        let arms = ConventionKey::ARMS.into_iter();
+        arms.filter_map(|key| key.arm(&self.arm_uncertainty)).sum()
+    }
+
+    /// Why `key` is unknown; `None` where it is not.
+    pub fn reason(&self, key: ConventionKey) -> Option<&str> {
+        let mut unknown = self.unknown.iter();
+        unknown.find_map(|(own, because)| (*own == key).then_some(because.as_str()))
+    }
+}
+
+impl Declaration {
+    /// The convention of a code that has not been probed, `because` of something: the keys that are left out are
+    /// unknown.
+    pub fn unsettled(&self, because: &str) -> Settled {
+        let unknown = self.left_out.iter();
+        Settled {
+            convention: self.convention,
+            velocity_lag: self.velocity_lag,
+            arm_uncertainty: Arms::PAPER,
+            inertia_uncertainty: 0.0,
+            lag_uncertainty: 0.0,
+            unknown: unknown.map(|&key| (key, because.to_owned())).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left_out_of(manifest: &str) -> Vec<&'static str> {
+        let manifest = DeTable::parse(manifest).unwrap();
+        let left_out = ConventionKey::left_out_of(manifest.get_ref()).into_iter();
+        left_out.map(ConventionKey::as_str).collect()
+    }
+
+    #[test]
+    fn a_kinematic_arm_is_declared_with_the_torque_arm() {
+        let all = left_out_of("");
+        assert_eq!(all.len(), ConventionKey::ALL.len());
+        let without = |keys: &[&str]| -> Vec<&str> {
+            let kept = all.iter().filter(|key| !keys.contains(key));
+            kept.copied().collect()
+        };
+        let pair = [
+            "convention.pair.torque_arm",
+            "convention.pair.kinematic_arm",
+        ];
+        assert_eq!(
+            left_out_of("convention.pair.torque_arm = 0.0"),
+            without(&pair)
+        );
+        assert_eq!(
+            left_out_of("convention.pair.kinematic_arm = 0.0"),
+            without(&pair[1..])
+        );
+        assert_eq!(
+            left_out_of("integration = { velocity_lag = 0.0 }"),
+            without(&["integration.velocity_lag"])
+        );
+    }
+}

@@ -1,0 +1,232 @@
+//! The passport of a code: a JSON object, and a page for people.
+
+use super::number::{digits, one_digit, relative};
+use super::probe::probe;
+use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use crate::code::{Code, Identity, TaskKind};
+use crate::study::Verdict;
+use crate::study::convention::{ArmEffects, MeasuredKey, Passport, TOLERANCE, reservations};
+use serde::Serialize;
+
+/// Name and version of the format.
+pub(crate) const PASSPORT: &str = "tristack/passport/1";
+
+/// The keys of a convention, as measured.
+pub(crate) fn measured_convention(keys: &[MeasuredKey]) -> DataTable<'_> {
+    Columns::<&MeasuredKey>::new(
+        "convention",
+        "A row is one key of the convention of a code, as its motions show it.",
+        "`tristack probe --out` (`convention` of CODE.json)",
+    )
+    .text("key", |own| own.key.as_str())
+    .means("the key, as in a manifest")
+    .shown("key")
+    .text("measured", |own| own.measured.clone())
+    .means("its value as measured, a number to its uncertainty; absent where the motions do not show it")
+    .shown("measured")
+    .number("uncertainty", "1", |own| own.uncertainty)
+    .means("three standard errors, and what rounding took away; absent for a word")
+    .shown_as("±", one_digit)
+    .text("declared", |own| own.declared.clone())
+    .means("its value in the manifest; absent where that leaves it out and the measured one is used")
+    .shown("declared")
+    .text("moves_limit", |own| own.key.moves_limit())
+    .means("whether it moves the quasi-static limit of the yield force")
+    .shown("moves the yield force")
+    .verdict(|own| own.verdict)
+    .rows(keys)
+}
+
+/// What the arms of a code change.
+pub(crate) fn arm_effects(effects: &[ArmEffects]) -> DataTable<'_> {
+    Columns::<&ArmEffects>::new(
+        "arm_effects",
+        "A row is the exact yield force of one stack, and what the measured arms of a code change in it.",
+        "`tristack probe --out` (`arm_effects` of CODE.json)",
+    )
+    .stack(|own| own.stack)
+    .number("paper_force", "m g", |own| own.paper_force)
+    .means("F with the paper's arms, which are all 0")
+    .shown_as("paper's arms", digits::<7>)
+    .number("pair_torque_arm", "m g", |own| own.changes[0])
+    .means("change of F by the torque arm of pairs alone")
+    .shown_as("pair torque", relative)
+    .number("pair_kinematic_arm", "m g", |own| own.changes[1])
+    .means("the same by the kinematic arm of pairs")
+    .shown_as("pair kinematic", relative)
+    .number("floor_torque_arm", "m g", |own| own.changes[2])
+    .means("the same by the torque arm of the floor")
+    .shown_as("floor torque", relative)
+    .number("floor_kinematic_arm", "m g", |own| own.changes[3])
+    .means("the same by the kinematic arm of the floor")
+    .shown_as("floor kinematic", relative)
+    .number("force", "m g", |own| own.force)
+    .means("F with all arms of the code")
+    .shown_as("all its arms", digits::<9>)
+    .number("uncertainty", "m g", |own| own.uncertainty)
+    .means("what the uncertainty of the arms leaves open of it")
+    .shown_as("±", one_digit)
+    .rows(effects)
+}
+
+/// The passport as JSON, made by `command`.
+pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
+    let provenance = &passport.findings.provenance;
+    let convention = measured_convention(&passport.convention);
+    let effects = arm_effects(&passport.effects);
+    let properties = probe(&passport.findings.findings);
+    let document = Document {
+        schema: PASSPORT,
+        command,
+        code: passport.code,
+        title: passport.code.title(),
+        verdict: passport.verdict(),
+        twins: &passport.twins,
+        same_arms: &passport.same_arms,
+        program: &provenance.identity,
+        deck_hash: passport.code.files_hash(TaskKind::Motion),
+        answers_hash: &provenance.deck_hash,
+        tristack: &provenance.tristack,
+        date: &provenance.date,
+        machine: &provenance.machine,
+        reservations: reservations(passport.findings),
+        convention: convention.part(),
+        arm_effects: effects.part(),
+        properties: properties.part(),
+    };
+    serde_json::to_string_pretty(&document).expect("plain values have a JSON form") + "\n"
+}
+
+/// The entries of a passport in JSON.
+#[derive(Serialize)]
+struct Document<'a, T> {
+    schema: &'static str,
+    command: &'a str,
+    code: Code,
+    title: &'static str,
+    verdict: Verdict,
+    twins: &'a [Code],
+    same_arms: &'a [Code],
+    program: &'a Identity,
+    /// SHA-256 of the files of the micro-tests.
+    deck_hash: String,
+    /// SHA-256 of everything that the micro-tests were given.
+    answers_hash: &'a str,
+    tristack: &'a str,
+    date: &'a str,
+    machine: &'a str,
+    reservations: Vec<String>,
+    convention: T,
+    arm_effects: T,
+    properties: T,
+}
+
+/// The passport as a page.
+pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
+    let Passport { code, findings, .. } = passport;
+    let provenance = &findings.provenance;
+    let mut page = format!(
+        "# Passport of {}\n\n{}\n\nProbed by tristack {} on {} with {}.\n\n**{}**\n\n",
+        markdown_text(&code.label()),
+        program(&provenance.identity),
+        provenance.tristack,
+        &provenance.date.get(..10).unwrap_or(&provenance.date),
+        markdown_code(command),
+        sentence(passport),
+    );
+    for line in reservations(findings) {
+        page += &format!("- {}\n", markdown_text(&line));
+    }
+    if !page.ends_with("\n\n") {
+        page += "\n";
+    }
+    page += &format!(
+        "## What a contact is to it\n\nr₁ in R = r + r₁ × overlap is an arm. {}\n\n{}",
+        twins(passport),
+        measured_convention(&passport.convention).shown().markdown()
+    );
+    page += &format!(
+        "\n## What its arms change\n\nThe exact yield force F = f/(m g) with the paper's arms, its change by each arm of the code alone, and F with \
+         all of them.\n\n{}",
+        arm_effects(&passport.effects).shown().markdown()
+    );
+    page + &parameters(passport)
+}
+
+/// The program in one paragraph.
+fn program(identity: &Identity) -> String {
+    let hash = |hash: &Option<String>| {
+        let hash = hash.as_deref().unwrap_or("none");
+        format!("`{}`", hash.get(..16).unwrap_or(hash))
+    };
+    let package = identity.package.as_deref().unwrap_or("no package");
+    format!(
+        "{} {}, {}; SHA-256 of the program {}, of the files that it loads {}.",
+        markdown_code(&identity.code),
+        markdown_text(&identity.version),
+        markdown_text(package),
+        hash(&identity.program_hash),
+        hash(&identity.files_hash)
+    )
+}
+
+/// The verdict in words.
+fn sentence(passport: &Passport) -> String {
+    let keys = passport.convention.iter();
+    let open = keys.filter(|own| own.measured.is_none() && own.key.moves_limit());
+    match passport.verdict() {
+        Verdict::Agrees => "Every property is as declared, or measured where nothing is declared.",
+        Verdict::Differs => {
+            "It is not the code that its manifest declares: no yield force is judged."
+        }
+        _ if open.count() > 0 => {
+            "An arm is not known, on which the yield force depends: no yield force is judged."
+        }
+        _ => "Nothing contradicts its manifest, but not everything could be measured well enough.",
+    }
+    .to_owned()
+}
+
+fn twins(passport: &Passport) -> String {
+    let names = |codes: &[Code]| {
+        let names = codes.iter().map(|code| format!("`{code}`"));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    match (&passport.twins[..], &passport.same_arms[..]) {
+        ([], []) => "No built-in code has the same arms.".to_owned(),
+        ([], same) => format!(
+            "It has the arms, and with them the yield forces, of {}; other rules differ.",
+            names(same)
+        ),
+        (twins, same) => {
+            let others: Vec<Code> = same
+                .iter()
+                .filter(|own| !twins.contains(own))
+                .copied()
+                .collect();
+            let further = match others.is_empty() {
+                true => String::new(),
+                false => format!(" The same arms alone: {}.", names(&others)),
+            };
+            format!("It has the convention of {}.{further}", names(twins))
+        }
+    }
+}
+
+/// How many of the properties that are no convention are as asked for.
+fn parameters(passport: &Passport) -> String {
+    let findings = passport.findings.findings.iter();
+    let others: Vec<_> = findings.filter(|own| own.key.is_none()).collect();
+    let agreeing = others.iter().filter(|own| own.verdict == Verdict::Agrees);
+    let tolerance = match passport.code {
+        Code::NATIVE => "rounding".to_owned(),
+        _ => format!("{TOLERANCE:e}"),
+    };
+    format!(
+        "\n## What it was asked for\n\n{} of {} properties (mass, stiffness, damping, friction, radius, times of forces, the top \
+         wall) are what the case says, to {tolerance}. All numbers: `{}.json`.\n",
+        agreeing.count(),
+        others.len(),
+        passport.code
+    )
+}

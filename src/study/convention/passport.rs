@@ -1,0 +1,164 @@
+//! The passport of a code: its convention as measured, what that changes in the yield force, and who shares it.
+
+use super::finding::TOLERANCE;
+use super::measured::{Findings, contradicting};
+use crate::code::{Code, ConventionKey, Settled};
+use crate::model::{Arms, ContactConvention, Stack};
+use crate::study::Verdict;
+use crate::theory::{limit_uncertainty, quasistatic_limit};
+
+/// Frictions and stiffnesses of the stacks of a passport: below and above the critical friction, and stiff.
+const STACKS: [(f64, f64); 3] = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e4)];
+
+/// What a probe says about a code, for its author and for its readers.
+#[derive(Debug, Clone)]
+pub struct Passport<'a> {
+    /// The code.
+    pub code: Code,
+    /// Everything that was measured.
+    pub findings: &'a Findings,
+    /// The keys of its convention.
+    pub convention: Vec<MeasuredKey>,
+    /// What its arms change.
+    pub effects: Vec<ArmEffects>,
+    /// The built-in codes with the same convention, within the uncertainty.
+    pub twins: Vec<Code>,
+    /// The built-in codes with the same arms, whose yield forces are the same.
+    pub same_arms: Vec<Code>,
+}
+
+/// A key of a convention, as measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredKey {
+    /// The key.
+    pub key: ConventionKey,
+    /// Its value as the motions show it; absent where they do not.
+    pub measured: Option<String>,
+    /// The uncertainty of a number.
+    pub uncertainty: Option<f64>,
+    /// Its value in the manifest; absent where that leaves it out.
+    pub declared: Option<String>,
+    /// The worst verdict on what was measured of it.
+    pub verdict: Verdict,
+}
+
+/// What the arms of a code change in the yield force of one stack.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArmEffects {
+    /// The stack.
+    pub stack: Stack,
+    /// The limit with the paper's arms, in m g.
+    pub paper_force: Option<f64>,
+    /// By how much each arm of the code alone changes it, in m g; absent where the arm is not known.
+    pub changes: [Option<f64>; 4],
+    /// The limit with all arms of the code, in m g; absent where one is not known.
+    pub force: Option<f64>,
+    /// What the uncertainties of the measured arms leave open of it, in m g.
+    pub uncertainty: Option<f64>,
+}
+
+impl Passport<'_> {
+    /// The worst verdict on what was measured.
+    pub fn verdict(&self) -> Verdict {
+        let properties = self.findings.findings.iter().map(|own| own.verdict);
+        let keys = self.convention.iter().map(|own| own.verdict);
+        properties
+            .chain(keys)
+            .max()
+            .unwrap_or(Verdict::Inconclusive)
+    }
+}
+
+/// What of `findings` is no agreement: properties that are not as declared, and keys that are left out and not known.
+pub fn reservations(findings: &Findings) -> Vec<String> {
+    let unknown = findings.settled.unknown.iter();
+    let unknown =
+        unknown.map(|(key, because)| format!("{key} is left out and not known: {because}"));
+    contradicting(findings).into_iter().chain(unknown).collect()
+}
+
+/// The passport of `code`, of which the probe has shown `findings`.
+pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
+    let measured = &findings.measured;
+    let others = Code::all()
+        .into_iter()
+        .filter(|other| other.is_built_in() && !other.accepts_any_convention() && *other != code);
+    let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {
+        let same = others
+            .clone()
+            .filter(|other| is_same(measured, *other, keys));
+        same.collect()
+    };
+    Passport {
+        code,
+        findings,
+        convention: ConventionKey::ALL
+            .map(|key| measured_key(code, findings, key))
+            .into(),
+        effects: STACKS
+            .map(|(friction, stiffness)| effects(Stack::paper(friction, stiffness), measured))
+            .into(),
+        twins: alike(|key| key != ConventionKey::VelocityLag),
+        same_arms: alike(ConventionKey::moves_limit),
+    }
+}
+
+/// Whether `measured` is the convention of the `other` code in all `keys`.
+fn is_same(measured: &Settled, other: Code, keys: fn(ConventionKey) -> bool) -> bool {
+    let other = other.settled();
+    let mut keys = ConventionKey::ALL.into_iter().filter(|key| keys(*key));
+    keys.all(|key| {
+        let known = measured.reason(key).is_none() && other.reason(key).is_none();
+        let numbers = measured.number(key).zip(other.number(key));
+        known
+            && match numbers {
+                Some((own, theirs)) => {
+                    (own - theirs).abs() <= measured.uncertainty(key).unwrap_or(0.0) + TOLERANCE
+                }
+                None => measured.value(key) == other.value(key),
+            }
+    })
+}
+
+fn measured_key(code: Code, findings: &Findings, key: ConventionKey) -> MeasuredKey {
+    let declaration = code.declaration();
+    let declared = !declaration.left_out.contains(&key);
+    let measured = &findings.measured;
+    let own = findings.findings.iter().filter(|own| own.key == Some(key));
+    let worst = own.map(|own| own.verdict).max();
+    let known = measured.reason(key).is_none();
+    MeasuredKey {
+        key,
+        measured: known.then(|| measured.value(key)),
+        uncertainty: measured.uncertainty(key).filter(|_| known),
+        declared: declared.then(|| declaration.unsettled("").value(key)),
+        verdict: match worst {
+            Some(verdict) if known || verdict == Verdict::Differs => verdict,
+            _ => Verdict::Inconclusive,
+        },
+    }
+}
+
+fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
+    let force = |arms: Arms| {
+        let convention = ContactConvention::with_arms(arms);
+        quasistatic_limit(&stack, &convention).yield_force
+    };
+    let arms = measured.convention.arms;
+    let paper_force = force(Arms::PAPER);
+    let known = |key: &ConventionKey| measured.reason(*key).is_none();
+    let alone = |key: ConventionKey| {
+        let mut one = Arms::PAPER;
+        key.set_arm(&mut one, key.arm(&arms).filter(|_| known(&key))?);
+        Some(force(one)? - paper_force?)
+    };
+    let all_known = ConventionKey::ARMS.iter().all(known);
+    ArmEffects {
+        stack,
+        paper_force,
+        changes: ConventionKey::ARMS.map(alone),
+        force: force(arms).filter(|_| all_known),
+        uncertainty: limit_uncertainty(&stack, &measured.convention, &measured.arm_uncertainty)
+            .filter(|_| all_known),
+    }
+}

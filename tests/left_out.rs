@@ -1,0 +1,379 @@
+//! Conventions that a manifest leaves out: measured by the probe, used with their uncertainty, never a parameter.
+
+mod common;
+
+use common::replay::{self, Disturbance};
+use common::{Bench, code_folder, json, json_rows, standard_error};
+use serde_json::Value;
+use std::fmt::Display;
+use std::fs;
+use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
+use tristack::dem::run_contact_test;
+use tristack::model::{Arms, ContactConvention, ContactTest, HistoryUpdate, Stack};
+use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
+use tristack::series::Motion;
+use tristack::study::convention::{probe, probe_all, settle_by};
+use tristack::study::trajectory::{TrajectoryJudgement, plan_trajectory, trajectory_stack};
+use tristack::study::yield_force::{Judgement, plan};
+use tristack::study::{Campaign, Verdict};
+
+/// The manifest of YADE on boxes alone, under another name, with what `change` makes of its text.
+fn yade_without(bench: &Bench, change: impl FnOnce(String) -> String) -> String {
+    let folder = code_folder("yade_scripts", &bench.path("mydem"), |manifest| {
+        let (common, _) = manifest.split_once("[variants.yade]").expect("variants");
+        let common = common.replace("name = \"yade\"", "name = \"mydem\"");
+        change(common.replace("{floor}", "box"))
+    });
+    folder.display().to_string()
+}
+
+/// The manifest without its table of the convention, and without the velocity lag.
+fn without_convention(manifest: String) -> String {
+    let (before, after) = manifest.split_once("[convention]").expect("a convention");
+    let (_, after) = after.split_once("# Leapfrog.").expect("an integration");
+    format!("{before}{after}").replace("velocity_lag = 0.5\n", "")
+}
+
+fn rows(bench: &Bench, codes: &str, status: i32) -> (Vec<Value>, String) {
+    let line = format!("crosscheck --codes {codes} --format json");
+    let output = bench.tristack(&line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(status), "{message}");
+    (json_rows(&String::from_utf8_lossy(&output.stdout)), message)
+}
+
+/// Of a copy of YADE that declares nothing the same is measured that YADE declares, and its rows are the same.
+#[test]
+fn a_convention_that_is_left_out_is_measured_and_gives_the_same_rows() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let (declared, _) = rows(&bench, "yade", 0);
+    let folder = yade_without(&bench, without_convention);
+    let (measured, message) = rows(&bench, &folder, 0);
+    for value in [
+        "convention.pair.torque_arm = -0.5",
+        "convention.floor.kinematic_arm = -0.5",
+        "convention.coulomb_operand = spring",
+        "convention.history_update = linearised",
+        "convention.tensile_force = never-pulls",
+        "convention.moment_of_inertia = 0.5",
+        "integration.velocity_lag = 0.5",
+    ] {
+        assert!(message.contains(value), "{value} in {message}");
+    }
+    assert_eq!(declared.len(), 18);
+    for (declared, measured) in declared.iter().zip(&measured) {
+        for key in ["yield_force", "reference_force", "error", "verdict"] {
+            assert_eq!(declared[key], measured[key], "{key} in {measured}");
+        }
+        let uncertainty = |row: &Value| row["uncertainty"].as_f64().expect("a number");
+        let open = uncertainty(measured) - uncertainty(declared);
+        assert!(open > 0.0 && open < 1e-9, "{open}");
+    }
+}
+
+/// The part of the budget is there where something is measured, and nowhere else.
+#[test]
+fn the_uncertainty_of_measured_arms_is_a_part_of_the_budget() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let one_key = |manifest: String| {
+        let pair = "pair = { torque_arm = -0.5 }\n";
+        assert!(manifest.contains(pair));
+        manifest.replace(pair, "")
+    };
+    let folder = yade_without(&bench, one_key);
+    let budget = |codes: &str| {
+        let line = format!("crosscheck --codes {codes} --out out");
+        bench.tristack(&line).assert().code(0);
+        let page = fs::read_to_string(bench.path("out/crosscheck.md")).expect("a page");
+        let table = fs::read(bench.path("out/budget.csv")).expect("a table");
+        let mut reader = csv::Reader::from_reader(table.as_slice());
+        let header = reader.headers().expect("a header").clone();
+        let column = header.iter().position(|name| name == "convention");
+        let column = column.expect("the column is there");
+        let cells = reader
+            .records()
+            .map(|row| row.expect("a row")[column].to_owned());
+        (cells.collect::<Vec<String>>(), page)
+    };
+    let (cells, page) = budget(&folder);
+    assert_eq!(cells.len(), 18);
+    assert!(
+        cells
+            .iter()
+            .all(|cell| cell.parse::<f64>().is_ok_and(|open| open > 0.0))
+    );
+    assert!(page.contains("| convention |"), "{page}");
+    let (cells, page) = budget("yade");
+    assert!(cells.iter().all(String::is_empty), "{cells:?}");
+    assert!(!page.contains("| convention |"), "{page}");
+}
+
+#[test]
+fn a_folder_without_micro_tests_is_not_judged_and_the_reason_names_the_keys() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let folder = yade_without(&bench, |manifest| {
+        let lines = manifest
+            .lines()
+            .filter(|line| !line.starts_with("motion =") && !line.starts_with("coulomb_operand"));
+        lines.collect::<Vec<_>>().join("\n")
+    });
+    let (rows, message) = rows(&bench, &folder, 4);
+    let reason = "its contact convention could not be measured: `tasks.motion` is absent from its manifest, and \
+                  convention.coulomb_operand is not stated there";
+    assert!(message.contains(reason), "{message}");
+    for row in rows {
+        assert_eq!(row["verdict"], "inconclusive", "{row}");
+        assert_ne!(row["yield_force"], Value::Null, "{row}");
+    }
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
+    fn advanced(&self, _: f64) {}
+    fn finished(&self, _: Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
+    fn warn(&self, _: &str) {}
+}
+
+/// The judgement on the recorded yield force and trajectory of `name`, after it has been settled as `change` says.
+fn after_settling(
+    name: &str,
+    change: impl FnOnce(&mut Settled),
+) -> (Judgement, TrajectoryJudgement) {
+    let code = Code::named(name).expect("it is built in");
+    let root = tempfile::tempdir().expect("a directory");
+    let settings = Settings {
+        store: Store::open(&root.path().join("store")).expect("a store"),
+        recorded: Recorded::embedded(),
+        fresh: false,
+        threads: 2,
+        time_limit: None,
+        interrupt: &Interrupt::new(),
+    };
+    let recorded = SelectedCode {
+        name: code,
+        code: None,
+    };
+    let codes = [recorded, SelectedCode::find(Code::NATIVE)];
+    let mut probed = probe_all(&codes[..1], &settings, &Silent).remove(0);
+    change(&mut probed.as_mut().expect("it is recorded").settled);
+    settle_by(code, &probed);
+    let campaign = Campaign::new(&codes, &settings, &Silent);
+    let stack = Stack::paper(0.3, 1e2);
+    let mut force = campaign.carry_out(vec![plan(code, &stack, code.convention())]);
+    let trajectory = plan_trajectory(code, &trajectory_stack(), code.convention());
+    let mut trajectory = campaign.carry_out(vec![trajectory]);
+    (force.swap_remove(0), trajectory.swap_remove(0))
+}
+
+/// A rule that no alternative fits leaves the yield force alone, and takes the twin away from a trajectory.
+#[test]
+fn an_unknown_rule_counts_where_it_matters() {
+    let (force, trajectory) = after_settling("lammps", |settled| {
+        let why = "pair_sliding_spring_memory is 0.300000, not 1 or 0".to_owned();
+        settled.unknown.push((ConventionKey::SlidingSpring, why));
+    });
+    assert_eq!(force.verdict(), Verdict::Agrees, "{:?}", force.notes());
+    assert!(force.notes().is_empty());
+    assert_eq!(trajectory.verdicts(), [Verdict::Inconclusive]);
+    let reason = "not judged: convention.sliding_spring is left out of its manifest and not known: \
+                  pair_sliding_spring_memory is 0.300000, not 1 or 0";
+    assert_eq!(trajectory.notes(), [reason]);
+}
+
+#[test]
+fn an_unknown_arm_leaves_nothing_to_judge_by() {
+    let (force, trajectory) = after_settling("liggghts", |settled| {
+        let why = "its motions do not show it".to_owned();
+        settled.unknown.push((ConventionKey::FloorTorqueArm, why));
+    });
+    let reason = "not judged: convention.floor.torque_arm is left out of its manifest and not known: its motions do \
+                  not show it";
+    assert_eq!(
+        (force.verdict(), force.error()),
+        (Verdict::Inconclusive, None)
+    );
+    assert_eq!(force.notes(), [reason]);
+    assert_eq!(trajectory.verdicts(), [Verdict::Inconclusive]);
+    assert_eq!(trajectory.notes(), [reason]);
+}
+
+#[test]
+fn an_arm_that_is_not_known_well_enough_decides_nothing() {
+    let (force, trajectory) = after_settling("yade-wall", |settled| {
+        settled.arm_uncertainty.floor.torque = 1e-3;
+    });
+    assert_eq!(force.verdict(), Verdict::Inconclusive);
+    let note = force.notes().join("; ");
+    assert!(
+        note.contains("its arms are measured as -0.5, -1, by whose uncertainty"),
+        "{note}"
+    );
+    let verdicts = trajectory.verdicts();
+    assert!(verdicts.len() > 1 && verdicts.contains(&Verdict::Inconclusive));
+    assert!(!verdicts.contains(&Verdict::Differs), "{verdicts:?}");
+}
+
+/// Findings on a native code with `convention`, of which nothing is declared, whose micro-tests `change` alters.
+fn findings(
+    convention: ContactConvention,
+    change: impl Fn(ContactTest) -> ContactTest,
+) -> Vec<(String, Option<f64>, Option<f64>, Verdict)> {
+    let declared = Declaration {
+        left_out: ConventionKey::ALL.into(),
+        ..Code::NATIVE.declaration()
+    };
+    let properties = probe(&declared, |tests| {
+        let altered = tests.iter().map(|test| {
+            let convention = ContactConvention {
+                restitution: test.convention.restitution,
+                ..convention
+            };
+            change(ContactTest {
+                convention,
+                ..*test
+            })
+        });
+        let motions = altered.map(|test| run_contact_test(&test));
+        motions.collect::<Result<Vec<Motion>, _>>()
+    });
+    let properties = properties.expect("finite motions").into_iter();
+    let findings = properties.map(|own| {
+        let found = own.judge(Code::NATIVE, "");
+        (
+            found.property,
+            found.measured,
+            found.declared,
+            found.verdict,
+        )
+    });
+    findings.collect()
+}
+
+/// Whatever a code means by a contact: what it was asked for is never taken for what it means.
+#[test]
+fn a_parameter_is_never_taken_for_convention() {
+    let convention = ContactConvention {
+        arms: Arms::reciprocal(-0.25, -0.75),
+        history_update: HistoryUpdate::Projected,
+        ..ContactConvention::PAPER
+    };
+    type Change = fn(ContactTest) -> ContactTest;
+    let wrong: [(&str, Change); 4] = [
+        ("tangential_stiffness", |test| ContactTest {
+            stiffness_ratio: 1.01 * test.stiffness_ratio,
+            ..test
+        }),
+        ("floor_friction", |test| ContactTest {
+            floor_friction: 1.01 * test.floor_friction,
+            ..test
+        }),
+        ("pair_friction", |test| ContactTest {
+            cylinder_friction: 1.01 * test.cylinder_friction,
+            ..test
+        }),
+        ("damping", |test| ContactTest {
+            convention: ContactConvention {
+                restitution: 0.8,
+                ..test.convention
+            },
+            ..test
+        }),
+    ];
+    for (name, change) in wrong {
+        let found = findings(convention, change);
+        let differing = found
+            .iter()
+            .filter(|(.., verdict)| *verdict == Verdict::Differs);
+        let differing: Vec<&str> = differing.map(|(name, ..)| name.as_str()).collect();
+        assert!(
+            differing.iter().any(|own| own.contains(name)),
+            "{name}: {differing:?}"
+        );
+        assert!(
+            !differing.iter().any(|own| own.contains("arm")),
+            "{name}: {differing:?}"
+        );
+        for (property, measured) in [
+            ("pair_torque_arm", -0.25),
+            ("floor_kinematic_arm", -0.75),
+            ("moment_of_inertia", 0.5),
+        ] {
+            let own = found.iter().find(|(name, ..)| name == property);
+            let (_, value, declared, _) = own.expect("a property");
+            assert_eq!(*declared, None);
+            assert!(
+                (value.expect("a number") - measured).abs() < 1e-6,
+                "{name}: {own:?}"
+            );
+        }
+    }
+    let right = findings(convention, |test| test);
+    let wrong = right
+        .iter()
+        .find(|(.., verdict)| *verdict == Verdict::Differs);
+    assert_eq!(wrong, None);
+}
+
+#[test]
+fn passports_are_written_for_every_code_and_name_its_twins() {
+    let bench = Bench::without_codes();
+    bench.tristack("probe --out passports").assert().code(0);
+    let read = |name: &str| fs::read_to_string(bench.path("passports").join(name)).expect(name);
+    let passport = |code: &str| json(&read(&format!("{code}.json")));
+    let twins = |code: &str| passport(code)["twins"].clone();
+    assert_eq!(twins("yade"), serde_json::json!(["yade-facet"]));
+    assert_eq!(twins("yade-wall"), serde_json::json!([]));
+    assert_eq!(
+        passport("liggghts")["same_arms"],
+        serde_json::json!(["yade", "yade-facet"])
+    );
+    let lammps = passport("lammps");
+    assert_eq!(lammps["schema"], "tristack/passport/1");
+    assert_eq!(lammps["verdict"], "agrees");
+    assert_eq!(
+        lammps["convention"]["rows"].as_array().expect("rows").len(),
+        10
+    );
+    assert_eq!(
+        lammps["properties"]["rows"].as_array().expect("rows").len(),
+        41
+    );
+    let effects = lammps["arm_effects"]["rows"].as_array().expect("rows");
+    for effect in effects {
+        // Measured arms are 0 to rounding, those of the paper.
+        assert_eq!(effect["force"], effect["paper_force"], "{effect}");
+    }
+    let page = read("yade-wall.md");
+    assert!(page.starts_with("# Passport of YADE, wall\n"), "{page}");
+    assert!(
+        page.contains("No built-in code has the same arms."),
+        "{page}"
+    );
+    assert!(page.contains("Every property is as declared"), "{page}");
+    assert!(page.lines().count() < 60, "one screen");
+    // The same answers give the same pages.
+    let first = read("lammps.md");
+    bench.tristack("probe --out passports").assert().code(0);
+    assert_eq!(read("lammps.md"), first);
+}
+
+#[test]
+fn a_directory_of_something_else_gets_no_passports() {
+    let bench = Bench::without_codes();
+    fs::create_dir(bench.path("mine")).expect("a directory");
+    fs::write(bench.path("mine/notes.md"), "mine").expect("a file");
+    let message = standard_error(&mut bench.tristack("probe --out mine"));
+    assert!(
+        message.contains("no `all_codes.json` that tristack wrote"),
+        "{message}"
+    );
+    assert_eq!(
+        fs::read_to_string(bench.path("mine/notes.md")).expect("it stays"),
+        "mine"
+    );
+}

@@ -419,7 +419,7 @@ fn row<'a>(rows: &'a [serde_json::Value], name: &str) -> &'a serde_json::Value {
 
 const OWN_PROGRAM: &str = "schema = 1\nname = \"mydem\"\n[program]\ncommand = [\"mydem\", \"{deck}\"]\n\
     version = { arguments = [\"--version\"] }\n\
-    search = [\"$MYDEM_NOT_SET/bin\", \"{folder}/bin\", \"$MYDEM/bin\"]\n\
+    search = [\"$MYDEM_NOT_SET/bin\", \"{folder}/bin\", \"$MYDEM/bin\", \"$PATH\"]\n\
     [tasks]\nstack = { files = [\"code.toml\"] }\n";
 
 fn install(folder: &Path, version: &str) {
@@ -430,7 +430,7 @@ fn install(folder: &Path, version: &str) {
     fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("its permissions");
 }
 
-/// Directories of the manifest come before the search path, in their order; one whose variable is not set is left out.
+/// The directories of the manifest are searched in their order; one whose variable is not set is left out.
 #[test]
 fn a_program_is_looked_for_where_the_manifest_says() {
     let bench = Bench::without_codes();
@@ -454,6 +454,31 @@ fn a_program_is_looked_for_where_the_manifest_says() {
     assert_eq!(version(Some(&elsewhere)).as_deref(), Some("2"));
     install(&folder, "3");
     assert_eq!(version(Some(&elsewhere)).as_deref(), Some("3"));
+}
+
+/// Another program of that name would run under a wrong name.
+#[test]
+fn the_search_path_is_searched_if_the_manifest_names_it_or_nothing() {
+    let place = tempfile::tempdir().expect("a directory");
+    let bench = Bench::without_codes();
+    bench.install("mydem", "echo 1\n");
+    for (search, version) in [
+        ("search = [\"{folder}/bin\"]", None),
+        ("search = [\"{folder}/bin\", \"$PATH\"]", Some("1")),
+        ("", Some("1")),
+    ] {
+        let own = OWN_PROGRAM
+            .lines()
+            .map(|line| match line.trim_start().starts_with("search") {
+                true => search,
+                false => line,
+            });
+        let own: Vec<&str> = own.collect();
+        let name = format!("folder-{}", search.len());
+        let folder = folder_with(place.path(), &name, &own.join("\n"));
+        let rows = inventory(&bench, &[&folder]);
+        assert_eq!(row(&rows, "mydem")["version"].as_str(), version, "{search}");
+    }
 }
 
 /// An inherited `{folder}` is that of the manifest that names it.

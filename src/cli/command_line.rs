@@ -1,5 +1,6 @@
 //! The command line that a result carries, to produce it again.
 
+use crate::model::shell_quoted;
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -28,20 +29,10 @@ pub(super) fn command_line(arguments: &[OsString]) -> String {
             }
         } else if !LEFT_OUT_FLAGS.contains(&name) {
             line += " ";
-            line += &quoted(&word);
+            line += &shell_quoted(&word);
         }
     }
     line
-}
-
-/// `word`, quoted for a shell where necessary.
-fn quoted(word: &str) -> String {
-    let plain = |char: char| char.is_ascii_alphanumeric() || "-_=.,:/+@%".contains(char);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 #[cfg(test)]

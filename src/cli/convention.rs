@@ -4,7 +4,7 @@ use super::options::RunOptions;
 use super::progress::Reporter;
 use super::{CliError, tell};
 use crate::code::{Code, ConventionKey};
-use crate::runs::SelectedCode;
+use crate::runs::{Progress, SelectedCode, Settings};
 use crate::study::convention;
 
 /// Settles the conventions of `codes`, and says on standard error what was measured. Nothing happens where the manifests
@@ -13,14 +13,18 @@ pub(super) fn settle(codes: &[SelectedCode], options: &RunOptions) -> Result<(),
     if codes.iter().all(|selected| selected.name.is_settled()) {
         return Ok(());
     }
-    let settings = options.settings()?;
-    for (code, probed) in convention::settle(codes, &settings, &Reporter::new()) {
+    settle_with(codes, &options.settings()?, &Reporter::new());
+    Ok(())
+}
+
+/// The same with these settings.
+pub(super) fn settle_with(codes: &[SelectedCode], settings: &Settings, progress: &dyn Progress) {
+    for (code, probed) in convention::settle(codes, settings, progress) {
         match probed {
             Ok(_) => tell_settled(code),
             Err(error) => tell!("{code}: its contact convention could not be measured: {error}"),
         }
     }
-    Ok(())
 }
 
 /// The same for one `code`, which is looked up where something is left out.

@@ -3,19 +3,16 @@
 use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
-use super::options::{
-    CodeOptions, Format, RunOptions, StackOptions, friction as friction_value, selected_codes,
-    tell_stand_ins,
-};
+use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
 use super::out::Out;
 use super::progress::Reporter;
+use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::{InvalidValue, Stack};
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
-use crate::study::yield_force::{Judgement, Measurement, Profile};
+use crate::study::yield_force::{Judgement, Measurement};
 use crate::study::{Campaign, Verdict};
 use clap::Args;
 use std::path::PathBuf;
@@ -32,30 +29,15 @@ use std::path::PathBuf;
     tristack crosscheck --mu 0.2,0.3 --stiffness 1e2 --kappa 0.6"
 )]
 pub(super) struct Arguments {
-    /// Set of stacks
-    #[arg(long, value_enum, default_value_t = Profile::Quick)]
-    profile: Profile,
-    /// Floor frictions of other stacks than those of the profile: numbers or the word `critical`, separated by commas
-    #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction_value, allow_negative_numbers = true, conflicts_with_all = ["profile", "explain"])]
-    mu: Vec<f64>,
-    /// Stiffnesses k_n r/(m g) of these stacks, separated by commas
-    #[arg(
-        long,
-        requires = "mu",
-        value_name = "S1,S2",
-        value_delimiter = ',',
-        allow_negative_numbers = true
-    )]
-    stiffness: Vec<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stacks: StackSet,
     #[command(flatten)]
     codes: CodeOptions,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile"])]
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile", "mu"])]
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
@@ -71,61 +53,55 @@ pub(super) struct Arguments {
 /// Runs the crosscheck, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if let Some(row) = &arguments.explain {
-        return explain(row, &arguments.stack, arguments.shortcuts, &arguments.run);
+        return explain(
+            row,
+            &arguments.stacks.others,
+            arguments.shortcuts,
+            &arguments.run,
+        );
     }
     let codes = selected_codes(&arguments.codes.named)?;
     settle(&codes, &arguments.run)?;
-    let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];
-    let layout = Layout::tables("crosscheck.json", &files);
-    let out = Out::claim(arguments.out.as_deref(), &layout)?;
-    let measurements = measurements(arguments, &codes)?;
+    let out = Out::claim(arguments.out.as_deref(), &layout())?;
+    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
+    let mut measurements = arguments.stacks.measurements(&names)?;
+    if arguments.shortcuts {
+        let shortened = measurements.into_iter().map(Measurement::shortened);
+        measurements = shortened.collect();
+    }
     let settings = arguments.run.settings()?;
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
-    let tables = [crosscheck(&judgements)];
-    let people = || crosscheck_text(&judgements);
-    let printed = arguments.format.print(&tables, command, people);
+    let written = publish(&judgements, &out, arguments.format, command);
+    let found = conclude(&judgements, planned, &codes);
+    Ok(found.max(written))
+}
+
+/// The files that [`publish`] writes.
+pub(super) fn layout() -> Layout {
+    let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];
+    Layout::tables("crosscheck.json", &files)
+}
+
+/// Prints the rows, and writes them if there is a directory.
+pub(super) fn publish(
+    judgements: &[Judgement],
+    out: &Out,
+    format: Format,
+    command: &str,
+) -> ExitStatus {
+    let tables = [crosscheck(judgements)];
+    let people = || crosscheck_text(judgements);
+    let printed = format.print(&tables, command, people);
     let written = out.write(|| {
         vec![
             ("crosscheck.csv", tables[0].csv()),
-            ("budget.csv", budget(&judgements).csv()),
+            ("budget.csv", budget(judgements).csv()),
             ("crosscheck.json", json(&tables, command)),
-            ("crosscheck.md", crosscheck_markdown(&judgements, command)),
+            ("crosscheck.md", crosscheck_markdown(judgements, command)),
         ]
     });
-    let found = conclude(&judgements, planned, &codes);
-    Ok(found.max(printed).max(written))
-}
-
-fn measurements(
-    arguments: &Arguments,
-    codes: &[SelectedCode],
-) -> Result<Vec<Measurement>, InvalidValue> {
-    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let measurements = arguments
-        .profile
-        .measurements_of(&stacks(arguments)?, &names);
-    let measurements = measurements.into_iter();
-    Ok(match arguments.shortcuts {
-        true => measurements.map(Measurement::shortened).collect(),
-        false => measurements.collect(),
-    })
-}
-
-/// The stacks of the profile, or those asked for.
-fn stacks(arguments: &Arguments) -> Result<Vec<Stack>, InvalidValue> {
-    let own = arguments.stiffness.iter().flat_map(|&stiffness| {
-        let frictions = arguments.mu.iter();
-        frictions.map(move |&mu| (mu, stiffness))
-    });
-    let profile = arguments.profile.stacks().into_iter();
-    let profile = profile.map(|stack| (stack.floor_friction, stack.stiffness));
-    let places: Vec<(f64, f64)> = match arguments.mu.is_empty() {
-        true => profile.collect(),
-        false => own.collect(),
-    };
-    let stack = |(mu, stiffness)| arguments.stack.stack(mu, stiffness);
-    places.into_iter().map(stack).collect()
+    printed.max(written)
 }
 
 /// Summarizes the rows on standard error, and returns the exit status.

@@ -90,6 +90,7 @@ fn layout() -> Layout {
         witness: "regimes.md",
         is_ours: |content| content.starts_with(REGIMES_TITLE.as_bytes()),
         files: files.map(str::to_owned).into(),
+        shared: false,
         scratch: None,
     }
 }

@@ -334,6 +334,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
         witness: CASE,
         is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
         files,
+        shared: false,
         scratch: Some(HOME),
     }
 }
@@ -344,6 +345,7 @@ fn vtk_layout() -> Layout {
         witness: VTK_COLLECTION,
         is_ours: is_vtk_collection,
         files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
+        shared: false,
         scratch: None,
     }
 }

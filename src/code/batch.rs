@@ -3,15 +3,11 @@
 use super::failure::{Failure, FailureKind};
 use super::installation::ExternalCode;
 use super::installed::{Finished, RunContext};
-use super::manifest::{ResultFile, TaskKind};
-use super::parameters::only_numbers;
+use super::manifest::ResultFile;
 use super::process::{Job, run};
 use super::task::Task;
-use super::written::{HOME, STANDARD_ERROR, STANDARD_OUTPUT};
-use crate::files::{
-    FileError, create_anew, locked_directory, read_end, remove_abandoned, remove_older,
-};
-use crate::model::readable;
+use super::written::{HOME, STANDARD_ERROR, STANDARD_OUTPUT, last_lines};
+use crate::files::{FileError, create_anew, locked_directory, remove_abandoned, remove_older};
 use std::ffi::OsString;
 use std::fs;
 use std::io::Write;
@@ -19,10 +15,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
-const LAST_LINES: usize = 4;
 /// The permissions of that home.
 const PRIVATE: u32 = 0o700;
-const TAIL_BYTES: u64 = 4096;
 
 /// Some tasks of one kind for one process.
 pub(crate) struct Batch<'a, T: Task> {
@@ -98,20 +92,12 @@ impl<'a, T: Task> Batch<'a, T> {
     fn prepare(&self) -> Result<(), FailureKind> {
         self.code.check_unchanged()?;
         for (index, task) in self.tasks.iter().enumerate() {
-            let name = self.code.name;
-            let accepted = match task.kind() {
-                TaskKind::Motion => name.check_declaration(task.convention()),
-                _ => name.check_convention(task.convention()),
-            };
+            let accepted = self.code.name.check_convention_of(task);
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let file = &self.code.definition.parameters;
-            let parameters = file.numbers(task);
-            only_numbers(&parameters).map_err(FailureKind::Unsupported)?;
-            let content = file.format.content(&parameters);
-            write(&directory.join(&file.file), content.as_bytes())?;
-            for (name, content) in task.files() {
+            let files = self.code.definition.files_of(task);
+            for (name, content) in files.map_err(FailureKind::Unsupported)? {
                 write(&directory.join(name), content.as_bytes())?;
             }
             // Files of an earlier run must not pass for results of this one.
@@ -207,7 +193,7 @@ impl<'a, T: Task> Batch<'a, T> {
             subject: self.tasks[index].to_string(),
             kind,
             run_directory: Some(self.task_directory(index)),
-            last_lines: self.last_lines(),
+            last_lines: last_lines(&self.directory, &self.code.program.logs),
         };
         self.report(index, Err(failure), report);
     }
@@ -221,16 +207,6 @@ impl<'a, T: Task> Batch<'a, T> {
         report(index, result);
         self.reported[index] = true;
         self.last_report = Instant::now();
-    }
-
-    fn last_lines(&self) -> Vec<String> {
-        let logs = self.code.program.logs.iter().map(String::as_str);
-        logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
-            .flat_map(|name| {
-                let lines = tail(&self.directory.join(name));
-                lines.into_iter().map(move |line| format!("{name}: {line}"))
-            })
-            .collect()
     }
 }
 
@@ -247,13 +223,4 @@ fn remove(path: &Path) -> Result<(), FailureKind> {
 
 fn is_regular(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
-}
-
-/// The last lines of a file that are not blank; bytes that are not text are replaced.
-fn tail(path: &Path) -> Vec<String> {
-    let bytes = read_end(path, TAIL_BYTES).unwrap_or_default();
-    let text = String::from_utf8_lossy(&bytes);
-    let lines = text.lines().filter(|line| !line.trim().is_empty());
-    let lines: Vec<String> = lines.map(readable).collect();
-    lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }

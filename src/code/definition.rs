@@ -152,6 +152,11 @@ impl Definition {
         result
     }
 
+    /// About how many seconds a task of `steps` steps takes.
+    pub(super) fn forecast(&self, steps: u64) -> f64 {
+        self.seconds.start + self.seconds.step * steps as f64
+    }
+
     /// Time after which a task of `steps` steps counts as hanging.
     pub(super) fn time_limit(&self, steps: u64) -> Duration {
         let at_least = |seconds: f64, least: Duration| (SAFETY * seconds).max(least.as_secs_f64());

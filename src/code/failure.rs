@@ -36,6 +36,15 @@ pub enum FailureKind {
     Interrupted,
     #[error("the series is not usable: {0}")]
     Series(#[from] SeriesError),
+    /// A run that is made elsewhere has no result yet.
+    #[error("{} is not there yet", shown(.0))]
+    Awaited(PathBuf),
+    /// A run that is made elsewhere has a part of a result, or one of something else than was planned.
+    #[error("{0}")]
+    NoResult(String),
+    /// A result that was made elsewhere is there, and is not what was asked for.
+    #[error("the result is not usable: {0}")]
+    UnusableFile(FileError),
 }
 
 /// A failed run.
@@ -72,6 +81,14 @@ impl Failure {
     /// Whether the run directory holds output that helps to find the cause.
     pub(crate) fn left_evidence(&self) -> bool {
         self.run_directory.is_some() && !self.is_interrupted()
+    }
+
+    /// Whether nothing has failed: a run that is made elsewhere has no result yet.
+    pub(crate) fn is_absence(&self) -> bool {
+        matches!(
+            self.kind,
+            FailureKind::Awaited(_) | FailureKind::NoResult(_)
+        )
     }
 
     /// Whether an interrupt is the only cause.

@@ -33,9 +33,8 @@ pub(crate) struct ExternalCode {
 }
 
 impl ExternalCode {
-    /// The code `name` with the program `word`, looked for in the directories of the manifest and in the search path. The
-    /// package manager or the program itself
-    /// is asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
+    /// The code `name` with the program `word`, looked for where the manifest says. The package manager or the program itself is
+    /// asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
     /// broken: its runs would be kept under a wrong name.
     pub fn find(name: Code, word: &str) -> Option<Box<dyn InstalledCode>> {
         let program = name.definition().program.as_ref()?;

@@ -72,6 +72,11 @@ pub trait InstalledCode: Send + Sync {
         None
     }
 
+    /// Whether its results are files that were made elsewhere.
+    fn reads_files(&self) -> bool {
+        false
+    }
+
     /// What the identity covers and what it does not, in prose.
     fn coverage(&self) -> String {
         "the sources of this program".to_owned()

@@ -156,8 +156,9 @@ pub(super) type Environment = BTreeMap<String, String>;
 pub(super) struct Program {
     /// Words with placeholders, never a line for a shell.
     pub(super) command: Vec<String>,
-    /// Directories in which the first word is looked for before the search path: `{folder}` is the folder of the
-    /// manifest, `$NAME` an environment variable; a directory with one that is not set is left out.
+    /// Directories in which the first word is looked for: `{folder}` is the folder of the manifest, `$NAME` an environment
+    /// variable; a directory with one that is not set is left out. The search path is one of them only as `$PATH`, or if
+    /// there are none.
     #[serde(default)]
     pub(super) search: Vec<Spanned<String>>,
     /// A build of the program that computes with more digits.

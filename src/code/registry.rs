@@ -4,11 +4,13 @@ use super::convention::{Declaration, Settled};
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
+use super::search_path::SEARCH_PATH;
 use crate::model::{ContactConvention, InvalidValue, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 #[derive(Default)]
 struct Registry {
@@ -74,7 +76,7 @@ impl Code {
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
-    pub(crate) fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
+    pub fn in_folder(folder: &Path, name: Option<&str>) -> Result<Self, ManifestError> {
         let codes = Self::all_in_folder(folder)?;
         let wanted = |code: &&Code| match name {
             Some(name) => code.as_str() == name,
@@ -280,6 +282,24 @@ impl Code {
         self.definition().seconds.step
     }
 
+    /// Time after which a run of `steps` steps counts as hanging.
+    pub(crate) fn time_limit(self, steps: u64) -> Duration {
+        self.definition().time_limit(steps)
+    }
+
+    /// The folder that it was read from; `None` for the built-in codes.
+    pub(crate) fn folder(self) -> Option<PathBuf> {
+        let registry = registry();
+        let mut folders = registry.folders.iter();
+        let own = folders.find(|(_, codes)| codes.contains(&self));
+        own.map(|(folder, _)| folder.clone())
+    }
+
+    /// Whether an external program computes.
+    pub(crate) fn has_program(self) -> bool {
+        self.definition().program.is_some()
+    }
+
     /// Instructions for installing it; without any, where its program is looked for.
     pub(crate) fn installation_hint(self) -> String {
         let definition = self.definition();
@@ -296,9 +316,15 @@ impl Code {
     pub(crate) fn places(self) -> String {
         let program = self.definition().program.iter();
         let directories = program.flat_map(|program| &program.search);
-        let mut places: Vec<&str> = directories.map(|place| place.get_ref().as_str()).collect();
-        places.push("the search path");
-        format!("in {}", places.join(" or "))
+        let places = directories.map(|place| match place.get_ref().as_str() {
+            SEARCH_PATH => "the search path",
+            directory => directory,
+        });
+        let places: Vec<&str> = places.collect();
+        match places.as_slice() {
+            [] => "in the search path".to_owned(),
+            places => format!("in {}", places.join(" or ")),
+        }
     }
 }
 

@@ -8,20 +8,31 @@ use std::path::{Component, Path, PathBuf};
 /// In a manifest: the folder of the manifest.
 pub(super) const FOLDER: &str = "{folder}";
 
+/// In a manifest: the search path, in place of a directory.
+pub(super) const SEARCH_PATH: &str = "$PATH";
+
 /// The program of this name in the search path.
 pub(super) fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).find_map(|directory| in_directory(&directory, program))
 }
 
-/// The program of this name in one of `directories`, which a manifest names, or in the search path.
+/// The program of this name in one of `directories`, which a manifest names; in the search path if it names none.
+///
+/// Another program of the same name may be in the search path, whose runs would be kept under a wrong name: the search
+/// path is one of the directories only as `$PATH`.
 pub(super) fn find_program<'a>(
     directories: impl IntoIterator<Item = &'a str>,
     program: &str,
 ) -> Option<PathBuf> {
-    let mut directories = directories.into_iter().filter_map(filled_in);
-    let found = directories.find_map(|directory| in_directory(&directory, program));
-    found.or_else(|| in_search_path(program))
+    let mut directories = directories.into_iter().peekable();
+    if directories.peek().is_none() {
+        return in_search_path(program);
+    }
+    directories.find_map(|directory| match directory {
+        SEARCH_PATH => in_search_path(program),
+        _ => in_directory(&filled_in(directory)?, program),
+    })
 }
 
 fn in_directory(directory: &Path, program: &str) -> Option<PathBuf> {
@@ -57,7 +68,7 @@ pub(super) fn check_directory(directory: &str) -> Result<(), InvalidValue> {
     if is_definite && !rest.unwrap_or(directory).contains(['{', '}']) {
         return Ok(());
     }
-    let accepted = "a directory that begins with `/`, `{folder}` or an environment variable such as `$VIRTUAL_ENV`";
+    let accepted = "a directory that begins with `/`, `{folder}` or an environment variable such as `$VIRTUAL_ENV`, or `$PATH`";
     Err(refused("program.search", directory, accepted))
 }
 

@@ -3,7 +3,7 @@
 use super::format::pyramid_in_log;
 use super::full_parameters;
 use super::manifest::{Definition, ParameterContent, ParameterFile, ResultFile, TaskKind};
-use super::parameters;
+use super::parameters::{self, only_numbers};
 use super::registry::Code;
 use super::written::{STANDARD_ERROR, STANDARD_OUTPUT, read};
 use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
@@ -152,6 +152,25 @@ impl Task for Pyramid {
     }
 }
 
+impl Definition {
+    /// The files of `task` alone, by name and content: its parameters, and what else it needs. The decks, which other
+    /// tasks share, are [`Self::files`].
+    ///
+    /// # Errors
+    /// If a parameter is not a finite number.
+    pub(super) fn files_of<T: Task>(
+        &self,
+        task: &T,
+    ) -> Result<Vec<(String, String)>, InvalidValue> {
+        let (file, parameters) = (&self.parameters, self.parameters.numbers(task));
+        only_numbers(&parameters)?;
+        let mut files = vec![(file.file.clone(), file.format.content(&parameters))];
+        let further = task.files().into_iter();
+        files.extend(further.map(|(name, content)| (name.to_owned(), content)));
+        Ok(files)
+    }
+}
+
 impl ParameterFile {
     /// The parameters of `task` as this file has them.
     pub(super) fn numbers(&self, task: &impl Task) -> serde_json::Value {
@@ -163,6 +182,15 @@ impl ParameterFile {
 }
 
 impl Code {
+    /// Refuses a task under another convention than that of the code. Micro-tests are asked for under the declaration,
+    /// whatever they have shown.
+    pub(super) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
+        match task.kind() {
+            TaskKind::Motion => self.check_declaration(task.convention()),
+            _ => self.check_convention(task.convention()),
+        }
+    }
+
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
     pub(crate) fn run_files<T: Task>(self, task: &T) -> Vec<String> {
         let definition = self.definition();

@@ -1,6 +1,7 @@
 //! Files that a program wrote into its run directory: reading results, keeping the files of failed runs.
 
-use crate::files::{Links, open_regular, read_bounded};
+use crate::files::{Links, open_regular, read_bounded, read_end};
+use crate::model::readable;
 use crate::series::SeriesError;
 use std::fs::{self, File};
 use std::os::unix::fs::MetadataExt;
@@ -12,6 +13,8 @@ pub(crate) const HOME: &str = ".home-";
 // Files that receive the output of a program.
 pub(super) const STANDARD_OUTPUT: &str = "stdout.txt";
 pub(super) const STANDARD_ERROR: &str = "stderr.txt";
+const LAST_LINES: usize = 4;
+const TAIL_BYTES: u64 = 4096;
 /// Two thousand times the longest recorded series.
 const LONGEST_READ: u64 = 256 << 20;
 /// Files of failed runs, of which there may be hundreds, are cut to this length.
@@ -21,6 +24,26 @@ const LONGEST_KEPT: u64 = 4 << 20;
 pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
     let content = read_bounded(&directory.join(name), LONGEST_READ, Links::Refused);
     content.map_err(|error| SeriesError::absent(format!("cannot read {name}: {error}")))
+}
+
+/// The end of the `logs` in `directory`, and of the output of the program, each line with the name of its file.
+pub(super) fn last_lines(directory: &Path, logs: &[String]) -> Vec<String> {
+    let logs = logs.iter().map(String::as_str);
+    logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
+        .flat_map(|name| {
+            let lines = tail(&directory.join(name));
+            lines.into_iter().map(move |line| format!("{name}: {line}"))
+        })
+        .collect()
+}
+
+/// The last lines of a file that are not blank; bytes that are not text are replaced.
+fn tail(path: &Path) -> Vec<String> {
+    let bytes = read_end(path, TAIL_BYTES).unwrap_or_default();
+    let text = String::from_utf8_lossy(&bytes);
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let lines: Vec<String> = lines.map(readable).collect();
+    lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }
 
 /// Keeps the directory of a failed run, with the beginning of every long file that is nowhere else.

@@ -22,6 +22,9 @@ pub(crate) struct Layout {
     pub(crate) is_ours: fn(&[u8]) -> bool,
     /// The other files, as paths in the directory; one `*` in a name stands for letters, digits, `-`, `_` and `.`.
     pub(crate) files: Vec<String>,
+    /// Whether others may put what they like into the directory once the witness is there. Nothing is replaced then but
+    /// the files of the layout.
+    pub(crate) shared: bool,
     /// The beginning of the name of temporary directories, which a killed program leaves behind.
     pub(crate) scratch: Option<&'static str>,
 }
@@ -33,6 +36,7 @@ impl Layout {
             witness,
             is_ours: is_table,
             files: files.iter().map(|&name| name.to_owned()).collect(),
+            shared: false,
             scratch: None,
         }
     }
@@ -43,11 +47,12 @@ impl Layout {
     /// If the directory holds anything else, or cannot be written to.
     pub(crate) fn claim(&self, directory: &Path) -> Result<(), FileError> {
         fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
-        let results = self.results(directory)?;
-        if let Some((path, kind)) = results.first()
-            && !self.has_witness(directory)
-        {
-            return Err(self.foreign(directory, path, *kind));
+        let known = self.has_witness(directory);
+        if !(known && self.shared) {
+            let results = self.results(directory)?;
+            if let Some((path, kind)) = results.first().filter(|_| !known) {
+                return Err(self.foreign(directory, path, *kind));
+            }
         }
         tempfile::tempfile_in(directory).map_err(FileError::writing(directory))?;
         Ok(())
@@ -171,6 +176,7 @@ mod tests {
             witness: "table.json",
             is_ours: is_table,
             files: vec!["table.csv".to_owned(), "figures/*.svg".to_owned()],
+            shared: false,
             scratch: Some(".home-"),
         }
     }
@@ -256,6 +262,21 @@ mod tests {
                 "{refusal}"
             );
         }
+    }
+
+    #[test]
+    fn a_shared_directory_may_hold_anything_once_its_witness_is_there() {
+        let shared = Layout {
+            shared: true,
+            ..layout()
+        };
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("notes.md"), "mine").unwrap();
+        let refusal = shared.claim(root.path()).unwrap_err().to_string();
+        assert!(refusal.contains("`notes.md`, which"), "{refusal}");
+        fs::write(root.path().join("table.json"), WITNESS).unwrap();
+        shared.claim(root.path()).unwrap();
+        assert!(layout().claim(root.path()).is_err());
     }
 
     #[test]

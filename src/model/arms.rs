@@ -4,6 +4,9 @@ use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// Smallest and largest arm coefficient.
+pub(crate) const ARM_RANGE: [f64; 2] = [-1.0, 1.0];
+
 /// Arm coefficients r₁ of one kind of contact: an arm is R = r + r₁ δ at the overlap δ.
 ///
 /// In a reciprocal law both are equal: what the contact force does on the turning cylinders is then what its
@@ -46,8 +49,9 @@ impl ContactArms {
     }
 
     fn validate(&self, key: &str) -> Result<(), InvalidValue> {
-        within(&format!("{key}.torque_arm"), self.torque, -1.0, 1.0)?;
-        within(&format!("{key}.kinematic_arm"), self.kinematic, -1.0, 1.0)
+        let [least, most] = ARM_RANGE;
+        within(&format!("{key}.torque_arm"), self.torque, least, most)?;
+        within(&format!("{key}.kinematic_arm"), self.kinematic, least, most)
     }
 }
 

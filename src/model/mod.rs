@@ -18,6 +18,7 @@ mod side_walls;
 mod stack;
 mod validity;
 
+pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
 pub use contact_test::{ContactTest, InitialMotion};
@@ -33,7 +34,7 @@ pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;
 pub use shortcuts::Shortcuts;
 pub use shown::shown;
-pub(crate) use shown::{readable, readable_lines};
+pub(crate) use shown::{readable, readable_lines, shell_quoted};
 pub use side_walls::{SideWallSteps, SideWalls};
 pub(crate) use stack::PAPER_CYLINDER_FRICTION;
 pub use stack::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};

@@ -35,6 +35,16 @@ pub(crate) fn readable_lines(text: &str) -> String {
     lines.join("\n")
 }
 
+/// `word`, quoted for a shell where necessary.
+pub(crate) fn shell_quoted(word: &str) -> String {
+    let plain = |char: char| char.is_ascii_alphanumeric() || "-_=.,:/+@%".contains(char);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
 fn is_shown(char: char) -> bool {
     let hidden = matches!(char,
         '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'

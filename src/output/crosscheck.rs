@@ -3,7 +3,7 @@
 use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
-use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
+use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source};
 
 const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the \
                           paper's, relative to F + 3";
@@ -133,10 +133,9 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page += "\n";
     page += &crosscheck(judgements).shown().markdown();
     page += "\n## Error budget\n\nThe parts of the numerical uncertainty in m g (ASME V&V 20), whose sum is ±, and \
-             the order with which the runs converge in the wall speed. How each part is computed, and all \
-             runs behind a row: `";
-    page += explaining(judgements);
-    page += "`.\n\n";
+             the order with which the runs converge in the wall speed.";
+    page += &explaining(judgements);
+    page += "\n\n";
     page += &budget(judgements).shown().markdown();
     page += &evidence();
     let noted = judgements.iter().filter(|row| !row.notes().is_empty());
@@ -147,13 +146,20 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page + &remarks
 }
 
-/// The command that explains one of the rows, from the same runs.
-fn explaining(judgements: &[Judgement]) -> &'static str {
-    let mut cases = judgements.iter().flat_map(|row| &row.study.cases);
-    match cases.any(|case| case.protocol.shortcuts.is_some()) {
-        true => "tristack crosscheck --shortcuts --explain CODE/MU/STIFFNESS",
-        false => "tristack crosscheck --explain CODE/MU/STIFFNESS",
+/// The command that explains one of the rows, from the same runs, which can be made here.
+fn explaining(judgements: &[Judgement]) -> String {
+    if judgements.iter().any(|row| row.source == Source::Files) {
+        return String::new();
     }
+    let mut cases = judgements.iter().flat_map(|row| &row.study.cases);
+    let shortcuts = match cases.any(|case| case.protocol.shortcuts.is_some()) {
+        true => " --shortcuts",
+        false => "",
+    };
+    format!(
+        " How each part is computed, and all runs behind a row: `tristack crosscheck{shortcuts} --explain \
+         CODE/MU/STIFFNESS`."
+    )
 }
 
 fn remark(row: &Judgement) -> String {

@@ -3,8 +3,9 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, largest_forces,
-    measured_convention, probe, pyramids, regimes, scaling, simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series,
+    largest_forces, measured_convention, planned_runs, probe, pyramids, regimes, scaling,
+    simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
@@ -55,7 +56,9 @@ pub fn formats_page() -> String {
         scaling(&[]),
         pyramids(&[]),
         inventory(&[]),
+        planned_runs(&[], &[]),
     ];
+    tables.extend(judged_series(None));
     tables.extend(declared_tables());
     let described = tables
         .iter()

@@ -10,9 +10,12 @@ mod inventory;
 mod number;
 mod page;
 mod passport;
+mod plan;
 mod probe;
 mod regimes;
+mod series;
 mod simulation;
+mod start_list;
 mod table;
 mod theory;
 mod trajectory;
@@ -33,11 +36,14 @@ pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
 pub(crate) use passport::{arm_effects, measured_convention, passport_json, passport_markdown};
+pub(crate) use plan::planned_runs;
 pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,
 };
+pub(crate) use series::{judged_series, judged_series_text};
 pub(crate) use simulation::simulations;
+pub(crate) use start_list::{parallel_list, slurm_array, start_list};
 pub(crate) use table::json;
 pub(crate) use theory::{theories_by_stack, theory};
 pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};

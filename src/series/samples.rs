@@ -108,6 +108,9 @@ fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
     ends.is_some() && fine.next().is_none()
 }
 
+/// Most rows of a series that nobody has planned: as many as a plan may have.
+const MOST_UNPLANNED_ROWS: usize = 1_000_000;
+
 /// A checked time series of one compression.
 #[derive(Debug, Clone)]
 pub struct Series {
@@ -188,6 +191,31 @@ impl Series {
         let limit = planned_rows(&protocol.schedule()).saturating_add(1);
         let (samples, absent) = csv_rows(input, sources, limit)?;
         Self::without(absent, samples, protocol)
+    }
+
+    /// Reads a series that nobody has planned, with its time step: finite numbers, steps that rise, and times that are
+    /// multiples of one time step.
+    pub fn read_unplanned(input: impl Read) -> Result<(Self, f64), SeriesError> {
+        let (samples, absent): (Vec<Sample>, _) =
+            csv_rows(input, &ColumnSources::new(), MOST_UNPLANNED_ROWS)?;
+        let last = samples.last().filter(|last| last.step > 0);
+        let last = last.ok_or_else(|| SeriesError::absent("it has no row after step 0"))?;
+        let time_step = last.time / last.step as f64;
+        if !(time_step > 0.0) {
+            let message = format!("`time` is {}, but must rise from 0", last.time);
+            return Err(SeriesError::garbled(samples.len(), message));
+        }
+        let mut before = None;
+        for (row, sample) in (1..).zip(&samples) {
+            check_finite(row, sample, &absent)?;
+            if before.is_some_and(|before| sample.step <= before) {
+                let message = format!("step {} does not come after the one before", sample.step);
+                return Err(SeriesError::garbled(row, message));
+            }
+            before = Some(sample.step);
+            check_time(row, sample, time_step)?;
+        }
+        Ok((Self { samples, absent }, time_step))
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.

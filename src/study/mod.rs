@@ -5,6 +5,7 @@
 
 pub mod convention;
 pub mod cost;
+mod elsewhere;
 mod mechanics;
 mod pipeline;
 pub mod preparation;
@@ -14,6 +15,8 @@ pub mod trajectory;
 mod verdict;
 pub mod yield_force;
 
+pub use elsewhere::Plan;
+pub(crate) use elsewhere::{PLAN, PlannedRow};
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
 pub(crate) use verdict::Ground;

@@ -42,7 +42,7 @@ pub struct Evaluation<F> {
     pub grounds: Grounds,
 }
 
-/// Whether the numbers of a row were computed now or read from a recorded run.
+/// Whether the numbers of a row were computed now, or read from a recorded run or from files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
@@ -50,14 +50,26 @@ pub enum Source {
     Live,
     /// Read from the recorded runs, because the code is not installed.
     Recorded,
+    /// Read from files that were made elsewhere after a plan.
+    Files,
 }
 
 impl Source {
+    /// The source of the runs of a code, which may be `installed`.
+    fn of(installed: Option<&dyn InstalledCode>) -> Self {
+        match installed {
+            None => Self::Recorded,
+            Some(code) if code.reads_files() => Self::Files,
+            Some(_) => Self::Live,
+        }
+    }
+
     /// The word in tables.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Live => "live",
             Self::Recorded => "recorded",
+            Self::Files => "files",
         }
     }
 }
@@ -71,7 +83,7 @@ pub struct Judged<S, F> {
     pub code: Code,
     /// Its version.
     pub version: String,
-    /// Whether its runs are live or recorded.
+    /// Where its runs come from.
     pub source: Source,
     /// Whether the probe has measured its torque arms and found them as declared.
     pub arms_are_measured: bool,
@@ -211,7 +223,7 @@ impl<'a> Campaign<'a> {
         let identities = identities(results.first());
         let mut judged = Judged {
             version: versions(&identities, installed),
-            source: installed.map_or(Source::Recorded, |_| Source::Live),
+            source: Source::of(installed),
             arms_are_measured: probed.is_some_and(arms_are_measured),
             study,
             code,
@@ -274,7 +286,7 @@ fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Gr
         let note = error.to_string();
         grounds.add(match error {
             RunError::Failed(_) => Ground::Failed(note),
-            RunError::Missing(_) => Ground::Missing(note),
+            RunError::Missing(_) | RunError::Absent(_) => Ground::Missing(note),
         });
     }
     let complete = results.into_iter().map(|own| own.into_iter().collect());

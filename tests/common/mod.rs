@@ -97,6 +97,34 @@ impl Bench {
     }
 }
 
+/// The top of the project.
+pub fn project() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// What TRISTACK_REQUIRE_ENGINES names, separated by commas: codes, and folders of the project, which have a `/`.
+fn required() -> Vec<String> {
+    let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
+    let names = required.split(',').filter(|name| !name.is_empty());
+    names.map(str::to_owned).collect()
+}
+
+/// The folders that TRISTACK_REQUIRE_ENGINES names.
+pub fn required_folders() -> Vec<String> {
+    let names = required().into_iter();
+    names.filter(|name| name.contains('/')).collect()
+}
+
+/// The code of a folder of the project, `FOLDER` or `FOLDER:NAME`, if it is installed. It becomes one of all codes.
+pub fn installed_in_folder(folder: &str) -> Option<Code> {
+    let (path, name) = match folder.split_once(':') {
+        Some((path, name)) => (path, Some(name)),
+        None => (folder, None),
+    };
+    let code = Code::in_folder(&project().join(path), name);
+    Some(code.expect("a folder in order")).filter(|code| code.find().is_some())
+}
+
 /// A copy, in `place`, of the folder `original` of the project, with what `change` makes of its manifest.
 pub fn code_folder(original: &str, place: &Path, change: impl FnOnce(String) -> String) -> PathBuf {
     fs::create_dir(place).expect("a directory");
@@ -114,8 +142,7 @@ pub fn code_folder(original: &str, place: &Path, change: impl FnOnce(String) -> 
 
 /// Those of `codes` that are installed; fails if one that TRISTACK_REQUIRE_ENGINES names is not.
 pub fn installed(codes: &[Code]) -> Vec<Code> {
-    let required = std::env::var("TRISTACK_REQUIRE_ENGINES").unwrap_or_default();
-    for name in required.split(',').filter(|name| !name.is_empty()) {
+    for name in required().iter().filter(|name| !name.contains('/')) {
         let code = Code::named(name).expect("TRISTACK_REQUIRE_ENGINES names codes");
         assert!(
             code.find().is_some(),

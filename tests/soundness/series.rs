@@ -15,9 +15,10 @@ pub fn check(data: &[u8]) {
     let Some((&kind, text)) = data.split_first() else {
         return;
     };
-    match kind % 3 {
+    match kind % 4 {
         0 => check_series(text, &short_case()),
         1 => check_series(text, &case_with_shortcuts()),
+        3 => check_unplanned(text),
         _ => check_motion(text),
     }
 }
@@ -32,6 +33,20 @@ fn check_series(text: &[u8], case: &Case) {
             if text.len().is_multiple_of(16) {
                 can_be_drawn(&series, case);
             }
+        }
+        Err(refusal) => assert!(!refusal.to_string().is_empty()),
+    }
+}
+
+/// An accepted series has a time step, and can be read.
+fn check_unplanned(text: &[u8]) {
+    match Series::read_unplanned(text) {
+        Ok((series, time_step)) => {
+            assert!(time_step > 0.0);
+            let rows = series.samples();
+            assert!(rows.is_sorted_by(|one, other| one.step < other.step));
+            assert!(rows.iter().all(|row| row.wall_force.is_finite()));
+            YieldEstimates::read(&series, &short_case());
         }
         Err(refusal) => assert!(!refusal.to_string().is_empty()),
     }
@@ -96,6 +111,7 @@ pub fn seeds() -> Vec<Seed> {
             marked(1, series(&case_with_shortcuts())),
         ),
         ("motion".to_owned(), marked(2, motion_csv())),
+        ("unplanned".to_owned(), marked(3, series(&short_case()))),
         ("forces".to_owned(), marked(0, forces_alone())),
     ]
 }

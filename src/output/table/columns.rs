@@ -249,8 +249,8 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The source of the runs of a row, which is hidden from people until `shown` is called.
     pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
-        let meaning =
-            "`live` if it ran on this machine, `recorded` if recorded runs stand in for it";
+        let meaning = "`live` if it ran on this machine, `recorded` if recorded runs stand in for it, `files` if its results were \
+             made elsewhere after a plan";
         self.text("source", move |row| source(row).as_str())
             .means(meaning)
     }

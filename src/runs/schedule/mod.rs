@@ -62,6 +62,9 @@ pub enum RunError {
     /// The code is not installed, and no recorded run stands in.
     #[error(transparent)]
     Missing(Arc<RecordedError>),
+    /// The run is made elsewhere, and has no result yet.
+    #[error("{}", .0.kind)]
+    Absent(Arc<Failure>),
 }
 
 impl RunError {
@@ -73,7 +76,10 @@ impl RunError {
 
 impl From<Failure> for RunError {
     fn from(failure: Failure) -> Self {
-        Self::Failed(Arc::new(failure))
+        match failure.is_absence() {
+            true => Self::Absent(Arc::new(failure)),
+            false => Self::Failed(Arc::new(failure)),
+        }
     }
 }
 

@@ -112,7 +112,10 @@ fn is_current(record: &ProbeRecord, name: Code) -> bool {
 }
 
 /// Asks `code`, each round in a directory of its own.
-fn ask(code: &dyn InstalledCode, context: &RunContext) -> Result<ProbeRecord, Box<Failure>> {
+pub(super) fn ask(
+    code: &dyn InstalledCode,
+    context: &RunContext,
+) -> Result<ProbeRecord, Box<Failure>> {
     let start = Instant::now();
     let name = code.name();
     let mut answers: Vec<Answer> = Vec::new();

@@ -29,5 +29,7 @@ pub(crate) use measured::{
     arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
+pub(crate) use probe::ROUNDS;
 pub use probe::probe;
+pub(crate) use settle::settle_by_files;
 pub use settle::{settle, settle_by};

@@ -11,8 +11,12 @@ use crate::series::Motion;
 
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
-/// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it is called twice, because the speed
-/// at which a contact reaches the slip threshold has to be measured first.
+/// How often micro-tests are carried out: the speed at which a contact reaches the slip threshold has to be measured
+/// first.
+pub const ROUNDS: usize = 2;
+
+/// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it
+/// is called [`ROUNDS`] times.
 ///
 /// # Errors
 /// Those of `run`.

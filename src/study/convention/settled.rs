@@ -4,6 +4,7 @@ use super::finding::{Property, TOLERANCE};
 use super::properties::{HISTORY_UPDATES, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
 use super::regression::Measured;
 use crate::code::{ConventionKey, Declaration, Settled};
+use crate::model::ARM_RANGE;
 
 /// Finest decimal that a measured number keeps. Rounding by half of it moves the yield force by less than a hundredth of
 /// the least tolerance.
@@ -53,7 +54,7 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
             found.lag_uncertainty = measured.uncertainty;
         }
         _ => {
-            let Measured { value, uncertainty } = number(properties)?;
+            let Measured { value, uncertainty } = in_range(number(properties)?, ARM_RANGE);
             key.set_arm(&mut convention.arms, value);
             key.set_arm(&mut found.arm_uncertainty, uncertainty);
         }
@@ -90,6 +91,16 @@ fn rounded(measured: Measured) -> Measured {
     // Adding zero turns -0 into 0.
     let value = text.parse().unwrap_or(measured.value) + 0.0;
     Measured::new(value, measured.uncertainty + (value - measured.value).abs())
+}
+
+/// `measured`, or the end of a range that it leaves by no more than its uncertainty.
+fn in_range(measured: Measured, [least, most]: [f64; 2]) -> Measured {
+    let end = measured.value.clamp(least, most);
+    let beyond = (measured.value - end).abs();
+    match beyond <= measured.uncertainty {
+        true => Measured::new(end, measured.uncertainty + beyond),
+        false => measured,
+    }
 }
 
 /// The only one of `alternatives` that `properties` are consistent with.
@@ -196,6 +207,18 @@ mod tests {
             why,
             "floor_kinematic_arm is -0.250000, and floor_damping_arm is 0.000000"
         );
+    }
+
+    #[test]
+    fn an_arm_beyond_its_range_by_its_uncertainty_is_the_end_of_the_range() {
+        let settled_at = |value: f64| {
+            let measured = [property("floor_torque_arm", value, 4e-7)];
+            settled_by(ConventionKey::FloorTorqueArm, &measured)
+        };
+        let found = settled_at(-1.000_000_3);
+        assert_eq!(found.convention.arms.floor.torque, -1.0);
+        assert!(found.arm_uncertainty.floor.torque > 4e-7);
+        assert_eq!(settled_at(-1.000_001).unknown.len(), 1);
     }
 
     #[test]

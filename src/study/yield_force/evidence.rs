@@ -11,18 +11,26 @@ pub enum Evidence {
     ClosedForm,
     /// An independent code, its convention measured here, against the limit under that convention.
     IndependentCode,
+    /// Files that were made elsewhere after a plan, against the same limit.
+    ResultFiles,
     /// A run recorded elsewhere, by an independent code, against the same limit.
     RecordedRun,
 }
 
 impl Evidence {
     /// All kinds, strongest first.
-    pub const ALL: [Self; 3] = [Self::ClosedForm, Self::IndependentCode, Self::RecordedRun];
+    pub const ALL: [Self; 4] = [
+        Self::ClosedForm,
+        Self::IndependentCode,
+        Self::ResultFiles,
+        Self::RecordedRun,
+    ];
 
     /// The evidence of a row.
     pub fn of(judgement: &Judgement) -> Self {
         match (judgement.source, judgement.code) {
             (Source::Recorded, _) => Self::RecordedRun,
+            (Source::Files, _) => Self::ResultFiles,
             (Source::Live, Code::NATIVE) => Self::ClosedForm,
             (Source::Live, _) => Self::IndependentCode,
         }
@@ -33,6 +41,7 @@ impl Evidence {
         match self {
             Self::ClosedForm => "closed form",
             Self::IndependentCode => "independent code",
+            Self::ResultFiles => "result files",
             Self::RecordedRun => "recorded run",
         }
     }
@@ -47,6 +56,10 @@ impl Evidence {
             Self::IndependentCode => {
                 "that the code is right in other contact laws, in three dimensions, for many bodies or away \
                  from the quasi-static limit, or that its convention is the physical one"
+            }
+            Self::ResultFiles => {
+                "more than a run of an independent code, nor that the files were made by the program and the \
+                 version that they are said to be of: nobody here has seen it run"
             }
             Self::RecordedRun => {
                 "that the code on your machine gives the same: it only shows that nothing on our side has \

@@ -1,110 +1,9 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
-use super::runs::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, PLAIN_RUNS, SHORT_RAMP_RUN, SPEEDS};
+use super::budget::Budget;
+use super::runs::{MIDDLE_RUN, PLAIN_RUNS, RunRoles, SPEEDS};
 use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
-
-/// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Budget {
-    /// Distance between the extrapolations of second and first order in the wall speed.
-    pub wall_speed: f64,
-    /// Change of the middle run with the time step doubled: the error of the single step if it is of first
-    /// order, three times that if it is of second.
-    pub time_step: f64,
-    /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
-    /// state by an amount inversely proportional to its duration, so that this is the shift itself.
-    pub preparation: f64,
-    /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
-    pub sampling: f64,
-    /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
-    /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
-    /// times less (tests/round_off.rs).
-    pub round_off: f64,
-    /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth, unless the
-    /// series has fewer.
-    pub print_precision: f64,
-    /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
-    /// Their error is mostly linear in the wall speed, and vanishes with it.
-    pub shortcuts: f64,
-    /// Change of the exact limit within the uncertainty of arms that were measured; absent where all are declared.
-    pub convention: Option<f64>,
-}
-
-/// One part of a [`Budget`], as tables and explanations give it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BudgetPart {
-    /// Name of its column in files.
-    pub name: &'static str,
-    /// Name in explanations.
-    pub heading: &'static str,
-    /// Its formula, in words.
-    pub how: &'static str,
-    /// Its value in m g; absent where it does not apply.
-    pub value: fn(&Budget) -> Option<f64>,
-}
-
-impl Budget {
-    /// The parts, in order; the uncertainty is their sum.
-    pub(crate) const PARTS: [BudgetPart; 8] = [
-        BudgetPart {
-            name: "wall_speed",
-            heading: "wall speed",
-            how: "parabola minus straight line",
-            value: |budget| Some(budget.wall_speed),
-        },
-        BudgetPart {
-            name: "time_step",
-            heading: "time step",
-            how: "run 4 minus run 2 (time step doubled)",
-            value: |budget| Some(budget.time_step),
-        },
-        BudgetPart {
-            name: "preparation",
-            heading: "preparation",
-            how: "run 5 minus run 2 (gravity ramp halved)",
-            value: |budget| Some(budget.preparation),
-        },
-        BudgetPart {
-            name: "sampling",
-            heading: "sampling",
-            how: "distance between interpolations, weighted",
-            value: |budget| Some(budget.sampling),
-        },
-        BudgetPart {
-            name: "round_off",
-            heading: "round-off",
-            how: "random walk of rounding, amplified, weighted",
-            value: |budget| Some(budget.round_off),
-        },
-        BudgetPart {
-            name: "print_precision",
-            heading: "print precision",
-            how: "half a unit of the last digit printed, amplified, weighted",
-            value: |budget| Some(budget.print_precision),
-        },
-        BudgetPart {
-            name: "shortcuts",
-            heading: "shortcuts",
-            how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
-            value: |budget| Some(budget.shortcuts),
-        },
-        BudgetPart {
-            name: "convention",
-            heading: "convention",
-            how: "slopes of the limit times the uncertainty of measured arms, if any",
-            value: |budget| budget.convention,
-        },
-    ];
-
-    /// The expanded uncertainty: the sum of the parts, which is never below their root sum of squares, by which V&V 20
-    /// combines independent parts.
-    pub fn total(&self) -> f64 {
-        Self::PARTS
-            .iter()
-            .filter_map(|part| (part.value)(self))
-            .sum()
-    }
-}
+use crate::theory::bracketed_root;
 
 /// A yield force at vanishing wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,10 +31,10 @@ impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
     pub(crate) const EXPECTED: f64 = 1.0;
 
-    /// The order of forces at three speeds, each half the one before, known up to `noise`. The term of second order
-    /// is smaller than that of first by about the speed itself, at most 2e-3 in units of the displacement;
-    /// that moves the order by less than 0.01. Five times as much is allowed.
-    fn of(forces: &[f64], noise: f64) -> Self {
+    /// The order of forces at three `speeds` in units of the displacement, known up to `noise`. The term of second order
+    /// is smaller than that of first by about the speed itself; at the planned speeds, at most 2e-3, that moves the order
+    /// by less than 0.01. Five times as much is allowed, and in proportion at faster ones.
+    fn of(speeds: &[f64; 3], forces: &[f64], noise: f64) -> Self {
         const CURVATURE: f64 = 0.05;
         let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
         let smallest = differences[0].min(differences[1]);
@@ -146,9 +45,10 @@ impl ConvergenceOrder {
             };
         }
         let relative_noise = 2.0 * noise / smallest;
+        let curvature = CURVATURE * (speeds[0] / SPEEDS[0]).max(1.0);
         Self {
-            observed: Some(libm::log2(differences[0] / differences[1])),
-            allowance: CURVATURE + 2.0 * relative_noise / std::f64::consts::LN_2,
+            observed: order(speeds, differences[0] / differences[1]),
+            allowance: curvature + 2.0 * relative_noise / std::f64::consts::LN_2,
         }
     }
 
@@ -158,6 +58,23 @@ impl ConvergenceOrder {
         self.observed
             .is_none_or(|observed| off(observed) <= self.allowance)
     }
+}
+
+/// The order p at which the differences between three speeds have this `ratio`: (v₁ᵖ − v₂ᵖ)/(v₂ᵖ − v₃ᵖ).
+fn order(speeds: &[f64; 3], ratio: f64) -> Option<f64> {
+    /// Far beyond every order that a series shows.
+    const HIGHEST: f64 = 20.0;
+    let [fast, middle, slow] = *speeds;
+    if fast / middle == middle / slow {
+        return Some(libm::log2(ratio) / libm::log2(fast / middle));
+    }
+    // Divided by p, so that the order 0, a logarithm, is no exception.
+    let power = |speed: f64, order: f64| libm::expm1(order * libm::log(speed / middle));
+    let excess = |order: f64| {
+        let order = if order == 0.0 { f64::EPSILON } else { order };
+        -power(fast, order) / power(slow, order) - ratio
+    };
+    bracketed_root(excess, -HIGHEST, HIGHEST)
 }
 
 /// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
@@ -170,7 +87,7 @@ const PRINTED: f64 = 0.5e-16;
 /// spacings after the last of them at most, 10 + 20 + 15 + 4; and the measured friction counts once more.
 const ROW_WEIGHTS: f64 = 50.0;
 
-/// Extrapolates one estimator over the runs of a measurement, in the order of its cases, which take so many
+/// Extrapolates one estimator over the runs of a planned measurement, in the order of its cases, which take so many
 /// `steps` each. `None` if it is absent from any of them.
 pub fn extrapolate(
     estimates: &[YieldEstimates],
@@ -178,13 +95,30 @@ pub fn extrapolate(
     stiffness: f64,
     estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
 ) -> Option<Extrapolation> {
+    extrapolate_runs(&RunRoles::PLANNED, estimates, steps, stiffness, estimator)
+}
+
+/// The same over runs that play these `roles`.
+pub(crate) fn extrapolate_runs(
+    roles: &RunRoles,
+    estimates: &[YieldEstimates],
+    steps: &[u64],
+    stiffness: f64,
+    estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
+) -> Option<Extrapolation> {
+    let speeds = &roles.speeds;
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
-    let by_speed = all.get(..SPEEDS.len())?;
+    let by_speed = all.get(..speeds.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
+    // A run that there should be, and is not, leaves no budget.
+    let change = |run: Option<usize>| match run {
+        Some(run) => change_from_middle(run).map(Some),
+        None => Some(None),
+    };
     let forces: Vec<f64> = by_speed.iter().map(|estimate| estimate.force).collect();
-    let force = value_at_zero(&SPEEDS, &forces);
-    let first_order = value_at_zero(&SPEEDS[1..], &forces[1..]);
-    let weights = weights_at_zero(&SPEEDS);
+    let force = value_at_zero(speeds, &forces);
+    let first_order = value_at_zero(&speeds[1..], &forces[1..]);
+    let weights = weights_at_zero(speeds);
     let amplified = |error: &dyn Fn(&Estimate, usize) -> f64| -> f64 {
         let terms = weights.iter().zip(by_speed).enumerate();
         let terms = terms.map(|(run, (weight, estimate))| weight.abs() * error(estimate, run));
@@ -200,8 +134,8 @@ pub fn extrapolate(
     };
     let budget = Budget {
         wall_speed: (force - first_order).abs(),
-        time_step: change_from_middle(COARSE_TIME_STEP_RUN)?,
-        preparation: change_from_middle(SHORT_RAMP_RUN)?,
+        time_step: change(roles.coarse_time_step)?,
+        preparation: change(roles.short_ramp)?,
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
@@ -222,7 +156,7 @@ pub fn extrapolate(
         force,
         first_order,
         budget,
-        order: ConvergenceOrder::of(&forces, noise),
+        order: ConvergenceOrder::of(speeds, &forces, noise),
     })
 }
 
@@ -282,8 +216,8 @@ mod tests {
         assert!((order - 1.0).abs() < 1e-12);
         assert!(result.order.is_expected());
         assert!(result.budget.wall_speed < 1e-12);
-        assert!((result.budget.time_step - 3e-4).abs() < 1e-12);
-        assert!((result.budget.preparation - 1e-4).abs() < 1e-12);
+        assert!((result.budget.time_step.unwrap() - 3e-4).abs() < 1e-12);
+        assert!((result.budget.preparation.unwrap() - 1e-4).abs() < 1e-12);
         assert!((result.budget.sampling - 5e-9).abs() < 1e-15);
     }
 
@@ -328,42 +262,6 @@ mod tests {
     }
 
     #[test]
-    fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
-        let budget = Budget {
-            wall_speed: 1.0,
-            time_step: 2.0,
-            preparation: 4.0,
-            sampling: 8.0,
-            round_off: 16.0,
-            print_precision: 32.0,
-            shortcuts: 64.0,
-            convention: None,
-        };
-        let parts = [
-            ("wall speed", 1.0),
-            ("time step", 2.0),
-            ("preparation", 4.0),
-            ("sampling", 8.0),
-            ("round-off", 16.0),
-            ("print precision", 32.0),
-            ("shortcuts", 64.0),
-        ];
-        let named = |budget: &Budget| {
-            let parts = Budget::PARTS.into_iter();
-            let named = parts.filter_map(|part| Some((part.heading, (part.value)(budget)?)));
-            named.collect::<Vec<_>>()
-        };
-        assert_eq!(named(&budget), parts);
-        assert_eq!(budget.total(), 127.0);
-        let measured = Budget {
-            convention: Some(128.0),
-            ..budget
-        };
-        assert_eq!(named(&measured).last(), Some(&("convention", 128.0)));
-        assert_eq!(measured.total(), 255.0);
-    }
-
-    #[test]
     fn rounding_walks_at_random_and_is_amplified_by_reading_and_extrapolation() {
         let mut runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
         for run in &mut runs {
@@ -383,7 +281,7 @@ mod tests {
         assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
         // The noise in the order is that of the noisiest run, here the longest.
         let noise = 1e-9 + one_step * 200.0;
-        let allowance = ConvergenceOrder::of(&[10.4, 10.2, 10.1], noise).allowance;
+        let allowance = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], noise).allowance;
         assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);
     }
 
@@ -414,15 +312,21 @@ mod tests {
     #[test]
     fn an_order_is_observed_as_soon_as_differences_exceed_twice_the_noise() {
         let forces = [2.0, 1.0, 0.5];
-        assert_eq!(ConvergenceOrder::of(&forces, 0.25).observed, None);
-        assert_eq!(ConvergenceOrder::of(&forces, 0.25).allowance, f64::INFINITY);
-        assert_eq!(ConvergenceOrder::of(&forces, 0.249).observed, Some(1.0));
+        assert_eq!(ConvergenceOrder::of(&SPEEDS, &forces, 0.25).observed, None);
+        assert_eq!(
+            ConvergenceOrder::of(&SPEEDS, &forces, 0.25).allowance,
+            f64::INFINITY
+        );
+        assert_eq!(
+            ConvergenceOrder::of(&SPEEDS, &forces, 0.249).observed,
+            Some(1.0)
+        );
     }
 
     #[test]
     fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
         // Each of two differences of which the smaller is 0.1 may be off by 0.002.
-        let order = ConvergenceOrder::of(&[10.4, 10.2, 10.1], 1e-3);
+        let order = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], 1e-3);
         let expected = 0.05 + 2.0 * 0.02 / 2f64.ln();
         assert!((order.allowance - expected).abs() < 1e-12);
         let at_the_limit = |observed| ConvergenceOrder {

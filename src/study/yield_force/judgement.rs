@@ -1,8 +1,10 @@
 //! The yield force that the runs of a measurement show, compared with the exact limit.
 
+use super::budget::Budget;
 use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error};
+use super::peak::peak_allowance;
 use super::plan::{Measurement, Method};
-use super::runs::{MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
+use super::runs::{MIDDLE_RUN, SPEEDS};
 use crate::code::{Code, ConventionKey};
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
@@ -177,6 +179,7 @@ impl<'a> Reader<'a> {
         self.finding.peak_uncertainty = Some(peak_uncertainty);
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
+            self.doubt_unknown_parts(&peak.budget);
             self.doubt_few_digits(peak.budget.print_precision, reference);
             self.doubt_measured_arms(reference);
             if onset.is_none() {
@@ -186,6 +189,7 @@ impl<'a> Reader<'a> {
             return self.doubt_deep_wall(reference);
         };
         self.compare(slip.force, slip.budget.total(), onset);
+        self.doubt_unknown_parts(&slip.budget);
         self.doubt_few_digits(slip.budget.print_precision, onset);
         self.doubt_measured_arms(onset);
         if reference != onset {
@@ -345,7 +349,7 @@ impl<'a> Reader<'a> {
         let (Some(rest), Some(begun), Some(Some(hastened))) = (
             self.measurement.limit.rest,
             begun.collect::<Option<Vec<_>>>(),
-            runs.get(SHORT_RAMP_RUN).map(|run| run.start),
+            self.hastened().map(|run| run.start),
         ) else {
             return;
         };
@@ -389,8 +393,25 @@ impl<'a> Reader<'a> {
         half_units.fold(0.0, f64::max)
     }
 
+    fn hastened(&self) -> Option<&RunSummary> {
+        self.finding.runs.get(self.measurement.roles.short_ramp?)
+    }
+
+    /// Nothing is decided by a deviation that an unknown part of the budget may explain.
+    fn doubt_unknown_parts(&mut self, budget: &Budget) {
+        for part in budget.unknown() {
+            let note = format!(
+                "the part of the {} in the uncertainty is not known; it would be by {}",
+                part.heading, part.known_by
+            );
+            let up_to = f64::INFINITY;
+            self.grounds.add(Ground::Blur { up_to, note });
+        }
+    }
+
     fn doubt_equal_runs(&mut self) {
-        if self.estimates[MIDDLE_RUN] == self.estimates[SHORT_RAMP_RUN] {
+        let middle = self.estimates[MIDDLE_RUN];
+        if self.hastened().is_some_and(|run| run.estimates == middle) {
             self.doubt(
                 "two runs that differ in their preparation gave the same bits: a series is that of another \
                  case, or the code takes no notice of the preparation"
@@ -480,17 +501,3 @@ const SAME_FRICTION: f64 = 1e-9;
 
 /// With fewer digits a force changes in steps of a hundredth of itself, between which it may rise and fall.
 const DIGITS_TO_SEE_A_YIELD: u32 = 4;
-
-/// The peak is grainy: it comes while the floor slips and sticks from step to step, which may hide up to
-/// two steps of load in each run. The extrapolation adds them up with the weights 1/3, 2 and 8/3 at speeds
-/// of 1, 1/2 and 1/4 of the fastest: four steps at the fastest speed.
-const GRAINY_STEPS: f64 = 4.0;
-
-/// Uncertainty of the extrapolated peak of `measurement` beyond its budget, in m g, the peak being near
-/// `reference`; `None` where nothing is planned.
-pub(crate) fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
-    let travel = measurement.limit.peak_travel?;
-    let fastest = &measurement.cases.first()?.protocol;
-    let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
-    Some(GRAINY_STEPS * load_per_step)
-}

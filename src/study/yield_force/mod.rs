@@ -1,27 +1,34 @@
 //! The yield force at vanishing wall speed: plan, extrapolate, judge.
 
+mod budget;
 mod evidence;
 mod extrapolate;
 mod judgement;
+mod limits;
 mod no_yield;
+mod peak;
 mod plan;
 mod profile;
 mod runs;
+mod series;
 mod touch;
 mod twin;
 
+pub use budget::Budget;
+pub(crate) use budget::BudgetPart;
 pub use evidence::Evidence;
-pub use extrapolate::{Budget, ConvergenceOrder, Extrapolation, extrapolate};
-pub(crate) use judgement::peak_allowance;
+pub use extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
 pub use judgement::{Judgement, YieldForce};
 pub use no_yield::NoYield;
 pub(crate) use no_yield::no_yield;
+pub(crate) use peak::peak_allowance;
 pub use plan::{Measurement, Method, plan, protocol_at_speed};
-pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, planned_protocol};
+pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, planned, planned_protocol};
 pub(crate) use profile::PAPER_STIFFNESSES;
 pub use profile::Profile;
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
-pub use runs::{MIDDLE_RUN, SHORT_RAMP_RUN};
+pub use runs::{MIDDLE_RUN, RunRoles, SHORT_RAMP_RUN};
+pub(crate) use series::{FoundSeries, JudgedSeries, SeriesInput, judge_series};
 pub(crate) use touch::max_touch_speed;
 pub use twin::TwinForce;
 pub(crate) use twin::measure_with_twin;

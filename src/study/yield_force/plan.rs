@@ -1,20 +1,20 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
-use super::extrapolate::{Extrapolation, extrapolate};
-use super::runs::{MIDDLE_RUN, SPEEDS};
-use super::touch::max_touch_speed;
+use super::extrapolate::{Extrapolation, extrapolate_runs};
+use super::limits::{convention_uncertainty, known_limit};
+use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
+use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use crate::theory::Limit;
+use serde::{Deserialize, Serialize};
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
-const RAMP_TIME: f64 = 100.0;
-const REST_TIME: f64 = 100.0;
+pub(super) const RAMP_TIME: f64 = 100.0;
+pub(super) const REST_TIME: f64 = 100.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
@@ -29,8 +29,6 @@ const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
 /// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
-/// Planned speeds have six digits.
-const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
 pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
@@ -40,7 +38,8 @@ pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
 /// How the yield force is read off the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Slip onset, extrapolated to vanishing wall speed.
     Extrapolated,
@@ -72,6 +71,8 @@ pub struct Measurement {
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
     /// short gravity ramp as well. None where nothing yields.
     pub cases: Vec<Case>,
+    /// Which run is which.
+    pub roles: RunRoles,
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.
@@ -96,7 +97,13 @@ impl Measurement {
         estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        let mut found = extrapolate(estimates, &steps, self.stack.stiffness, estimator)?;
+        let mut found = extrapolate_runs(
+            &self.roles,
+            estimates,
+            &steps,
+            self.stack.stiffness,
+            estimator,
+        )?;
         found.budget.convention = self.convention_uncertainty;
         Some(found)
     }
@@ -133,7 +140,8 @@ impl Measurement {
     }
 }
 
-fn planned(
+/// Plans the measurement of `stack` with `code` under `convention`, its yield force to be read by `method`.
+pub(crate) fn planned(
     code: Code,
     stack: &Stack,
     convention: ContactConvention,
@@ -157,34 +165,18 @@ fn planned(
     });
     let cases: Vec<Case> = cases.collect();
     let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
-    let measured_arms = code.settled().measured_arms();
     Measurement {
         code,
         stack: *stack,
         convention,
         method,
-        convention_uncertainty: measured_arms
-            .and_then(|open| limit_uncertainty(stack, &convention, &open)),
-        is_gentle: is_surely_gentle(fastest, stack)
-            || fastest <= LEAST_DIGITS * max_touch_speed(stack, &convention),
+        convention_uncertainty: convention_uncertainty(code, stack, &convention),
+        is_gentle: is_gentle(fastest, stack, &convention),
         cases,
+        roles: RunRoles::PLANNED,
         limit,
         model_form,
     }
-}
-
-/// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and
-/// preparations share it.
-fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    static KNOWN: Mutex<BTreeMap<String, Limit>> = Mutex::new(BTreeMap::new());
-    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = format!("{stack:?} {convention:?}");
-    if let Some(limit) = known().get(&key) {
-        return limit.clone();
-    }
-    let limit = quasistatic_limit(stack, convention);
-    known().insert(key, limit.clone());
-    limit
 }
 
 fn planned_protocols(
@@ -231,7 +223,11 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 /// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
 /// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
 /// yields.
-fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> Option<f64> {
+pub(super) fn speed_scale(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<f64> {
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
@@ -245,11 +241,6 @@ fn speed_scale(limit: &Limit, stack: &Stack, convention: &ContactConvention) -> 
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
-}
-
-/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
-fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
-    wall_speed <= 0.5 * stack.epsilon()
 }
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the

@@ -12,3 +12,23 @@ pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
 
 /// Positions of the runs without shortcuts, where the others take some: at the fastest and the middle speed.
 pub(crate) const PLAIN_RUNS: [usize; 2] = [SPEEDS.len() + 2, SPEEDS.len() + 3];
+
+/// Which run of a measurement is which, by position. The first three differ in their wall speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunRoles {
+    /// The wall speeds of the first three runs in units of the predicted displacement, fastest first.
+    pub speeds: [f64; 3],
+    /// The run with twice the time step, if there is one.
+    pub coarse_time_step: Option<usize>,
+    /// The run with half the gravity ramp, if there is one.
+    pub short_ramp: Option<usize>,
+}
+
+impl RunRoles {
+    /// Those of a planned measurement.
+    pub(crate) const PLANNED: Self = Self {
+        speeds: SPEEDS,
+        coarse_time_step: Some(COARSE_TIME_STEP_RUN),
+        short_ramp: Some(SHORT_RAMP_RUN),
+    };
+}

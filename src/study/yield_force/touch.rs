@@ -16,6 +16,8 @@ const NO_LIMIT: f64 = 1e3;
 /// Part of the largest speed that is still gentle. Displacements are small, but not infinitely so, and
 /// integrators differ.
 const MARGIN: f64 = 0.9;
+/// Planned speeds have six digits.
+const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// The largest wall speed, in r √(k_n/m), whose first touch does not make the floor slide; infinite where no
 /// speed does.
@@ -55,6 +57,17 @@ pub(crate) fn max_touch_speed(stack: &Stack, convention: &ContactConvention) -> 
         })
     });
     MARGIN * reached.fold(f64::INFINITY, f64::min).max(0.0)
+}
+
+/// Whether the floor does not slide when a wall of this speed touches the stack.
+pub(super) fn is_gentle(wall_speed: f64, stack: &Stack, convention: &ContactConvention) -> bool {
+    is_surely_gentle(wall_speed, stack)
+        || wall_speed <= LEAST_DIGITS * max_touch_speed(stack, convention)
+}
+
+/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
+pub(super) fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
+    wall_speed <= 0.5 * stack.epsilon()
 }
 
 fn trial(stack: &Stack, convention: &ContactConvention) -> Case {

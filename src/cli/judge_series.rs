@@ -1,0 +1,197 @@
+//! `tristack judge --series`.
+
+use super::options::{ConventionOptions, Format, StackOptions, friction};
+use super::{CliError, ExitStatus, tell};
+use crate::code::Code;
+use crate::files::{FileError, Links, read_bounded};
+use crate::model::{InvalidValue, shown};
+use crate::output::{judged_series, judged_series_text};
+use crate::series::Series;
+use crate::study::yield_force::{JudgedSeries, SPEEDS, SeriesInput, judge_series, no_yield};
+use crate::theory::quasistatic_limit;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Largest series that is read, in bytes; that of a code.
+const LARGEST_SERIES: u64 = 256 << 20;
+/// Largest relative distance of two numbers that are the same but for their rounding, as in the times of a series.
+const ROUNDING: f64 = 1e-9;
+
+/// The options of series that nobody has planned.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SeriesArguments {
+    /// Three or more series of one stack at different wall speeds (CSV, docs/formats.md), instead of a plan
+    #[arg(long, value_name = "FILE", num_args = 3.., requires_all = ["speeds", "mu", "stiffness"])]
+    pub series: Vec<PathBuf>,
+    /// Their wall speeds in r sqrt(k_n/m), in the order of the files, separated by commas
+    #[arg(
+        long,
+        value_name = "V1,V2,V3",
+        value_delimiter = ',',
+        requires = "series",
+        allow_negative_numbers = true
+    )]
+    speeds: Vec<f64>,
+    /// Floor friction; a number or the word `critical`
+    #[arg(long, value_parser = friction, requires = "series", allow_negative_numbers = true)]
+    mu: Option<f64>,
+    /// Stiffness k_n r/(m g)
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "series",
+        allow_negative_numbers = true
+    )]
+    stiffness: Option<f64>,
+    #[command(flatten)]
+    stack: StackOptions,
+    #[command(flatten)]
+    convention: ConventionOptions,
+    /// Time step in sqrt(m/k_n), which the times of the series must show
+    #[arg(
+        long,
+        value_name = "DT",
+        requires = "series",
+        allow_negative_numbers = true
+    )]
+    dt: Option<f64>,
+    /// The series of a run at the middle one of the three slowest speeds with twice the time step
+    #[arg(long, value_name = "FILE", requires = "series")]
+    coarse_step: Option<PathBuf>,
+    /// The series of a run at that speed with half the gravity ramp
+    #[arg(long, value_name = "FILE", requires = "series")]
+    short_ramp: Option<PathBuf>,
+}
+
+/// Judges the series and prints what was found.
+pub(super) fn run(
+    arguments: &SeriesArguments,
+    format: Format,
+    command: &str,
+) -> Result<ExitStatus, CliError> {
+    let judged = judge(arguments)?;
+    let tables = judged_series(Some(&judged));
+    let printed = format.print(&tables, command, || judged_series_text(&judged));
+    let verdict = judged.grounds.verdict();
+    for note in judged.grounds.notes() {
+        tell!("{verdict}: {note}");
+    }
+    let faster: Vec<&str> = judged.faster.iter().map(|run| run.name.as_str()).collect();
+    if !faster.is_empty() {
+        tell!(
+            "the three slowest are extrapolated; {} are read alone",
+            faster.join(", ")
+        );
+    }
+    let arms = judged.measurement.convention.arms;
+    tell!(
+        "assumed: the stack was prepared by a gravity ramp, and its contacts have the arms {}, {}; others move the \
+         limit (docs/theory.md, 2.3 and 8.4), and other arms the balance of forces as well",
+        arms.pair,
+        arms.floor
+    );
+    Ok(ExitStatus::of_verdict(verdict).max(printed))
+}
+
+fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
+    let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
+    let stack = arguments.stack.stack(mu, stiffness)?;
+    let convention = arguments.convention.of(Code::NATIVE)?;
+    let limit = quasistatic_limit(&stack, &convention);
+    if limit.yield_force.is_none() {
+        return Err(Box::new(no_yield(&stack, &convention, &limit)).into());
+    }
+    let mut series = at_speeds(arguments)?;
+    series.sort_by(|one, other| other.wall_speed.total_cmp(&one.wall_speed));
+    let middle = &series[series.len() - SPEEDS.len() + 1];
+    let [coarse, hastened] = [
+        ("--coarse-step", &arguments.coarse_step, 2.0),
+        ("--short-ramp", &arguments.short_ramp, 1.0),
+    ]
+    .map(|(flag, file, factor)| {
+        let file = file.as_deref();
+        file.map(|file| {
+            read(
+                flag,
+                file,
+                middle.wall_speed,
+                Some(factor * middle.time_step),
+            )
+        })
+        .transpose()
+    });
+    let (coarse, hastened) = (coarse?, hastened?);
+    let judged = judge_series(&stack, convention, series, coarse, hastened);
+    judged.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)).into())
+}
+
+/// The series at their speeds, which differ, and with one time step.
+fn at_speeds(arguments: &SeriesArguments) -> Result<Vec<SeriesInput>, CliError> {
+    let (files, speeds) = (&arguments.series, &arguments.speeds);
+    if files.len() != speeds.len() {
+        let accepted = format!("as many as files after --series, {}", files.len());
+        return Err(InvalidValue::new("--speeds", speeds.len() as f64, accepted).into());
+    }
+    for (index, &speed) in speeds.iter().enumerate() {
+        let is_new = !speeds[..index].contains(&speed);
+        if !(speed > 0.0 && speed.is_finite() && is_new) {
+            let accepted = "numbers above 0, each another one";
+            return Err(InvalidValue::new("--speeds", speed, accepted).into());
+        }
+    }
+    let mut series: Vec<SeriesInput> = Vec::new();
+    for (file, &speed) in files.iter().zip(speeds) {
+        let expected = arguments.dt.or(series.first().map(|first| first.time_step));
+        series.push(read("--speeds", file, speed, expected)?);
+    }
+    Ok(series)
+}
+
+/// The series in `file`, which must show the wall speed that `flag` says, and the expected time step.
+fn read(
+    flag: &str,
+    file: &Path,
+    wall_speed: f64,
+    time_step: Option<f64>,
+) -> Result<SeriesInput, CliError> {
+    let content = read_bounded(file, LARGEST_SERIES, Links::Followed);
+    let content = content.map_err(FileError::reading(file))?;
+    let read = Series::read_unplanned(content.as_slice());
+    let (series, own_step) = read.map_err(FileError::series(file))?;
+    let input = SeriesInput {
+        name: shown(file),
+        series,
+        time_step: own_step,
+        wall_speed,
+    };
+    let refused = |message: String| CliError::from(FileError::content(file, message));
+    if let Some(expected) = time_step.filter(|expected| differ(*expected, own_step)) {
+        return Err(refused(format!(
+            "its time step, `time` over `step`, is {own_step}; accepted is {expected}{}",
+            expected_because(flag)
+        )));
+    }
+    if let Some((speed, uncertainty)) = input.shown_speed()
+        && (speed - wall_speed).abs() > uncertainty
+    {
+        return Err(refused(format!(
+            "its wall moves at {speed:.4e} by its forces and positions, and {flag} says {wall_speed:e}; accepted are \
+             speeds in the order of the files"
+        )));
+    }
+    Ok(input)
+}
+
+fn differ(one: f64, other: f64) -> bool {
+    // Also where one of them is not a number.
+    !((one - other).abs() <= ROUNDING * other)
+}
+
+fn expected_because(flag: &str) -> &'static str {
+    match flag {
+        "--coarse-step" => ", twice that of the series at the middle speed",
+        "--short-ramp" => ", that of the series at the middle speed",
+        _ => ", that of --dt or of the first series",
+    }
+}

@@ -1,0 +1,52 @@
+//! The stacks of a crosscheck on the command line.
+
+use super::options::{StackOptions, friction};
+use crate::code::Code;
+use crate::model::{InvalidValue, Stack};
+use crate::study::yield_force::{Measurement, Profile};
+use clap::Args;
+
+/// The stacks of a profile, or others in its way.
+#[derive(Debug, Clone, Args)]
+pub(super) struct StackSet {
+    /// Set of stacks
+    #[arg(long, value_enum, default_value_t = Profile::Quick)]
+    profile: Profile,
+    /// Floor frictions of other stacks than those of the profile: numbers or the word `critical`, separated by commas
+    #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction, allow_negative_numbers = true, conflicts_with = "profile")]
+    mu: Vec<f64>,
+    /// Stiffnesses k_n r/(m g) of these stacks, separated by commas
+    #[arg(
+        long,
+        requires = "mu",
+        value_name = "S1,S2",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffness: Vec<f64>,
+    #[command(flatten)]
+    pub others: StackOptions,
+}
+
+impl StackSet {
+    /// The measurements of the stacks by each of the codes `names`.
+    pub fn measurements(&self, names: &[Code]) -> Result<Vec<Measurement>, InvalidValue> {
+        Ok(self.profile.measurements_of(&self.stacks()?, names))
+    }
+
+    /// The stacks of the profile, or those asked for.
+    fn stacks(&self) -> Result<Vec<Stack>, InvalidValue> {
+        let own = self.stiffness.iter().flat_map(|&stiffness| {
+            let frictions = self.mu.iter();
+            frictions.map(move |&mu| (mu, stiffness))
+        });
+        let profile = self.profile.stacks().into_iter();
+        let profile = profile.map(|stack| (stack.floor_friction, stack.stiffness));
+        let places: Vec<(f64, f64)> = match self.mu.is_empty() {
+            true => profile.collect(),
+            false => own.collect(),
+        };
+        let stack = |(mu, stiffness)| self.others.stack(mu, stiffness);
+        places.into_iter().map(stack).collect()
+    }
+}

@@ -1,0 +1,156 @@
+//! Series of one stack that nobody has planned, judged.
+
+use super::number::{digits, one_digit, optional, relative, significant, small};
+use super::table::{Columns, DataTable};
+use crate::study::yield_force::{Budget, BudgetPart, FoundSeries, JudgedSeries};
+
+/// The verdict on the series, in one row, and what stands behind it.
+pub(crate) fn judged_series(judged: Option<&JudgedSeries>) -> [DataTable<'_>; 3] {
+    [verdict(judged), runs(judged), budget(judged)]
+}
+
+fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
+    Columns::<&JudgedSeries>::new(
+        "judged_series",
+        "A row is the yield force of one stack at vanishing wall speed, from the series of a few runs, and the verdict \
+         on it.",
+        "`tristack judge --series`",
+    )
+    .stack(|row| row.measurement.stack)
+    .convention(|row| row.measurement.convention)
+    .number("slip_onset", "m g", |row| Some(row.finding.slip?.force))
+    .means("F at which the floor begins to slip, at vanishing wall speed")
+    .shown_as("slip onset", digits::<9>)
+    .number("peak_force", "m g", |row| Some(row.finding.peak?.force))
+    .means("the largest F, at vanishing wall speed")
+    .shown_as("peak", digits::<9>)
+    .number("uncertainty", "m g", |row| Some(row.budget()?.total()))
+    .means("numerical uncertainty of the force that is judged: the sum of the parts that are known")
+    .shown_as("± known", one_digit)
+    .text("not_known", |row| not_known(row))
+    .means("the parts of the uncertainty that are not known, separated by commas")
+    .shown("not known")
+    .number("reference_onset", "m g", |row| {
+        row.measurement.limit.slip_onset
+    })
+    .means("the exact limit of the slip onset under the given arms")
+    .number("reference_force", "m g", |row| {
+        row.measurement.limit.yield_force
+    })
+    .means("the exact limit of the yield force, which is larger where contact 2–3 is closed at the onset")
+    .shown_as("exact limit", digits::<9>)
+    .number("error", "1", |row| Some(row.grounds.deviation()?.0))
+    .means("(slip_onset − reference_onset)/(reference_onset + 3); of the peak where there is no onset")
+    .shown_as("error", relative)
+    .number("tolerance", "1", |row| Some(row.grounds.deviation()?.1))
+    .means("largest error that agrees, if the whole uncertainty is known")
+    .shown_as("tolerance", small)
+    .verdict(|row| row.grounds.verdict())
+    .rows(judged)
+}
+
+fn not_known(row: &JudgedSeries) -> String {
+    let parts = row.budget().into_iter().flat_map(Budget::unknown);
+    let names: Vec<&str> = parts.map(|part| part.name).collect();
+    names.join(", ")
+}
+
+fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
+    let found = judged.into_iter();
+    let found = found.flat_map(|judged| judged.faster.iter().chain(&judged.used));
+    Columns::<&FoundSeries>::new(
+        "series_runs",
+        "A row is one of the series behind a row of `judged_series`.",
+        "`tristack judge --series`",
+    )
+    .text("file", |run| run.name.as_str())
+    .means("its file")
+    .shown("file")
+    .text("differs_in", |run| run.role)
+    .means("in what it differs from the one at the middle wall speed")
+    .shown("differs in")
+    .number("wall_speed", "r √(k_n/m)", |run| {
+        run.summary.case.protocol.wall_speed
+    })
+    .means("speed of the wall")
+    .shown_as("wall speed", |speed| format!("{speed:.3e}"))
+    .number("time_step", "√(m/k_n)", |run| {
+        run.summary.case.protocol.time_step
+    })
+    .means("time step, as the times of the series say")
+    .shown_as("time step", digits::<4>)
+    .number("slip_onset", "m g", |run| {
+        Some(run.summary.estimates.slip?.force)
+    })
+    .means("F at which the floor begins to slip in this run")
+    .shown_as("slip onset", digits::<9>)
+    .number("peak_force", "m g", |run| {
+        Some(run.summary.estimates.peak?.force)
+    })
+    .means("the largest F in this run")
+    .shown_as("peak", digits::<9>)
+    .rows(found)
+}
+
+fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
+    let parts = judged.and_then(JudgedSeries::budget).into_iter();
+    let parts = parts.flat_map(|budget| Budget::PARTS.map(|part| (part, (part.value)(budget))));
+    // Nobody's series take shortcuts, and arms that are given are not measured.
+    let concerns = |(part, value): &(BudgetPart, Option<f64>)| {
+        part.name != "shortcuts" && (value.is_some() || !part.known_by.is_empty())
+    };
+    let parts = parts.filter(concerns);
+    let reference = judged.and_then(|judged| {
+        let limit = &judged.measurement.limit;
+        limit.slip_onset.or(limit.yield_force)
+    });
+    let load = reference.map(|force| force + 3.0);
+    let known = |(part, value): &(BudgetPart, Option<f64>)| match value {
+        Some(_) => part.how,
+        None => part.known_by,
+    };
+    Columns::<(BudgetPart, Option<f64>)>::new(
+        "series_budget",
+        "A row is one part of the uncertainty (ASME V&V 20) of a row of `judged_series`.",
+        "`tristack judge --series`",
+    )
+    .text("part", |(part, _)| part.name)
+    .means("its name, as in `budget`")
+    .number("value", "m g", |(_, value)| *value)
+    .means("its value; absent where it is not known")
+    .text("how", known)
+    .means("how it is computed, or by what run it would be known")
+    .left("part of the uncertainty", |(part, _)| {
+        part.heading.to_owned()
+    })
+    .right("m g", |(_, value)| {
+        value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.1e}"))
+    })
+    .right("of F + 3", move |(_, value)| {
+        let relative = value.zip(load).map(|(value, load)| value / load);
+        optional(relative, |value| format!("{value:.1e}"))
+    })
+    .left("how it is known, or would be", move |row| {
+        known(row).to_owned()
+    })
+    .rows(parts)
+}
+
+/// The tables for a terminal, and the distance in a sentence.
+pub(crate) fn judged_series_text(judged: &JudgedSeries) -> String {
+    let limit = &judged.measurement.limit;
+    let tables = judged_series(Some(judged));
+    let [verdict, runs, budget] = tables.map(|table| table.shown().terminal());
+    let reference = limit.slip_onset.or(limit.yield_force);
+    let distance = judged.grounds.deviation().zip(reference);
+    let distance = optional(distance, |((error, _), reference)| {
+        format!(
+            "{} of F + 3 from the exact limit {} under arms {}, {}",
+            relative(error),
+            significant(reference, 9),
+            judged.measurement.convention.arms.pair,
+            judged.measurement.convention.arms.floor
+        )
+    });
+    format!("{runs}{budget}{verdict}distance: {distance}\n")
+}

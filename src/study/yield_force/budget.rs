@@ -1,0 +1,169 @@
+//! The parts of the numerical uncertainty of a yield force.
+
+/// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Distance between the extrapolations of second and first order in the wall speed.
+    pub wall_speed: f64,
+    /// Change of the middle run with the time step doubled: the error of the single step if it is of first
+    /// order, three times that if it is of second.
+    /// Absent if there is no such run.
+    pub time_step: Option<f64>,
+    /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
+    /// state by an amount inversely proportional to its duration, so that this is the shift itself.
+    /// Absent if there is no such run.
+    pub preparation: Option<f64>,
+    /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
+    pub sampling: f64,
+    /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
+    /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
+    /// times less (tests/round_off.rs).
+    pub round_off: f64,
+    /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth, unless the
+    /// series has fewer.
+    pub print_precision: f64,
+    /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
+    /// Their error is mostly linear in the wall speed, and vanishes with it.
+    pub shortcuts: f64,
+    /// Change of the exact limit within the uncertainty of arms that were measured; absent where all are declared.
+    pub convention: Option<f64>,
+}
+
+/// One part of a [`Budget`], as tables and explanations give it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BudgetPart {
+    /// Name of its column in files.
+    pub name: &'static str,
+    /// Name in explanations.
+    pub heading: &'static str,
+    /// Its formula, in words.
+    pub how: &'static str,
+    /// The run by which it becomes known; empty where no further run is needed.
+    pub known_by: &'static str,
+    /// Its value in m g; absent if it is not known, or does not apply.
+    pub value: fn(&Budget) -> Option<f64>,
+}
+
+impl Budget {
+    /// The parts, in order; the uncertainty is their sum.
+    pub(crate) const PARTS: [BudgetPart; 8] = [
+        BudgetPart {
+            name: "wall_speed",
+            heading: "wall speed",
+            how: "parabola minus straight line",
+            known_by: "",
+            value: |budget| Some(budget.wall_speed),
+        },
+        BudgetPart {
+            name: "time_step",
+            heading: "time step",
+            how: "run 4 minus run 2 (time step doubled)",
+            known_by: "a run at the middle wall speed with twice the time step (--coarse-step)",
+            value: |budget| budget.time_step,
+        },
+        BudgetPart {
+            name: "preparation",
+            heading: "preparation",
+            how: "run 5 minus run 2 (gravity ramp halved)",
+            known_by: "a run at the middle wall speed with half the gravity ramp (--short-ramp)",
+            value: |budget| budget.preparation,
+        },
+        BudgetPart {
+            name: "sampling",
+            heading: "sampling",
+            how: "distance between interpolations, weighted",
+            known_by: "",
+            value: |budget| Some(budget.sampling),
+        },
+        BudgetPart {
+            name: "round_off",
+            heading: "round-off",
+            how: "random walk of rounding, amplified, weighted",
+            known_by: "",
+            value: |budget| Some(budget.round_off),
+        },
+        BudgetPart {
+            name: "print_precision",
+            heading: "print precision",
+            how: "half a unit of the last digit printed, amplified, weighted",
+            known_by: "",
+            value: |budget| Some(budget.print_precision),
+        },
+        BudgetPart {
+            name: "shortcuts",
+            heading: "shortcuts",
+            how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
+            known_by: "",
+            value: |budget| Some(budget.shortcuts),
+        },
+        BudgetPart {
+            name: "convention",
+            heading: "convention",
+            how: "slopes of the limit times the uncertainty of measured arms, if any",
+            known_by: "",
+            value: |budget| budget.convention,
+        },
+    ];
+
+    /// The expanded uncertainty: the sum of the known parts, which is never below their root sum of squares, by which V&V 20
+    /// combines independent parts.
+    pub fn total(&self) -> f64 {
+        let parts = Self::PARTS.iter();
+        parts.filter_map(|part| (part.value)(self)).sum()
+    }
+
+    /// The parts that are not known.
+    pub(crate) fn unknown(&self) -> impl Iterator<Item = BudgetPart> {
+        let parts = Self::PARTS.into_iter();
+        parts.filter(|part| !part.known_by.is_empty() && (part.value)(self).is_none())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
+        let budget = Budget {
+            wall_speed: 1.0,
+            time_step: Some(2.0),
+            preparation: Some(4.0),
+            sampling: 8.0,
+            round_off: 16.0,
+            print_precision: 32.0,
+            shortcuts: 64.0,
+            convention: None,
+        };
+        let parts = [
+            ("wall speed", 1.0),
+            ("time step", 2.0),
+            ("preparation", 4.0),
+            ("sampling", 8.0),
+            ("round-off", 16.0),
+            ("print precision", 32.0),
+            ("shortcuts", 64.0),
+        ];
+        let named = |budget: &Budget| {
+            let parts = Budget::PARTS.into_iter();
+            let named = parts.filter_map(|part| Some((part.heading, (part.value)(budget)?)));
+            named.collect::<Vec<_>>()
+        };
+        assert_eq!(named(&budget), parts);
+        assert_eq!(budget.total(), 127.0);
+        let measured = Budget {
+            convention: Some(128.0),
+            ..budget
+        };
+        assert_eq!(named(&measured).last(), Some(&("convention", 128.0)));
+        assert_eq!(measured.total(), 255.0);
+        assert_eq!(budget.unknown().count(), 0);
+        let unknown = Budget {
+            time_step: None,
+            ..budget
+        };
+        assert_eq!(unknown.total(), 125.0);
+        let names: Vec<&str> = unknown.unknown().map(|part| part.heading).collect();
+        assert_eq!(names, ["time step"]);
+    }
+}

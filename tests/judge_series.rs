@@ -1,0 +1,302 @@
+//! `tristack judge --series`: a few series of one stack that nobody has planned.
+
+mod common;
+
+use common::{Bench, json};
+use serde_json::Value;
+use std::fs;
+use tristack::code::Code;
+use tristack::dem::compress_stack;
+use tristack::model::{Arms, Case, ContactConvention, Stack};
+use tristack::study::yield_force::{Measurement, plan};
+
+const THREE: &str = "judge --series v4.csv v2.csv v1.csv";
+const STACK: &str = "--mu 0.3 --stiffness 100";
+const FURTHER: &str = "--coarse-step coarse.csv --short-ramp short.csv";
+/// The runs of a measurement, in its order.
+const FILES: [&str; 5] = ["v4.csv", "v2.csv", "v1.csv", "coarse.csv", "short.csv"];
+
+fn measurement(convention: ContactConvention) -> Measurement {
+    plan(Code::NATIVE, &Stack::paper(0.3, 1e2), convention)
+}
+
+/// A bench with the five series of a measurement, and their first three speeds.
+fn bench_with(convention: ContactConvention) -> (Bench, String) {
+    let bench = Bench::without_codes();
+    let cases = measurement(convention).cases;
+    for (name, case) in FILES.iter().zip(&cases) {
+        put(&bench, name, case);
+    }
+    let speeds = cases[..3].iter();
+    let speeds: Vec<String> = speeds
+        .map(|case| case.protocol.wall_speed.to_string())
+        .collect();
+    (bench, format!("--speeds {}", speeds.join(",")))
+}
+
+fn put(bench: &Bench, name: &str, case: &Case) {
+    let series = compress_stack(case, || true).expect("a finite series");
+    fs::write(bench.path(name), series.to_csv()).expect("a file");
+}
+
+fn change(bench: &Bench, name: &str, change: impl Fn(&[&str]) -> Vec<String>) {
+    let text = fs::read_to_string(bench.path(name)).expect("a series");
+    let lines = text.lines().enumerate().map(|(index, line)| match index {
+        0 => line.to_owned(),
+        _ => change(&line.split(',').collect::<Vec<_>>()).join(","),
+    });
+    let lines: Vec<String> = lines.map(|line| line + "\n").collect();
+    fs::write(bench.path(name), lines.concat()).expect("it can be written");
+}
+
+/// Status, the three tables, and the messages.
+fn judged(bench: &Bench, line: &str) -> (Option<i32>, Vec<Vec<Value>>, String) {
+    let output = bench.tristack(&format!("{line} --format json")).output();
+    let output = output.expect("it runs");
+    let message = String::from_utf8(output.stderr).expect("text");
+    let text = String::from_utf8(output.stdout).expect("text");
+    let tables = json(&text)["tables"].as_array().cloned().expect(&message);
+    let rows = tables.iter().map(|table| table["rows"].as_array().cloned());
+    (
+        output.status.code(),
+        rows.map(|rows| rows.expect("rows")).collect(),
+        message,
+    )
+}
+
+#[track_caller]
+fn refused(bench: &Bench, line: &str, expected: &[&str]) {
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8(output.stderr).expect("text");
+    let status = output.status.code();
+    assert!(
+        status == Some(1) && output.stdout.is_empty(),
+        "{line}: {message}"
+    );
+    for words in expected {
+        assert!(message.contains(words), "{line}: {words} in {message}");
+    }
+}
+
+#[test]
+fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (status, tables, message) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
+    assert_eq!(status, Some(0), "{message}");
+    let row = &tables[0][0];
+    assert_eq!(
+        (&row["verdict"], &row["not_known"]),
+        (&"agrees".into(), &"".into())
+    );
+    let error = row["error"].as_f64().expect("a distance");
+    assert!(error.abs() < 1e-7, "{error}");
+    assert_eq!(tables[1].len(), 5);
+
+    let (status, tables, message) = judged(&bench, &format!("{THREE} {speeds} {STACK}"));
+    assert_eq!(status, Some(4), "{message}");
+    let row = &tables[0][0];
+    assert_eq!(row["verdict"], "inconclusive");
+    assert_eq!(row["not_known"], "time_step, preparation");
+    assert_eq!(row["error"].as_f64(), Some(error));
+    assert!(
+        message.contains("twice the time step (--coarse-step)"),
+        "{message}"
+    );
+    assert!(
+        message.contains("half the gravity ramp (--short-ramp)"),
+        "{message}"
+    );
+    let unknown = tables[2].iter().filter(|part| part["value"].is_null());
+    let unknown: Vec<&Value> = unknown.map(|part| &part["part"]).collect();
+    assert!(unknown.contains(&&"time_step".into()) && unknown.contains(&&"preparation".into()));
+
+    let (_, tables, _) = judged(
+        &bench,
+        &format!("{THREE} {speeds} {STACK} --short-ramp short.csv"),
+    );
+    assert_eq!(tables[0][0]["not_known"], "time_step");
+}
+
+/// The same number as a crosscheck gives, which knows the speeds from its plan.
+#[test]
+fn the_force_is_that_of_a_crosscheck() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (_, tables, _) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
+    let line = format!("crosscheck --codes native {STACK} --format json");
+    let output = bench.tristack(&line).output().expect("it runs").stdout;
+    let live = &json(&String::from_utf8(output).expect("text"))["rows"][0];
+    let number = |row: &Value, name: &str| row[name].as_f64().expect("a number");
+    let own = &tables[0][0];
+    // A plan knows the ratios of its speeds, a user their six digits.
+    for name in ["slip_onset", "peak_force"] {
+        let apart = (number(own, name) - number(live, name)).abs();
+        assert!(apart < 1e-6, "{name}: {apart}");
+    }
+    let ratio = number(own, "uncertainty") / number(live, "uncertainty");
+    assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+}
+
+#[test]
+fn the_order_of_the_files_does_not_matter_but_speeds_must_be_theirs() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let given = speeds.strip_prefix("--speeds ").expect("speeds");
+    let mut turned: Vec<&str> = given.split(',').collect();
+    turned.reverse();
+    let turned = turned.join(",");
+    let (_, fastest_first, _) = judged(&bench, &format!("{THREE} {speeds} {STACK}"));
+    let line = format!("judge --series v1.csv v2.csv v4.csv --speeds {turned} {STACK}");
+    let (_, slowest_first, _) = judged(&bench, &line);
+    assert_eq!(fastest_first, slowest_first);
+    refused(
+        &bench,
+        &format!("{THREE} --speeds {turned} {STACK}"),
+        &[
+            "v4.csv: its wall moves at ",
+            "and --speeds says ",
+            "in the order of the files",
+        ],
+    );
+}
+
+#[test]
+fn of_more_than_three_series_the_slowest_are_extrapolated() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let mut fast = measurement(ContactConvention::PAPER).cases[0];
+    fast.protocol.wall_speed *= 2.0;
+    put(&bench, "v8.csv", &fast);
+    let speeds = speeds.replace(
+        "--speeds ",
+        &format!("--speeds {},", fast.protocol.wall_speed),
+    );
+    let line = format!("judge --series v8.csv v4.csv v2.csv v1.csv {speeds} {STACK} {FURTHER}");
+    let (status, tables, message) = judged(&bench, &line);
+    assert_eq!(status, Some(0), "{message}");
+    assert_eq!(tables[1].len(), 6);
+    assert!(
+        message.contains("the three slowest are extrapolated; v8.csv are read alone"),
+        "{message}"
+    );
+}
+
+#[test]
+fn speeds_need_not_be_halves() {
+    let (bench, _) = bench_with(ContactConvention::PAPER);
+    let mut cases = measurement(ContactConvention::PAPER).cases;
+    cases[0].protocol.wall_speed *= 1.25;
+    cases[2].protocol.wall_speed *= 1.1;
+    put(&bench, "v4.csv", &cases[0]);
+    put(&bench, "v1.csv", &cases[2]);
+    let speeds: Vec<String> = cases[..3]
+        .iter()
+        .map(|case| case.protocol.wall_speed.to_string())
+        .collect();
+    let line = format!("{THREE} --speeds {} {STACK} {FURTHER}", speeds.join(","));
+    let (status, tables, message) = judged(&bench, &line);
+    assert_eq!(status, Some(0), "{message}");
+    assert!(tables[0][0]["error"].as_f64().expect("a distance").abs() < 1e-6);
+}
+
+#[test]
+fn another_arm_is_named_on_the_command_line_and_a_wrong_one_differs_once_the_budget_is_known() {
+    let arms = ContactConvention::with_arms(Arms::reciprocal(-0.5, -1.0));
+    let (bench, speeds) = bench_with(arms);
+    let line = format!("{THREE} {speeds} {STACK}");
+    let own = format!("{line} {FURTHER} --pair-arm -0.5 --floor-arm -1");
+    assert_eq!(judged(&bench, &own).0, Some(0));
+    let (status, tables, message) = judged(&bench, &format!("{line} {FURTHER}"));
+    assert_eq!(status, Some(2), "{message}");
+    assert!(tables[0][0]["error"].as_f64().expect("a distance") < -0.1);
+    // The shear between the cylinders follows from the arms, and with it a balance of forces.
+    let (status, tables, message) = judged(&bench, &line);
+    assert_eq!(status, Some(2));
+    assert!(
+        message.contains("breaks the balance of forces"),
+        "{message}"
+    );
+    assert!(tables[0][0]["error"].as_f64().expect("a distance") < -0.1);
+    let text = bench.tristack(&line).output().expect("it runs").stdout;
+    let text = String::from_utf8(text).expect("text");
+    assert!(
+        text.contains("not known") && text.contains("distance: -1.6e-1 of F + 3 from"),
+        "{text}"
+    );
+}
+
+#[test]
+fn series_that_break_mechanics_differ_whatever_is_not_known() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    for name in FILES {
+        change(&bench, name, |fields| {
+            let mut fields: Vec<String> = fields.iter().map(|field| (*field).to_owned()).collect();
+            let force: f64 = fields[2].parse().expect("a number");
+            fields[2] = (1.002 * force).to_string();
+            fields
+        });
+    }
+    let (status, _, message) = judged(&bench, &format!("{THREE} {speeds} {STACK}"));
+    assert_eq!(status, Some(2), "{message}");
+    assert!(
+        message.contains("breaks the balance of forces"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_is_wrong_with_files_and_options_is_said() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let all = format!("{THREE} {speeds} {STACK}");
+    let with = |from: &str, to: &str| all.replace(from, to);
+    let cases: [(String, &[&str]); 9] = [
+        (with(" v1.csv", ""), &["3", "--series"]),
+        (with(STACK, "--mu 0.3"), &["--stiffness"]),
+        (with("v2.csv", "none.csv"), &["cannot read none.csv"]),
+        (
+            with(&speeds, "--speeds 4e-4,2e-4"),
+            &["`--speeds` is 2", "as many as files"],
+        ),
+        (
+            with(&speeds, "--speeds 4e-4,2e-4,-1"),
+            &["`--speeds` is -1", "numbers above 0"],
+        ),
+        (
+            format!("{all} --dt 0.2"),
+            &[
+                "v4.csv: its time step",
+                "0.1",
+                "accepted is 0.2, that of --dt",
+            ],
+        ),
+        (
+            format!("{all} --coarse-step v2.csv"),
+            &["v2.csv: its time step", "accepted is 0.2, twice that"],
+        ),
+        (
+            format!("{all} --short-ramp v1.csv"),
+            &["v1.csv: its wall moves at", "--short-ramp says"],
+        ),
+        (
+            with("0.3", "0.05"),
+            &["`--mu` is 0.05, but nothing yields there"],
+        ),
+    ];
+    for (line, expected) in cases {
+        refused(&bench, &line, expected);
+    }
+    for (line, expected) in [
+        ("judge away --mu 0.3", "cannot be used with"),
+        ("judge away --kappa 2", "cannot be used with"),
+        ("judge", "required arguments"),
+    ] {
+        refused(&bench, line, &[expected]);
+    }
+    let text = fs::read_to_string(bench.path("v2.csv")).expect("a series");
+    let third = text.lines().nth(3).expect("a row");
+    fs::write(bench.path("v2.csv"), format!("{text}{third}\n")).expect("a file");
+    refused(
+        &bench,
+        &all,
+        &["v2.csv: row ", " does not come after the one before"],
+    );
+    fs::write(bench.path("v2.csv"), "step,time\n").expect("a file");
+    refused(&bench, &all, &["v2.csv: the columns are `step,time`"]);
+}

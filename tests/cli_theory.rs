@@ -104,6 +104,7 @@ fn every_command_has_help_with_an_example() {
         "probe",
         "record",
         "regimes",
+        "check",
         "predict",
     ] {
         let help = standard_output(&mut bench.tristack(&format!("{command} --help")));

@@ -42,7 +42,7 @@ impl TypedValueParser for CodeParser {
 pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
     let known = Code::named(text).map(Ok);
     known.or_else(|| match text.contains('/') {
-        true => Some(in_folder(Path::new(""), text)),
+        true => Some(code_in_folder(text)),
         false => of_user(text),
     })
 }
@@ -57,6 +57,11 @@ pub(super) fn names() -> Vec<String> {
     let mut names: Vec<String> = known.collect();
     names.extend(folders.filter(|name| Code::named(name).is_none()));
     names
+}
+
+/// The code in the folder `text`, or in `FOLDER:NAME`.
+pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
+    in_folder(Path::new(""), text)
 }
 
 /// The code that `text` names in a folder whose path begins in `directory`: PATH or PATH:NAME.

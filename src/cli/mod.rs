@@ -1,6 +1,7 @@
 //! The command line: one file per command.
 
 mod bench;
+mod check;
 mod code_names;
 mod codes;
 mod command_line;
@@ -60,6 +61,7 @@ enum Command {
     Crosscheck(crosscheck::Arguments),
     Trajectories(trajectories::Arguments),
     Codes(codes::Arguments),
+    Check(check::Arguments),
     Probe(probe::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
@@ -115,6 +117,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Crosscheck(arguments) => crosscheck::run(&arguments, command),
         Command::Trajectories(arguments) => trajectories::run(&arguments, command),
         Command::Codes(arguments) => codes::run(&arguments, command),
+        Command::Check(arguments) => check::run(&arguments, command),
         Command::Probe(arguments) => probe::run(&arguments, command),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments, command),

@@ -3,7 +3,7 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, bench, boundaries, budget, crosscheck, forecasts, inventory, judged_series,
+    arm_effects, bench, boundaries, budget, check, crosscheck, forecasts, inventory, judged_series,
     largest_forces, measured_convention, planned_runs, probe, pyramids, regimes, scaling,
     simulations, theory, trajectories,
 };
@@ -40,6 +40,7 @@ pub fn formats_page() -> String {
         crosscheck(&[]),
         budget(&[]),
         trajectories(&[]),
+        check(&[]),
         probe(&[]),
         measured_convention(&[]),
         arm_effects(&[]),

@@ -1,6 +1,7 @@
 //! Output for people and programs: tables in every format, figures, pages.
 
 mod bench;
+mod check;
 mod crosscheck;
 mod explain;
 mod figures;
@@ -28,6 +29,7 @@ pub use table::{DataTable, Table};
 pub use vtk::{VtkFile, vtk_series};
 
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
+pub(crate) use check::{check, check_text};
 pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, performance_svg, regimes_svg};

@@ -112,7 +112,7 @@ fn is_current(record: &ProbeRecord, name: Code) -> bool {
 }
 
 /// Asks `code`, each round in a directory of its own.
-pub(super) fn ask(
+pub(crate) fn ask(
     code: &dyn InstalledCode,
     context: &RunContext,
 ) -> Result<ProbeRecord, Box<Failure>> {

@@ -28,6 +28,7 @@ pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};
 pub(crate) use measured::{
     arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
+pub(crate) use micro_tests::ask;
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;

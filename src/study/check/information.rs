@@ -1,0 +1,115 @@
+//! What is worth knowing of a code whose results are in order.
+
+use super::micro::Micro;
+use super::report::{Grade, Item};
+use super::rows::{index, rows_of};
+use crate::code::Code;
+use crate::series::Series;
+use crate::study::convention::{ArmEffects, Passport, passport};
+
+const CONVENTION: &str = "measured convention";
+const BITS: &str = "the same task twice";
+
+/// Whether two runs of one task are the same.
+pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
+    let grade = Grade::Informational;
+    let Some(second) = second else {
+        return Item::remark(
+            grade,
+            BITS,
+            "the second run failed: the code does not run reliably",
+        );
+    };
+    if first == second {
+        return Item::passed(grade, BITS, "the same bits");
+    }
+    let force = index("wall_force");
+    let (one, two) = (rows_of(first), rows_of(second));
+    let largest = one
+        .iter()
+        .map(|row| row[force].abs())
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let apart = one
+        .iter()
+        .zip(&two)
+        .map(|(one, two)| (one[force] - two[force]).abs());
+    let scatter = apart.fold(0.0, f64::max) / largest;
+    Item::remark(
+        grade,
+        BITS,
+        format!(
+            "the wall force scatters by {scatter:.1e} of its largest value: it belongs to the uncertainty"
+        ),
+    )
+}
+
+/// The convention, what it changes, and whose it is: the passport in short.
+pub(super) fn information(code: Code, micro: Option<&Micro>) -> Vec<Item> {
+    let grade = Grade::Informational;
+    let Some(micro) = micro else {
+        let reason = "no task `motion`: the declared one is believed";
+        return vec![Item::not_tested(grade, CONVENTION, reason)];
+    };
+    let passport = passport(code, &micro.findings);
+    let keys = passport.convention.iter().map(|own| {
+        let value = own.measured.as_ref().map(|value| in_short(value));
+        let key = own.key.as_str();
+        let key = key.rsplit_once("convention.").map_or(key, |(_, key)| key);
+        format!("{key} {}", value.as_deref().unwrap_or("unknown"))
+    });
+    let forces = passport.effects.iter().map(yield_force);
+    vec![
+        Item::passed(grade, CONVENTION, keys.collect::<Vec<_>>().join(", ")),
+        Item::passed(
+            grade,
+            "yield force by theory",
+            forces.collect::<Vec<_>>().join("; "),
+        ),
+        Item::passed(grade, "twin", twin(&passport)),
+    ]
+}
+
+/// A number to six decimals, or a word.
+fn in_short(value: &str) -> String {
+    let number = value.parse::<f64>();
+    number.map_or(value.to_owned(), |number| {
+        ((number * 1e6).round() / 1e6 + 0.0).to_string()
+    })
+}
+
+/// F with the arms of the code beside the paper's.
+fn yield_force(effects: &ArmEffects) -> String {
+    let stack = &effects.stack;
+    let place = format!(
+        "mu = {}, stiffness {}:",
+        stack.floor_friction, stack.stiffness
+    );
+    effects.force.zip(effects.paper_force).map_or_else(
+        || format!("{place} does not yield at the floor"),
+        |(own, paper)| {
+            let change = 100.0 * (own - paper) / paper;
+            format!("{place} {own:.5} m g, {change:+.3} % of the paper's")
+        },
+    )
+}
+
+/// The codes inside the program with the same convention.
+fn twin(passport: &Passport) -> String {
+    let names = |codes: &[Code]| {
+        codes
+            .iter()
+            .map(|code| code.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    if !passport.twins.is_empty() {
+        return format!("{}: the same convention", names(&passport.twins));
+    }
+    if !passport.same_arms.is_empty() {
+        return format!(
+            "{}: the same arms, and so the same yield force",
+            names(&passport.same_arms)
+        );
+    }
+    "none of the external codes inside the program has these arms; native takes on any".to_owned()
+}

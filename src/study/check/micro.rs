@@ -1,0 +1,324 @@
+//! The parameters of a code, measured by the micro-tests of the probe. A parameter is what the task asks for: another
+//! value is a mistake, whereas a convention may be any.
+
+use super::factor::{is_about, meanings, of_factor, of_friction};
+use super::reaction::action_and_reaction;
+use super::report::{Grade, Item};
+use crate::code::Code;
+use crate::model::ContactConvention;
+use crate::runs::ProbeRecord;
+use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
+
+/// Relative deviation from which on numbers with few digits are another number.
+const GROSS: f64 = 1e-2;
+/// m g in the micro-tests, which have no gravity: no factor is mistaken for it.
+const NO_WEIGHT: f64 = f64::INFINITY;
+
+/// The properties that are parameters of the task, or follow from the way in which results are written, by the items
+/// under which they are reported.
+const PARAMETERS: [(&str, &[&str]); 7] = [
+    ("mass", &["mass"]),
+    ("normal stiffness", &["normal_stiffness"]),
+    ("tangential stiffness", &["tangential_stiffness"]),
+    ("damping", &["normal_damping", "tangential_damping"]),
+    ("radius and torque", &["radius"]),
+    ("friction", &["friction"]),
+    ("force of the top wall", &["reported_force"]),
+];
+const MOMENTS: [&str; 2] = ["overlap_lead", "damping_velocity_lag"];
+const MOMENTS_NAME: &str = "forces and positions of one moment";
+
+/// What the micro-tests say of a code.
+pub(super) struct Micro {
+    pub findings: Findings,
+    reaction: Item,
+}
+
+impl Micro {
+    /// Reads the answers of `code`; `None` if they are not those to today's questions.
+    pub fn of(code: Code, record: ProbeRecord) -> Option<Self> {
+        let reaction = action_and_reaction(&record);
+        let findings = read_probe(code, record).ok()?;
+        Some(Self { findings, reaction })
+    }
+
+    /// Whether a property is another one than declared.
+    fn deviates(&self, own: &Finding) -> bool {
+        let (Some(found), Some(declared)) = (own.measured, own.declared) else {
+            return false;
+        };
+        let scale = if declared == 0.0 { 1.0 } else { declared.abs() };
+        let relative = match self.findings.few_digits {
+            Some(_) => GROSS,
+            None => TOLERANCE,
+        };
+        (found - declared).abs() > (relative * scale).max(own.uncertainty.unwrap_or(0.0))
+    }
+
+    /// The items on parameters, one a kind, and the one on the declared convention.
+    pub fn items(&self) -> Vec<Item> {
+        let parameters = PARAMETERS.iter();
+        let parameters = parameters.map(|(name, endings)| self.item(name, endings));
+        let mut items: Vec<Item> = parameters.collect();
+        items.push(self.reaction.clone());
+        items.push(self.item(MOMENTS_NAME, &MOMENTS));
+        items.push(self.declaration());
+        items
+    }
+
+    fn item(&self, name: &'static str, endings: &[&str]) -> Item {
+        let own = self.findings.findings.iter();
+        let own = own.filter(|own| endings.contains(&ending(&own.property)));
+        let (wrong, right): (Vec<&Finding>, Vec<&Finding>) =
+            own.partition(|own| self.deviates(own));
+        if wrong.is_empty() {
+            return match right.iter().any(|own| own.measured.is_some()) {
+                true => Item::passed(Grade::Consistency, name, "as asked"),
+                false => {
+                    Item::not_tested(Grade::Consistency, name, "the micro-tests do not show it")
+                }
+            };
+        }
+        let mut causes: Vec<String> = Vec::new();
+        for cause in wrong.iter().flat_map(|own| self.causes_of(own)) {
+            if !causes.contains(&cause) {
+                causes.push(cause);
+            }
+        }
+        if causes.is_empty() {
+            causes.push(usual(name).to_owned());
+        }
+        let (expected, found) = (
+            list(&wrong, |own| own.declared),
+            list(&wrong, |own| own.measured),
+        );
+        Item::failed(Grade::Consistency, name, expected, found, causes)
+    }
+
+    /// Mistakes that fit a parameter that is not as asked.
+    fn causes_of(&self, own: &Finding) -> Vec<String> {
+        let mut findings = self.findings.findings.iter();
+        let growth = findings.find_map(|other| {
+            let is_its_own = other.property.starts_with(&own.property);
+            other.growth().filter(|_| is_its_own)
+        });
+        match (growth, own.measured, own.declared) {
+            (Some(growth), ..) => vec![growth],
+            (None, Some(found), Some(asked)) => causes_of(&own.property, found, asked),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The convention that the manifest declares, beside the measured one.
+    fn declaration(&self) -> Item {
+        const NAME: &str = "declared convention";
+        let own = self.findings.findings.iter();
+        let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
+        let wrong: Vec<&Finding> = wrong.collect();
+        if wrong.is_empty() {
+            return Item::passed(Grade::Consistency, NAME, "as measured");
+        }
+        let measured = wrong.iter().filter_map(|own| Some((own, own.measured?)));
+        let causes = measured
+            .map(|(own, value)| self.correction(own, value))
+            .collect();
+        let expected = format!("{} (declared)", list(&wrong, |own| own.declared));
+        let found = format!("{} (measured)", list(&wrong, |own| own.measured));
+        Item::failed(Grade::Consistency, NAME, expected, found, causes)
+    }
+
+    /// How the manifest would say what was measured.
+    fn correction(&self, own: &Finding, value: f64) -> String {
+        let measured = &self.findings.measured;
+        let known = own.key.filter(|key| measured.reason(*key).is_none());
+        known.map_or_else(
+            || {
+                let (name, value) = (&own.property, rounded(value));
+                format!("{name} is {value}, for which the manifest has no word: the law is another one")
+            },
+            |key| {
+                let value = measured.value(key);
+                let value = value.parse::<f64>().map_or(value, |number| rounded(number).to_string());
+                format!("the code has another convention than code.toml says, which might be: {key} = {value}")
+            },
+        )
+    }
+
+    /// The convention by which the stack is looked at: the measured one where the declared one is wrong.
+    pub fn convention(&self) -> ContactConvention {
+        let settled = self.findings.settled.convention;
+        let mut findings = self.findings.findings.iter();
+        let is_wrong = findings.any(|own| is_convention(own) && self.deviates(own));
+        let measured = ContactConvention {
+            restitution: settled.restitution,
+            ..self.findings.measured.convention
+        };
+        match is_wrong && measured.validate().is_ok() {
+            true => measured,
+            false => settled,
+        }
+    }
+}
+
+/// Names and values of properties.
+fn list(findings: &[&Finding], value: impl Fn(&Finding) -> Option<f64>) -> String {
+    let each = findings.iter().map(|own| {
+        let value = value(own).unwrap_or(f64::NAN) + 0.0;
+        format!("{} {value:.6}", own.property)
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
+/// The name of a property without the kind of contact.
+fn ending(name: &str) -> &str {
+    let kinds = ["pair_", "floor_", "wall_"];
+    kinds
+        .into_iter()
+        .find_map(|kind| name.strip_prefix(kind))
+        .unwrap_or(name)
+}
+
+fn is_convention(own: &Finding) -> bool {
+    let ending = ending(&own.property);
+    let mut parameters = PARAMETERS.iter().flat_map(|(_, endings)| *endings);
+    own.growth().is_none()
+        && !MOMENTS.contains(&ending)
+        && !parameters.any(|other| *other == ending)
+}
+
+/// Meanings of a radius, by the torque of a force.
+const RADII: [(f64, &str); 3] = [
+    (0.5, "1/2: a diameter of 1; the radius is 1"),
+    (2.0, "2: the diameter in place of the radius"),
+    (
+        -1.0,
+        "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
+    ),
+];
+/// Meanings of the reported force of the top wall, in units of that which it exerts.
+const WALL_FORCES: [(f64, &str); 2] = [
+    (-1.0, "its sign: it counts positive in compression"),
+    (2.0, "it counts twice"),
+];
+/// Meanings of the steps by which the overlap in a force is ahead of the positions of its row.
+const LEADS: [(f64, &str); 2] = [
+    (
+        -1.0,
+        "the force of a row is that of the step before: it is written before it is computed anew, or positions have \
+            moved on before they are written",
+    ),
+    (
+        1.0,
+        "the force of a row is that of the step after: positions are written before they move, forces after",
+    ),
+];
+
+/// What fits a parameter of that `name` that is not as asked.
+fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
+    let named = |candidates: &[(f64, &str)]| {
+        let candidates = candidates.iter();
+        let candidates = candidates.map(|(value, meaning)| (*value, (*meaning).to_owned()));
+        meanings(found, &candidates.collect::<Vec<_>>())
+    };
+    let none = |meaning: &str| vec![meaning.to_owned()];
+    let is_none = found.abs() < 1e-9;
+    let texts = match (name, ending(name)) {
+        (_, "radius") if is_none => {
+            none("there is no torque: the tangential force acts at the centre")
+        }
+        (_, "radius") => named(&RADII),
+        (_, "reported_force") if is_none => {
+            none("it is 0: never computed, or written before it is")
+        }
+        (_, "reported_force") => named(&WALL_FORCES),
+        (_, "overlap_lead") => named(&LEADS),
+        ("wall_friction", _) => vec![format!(
+            "the top wall has a friction of {found:.6}, and must have none"
+        )],
+        (_, "friction") => of_friction(found, asked, asked),
+        (_, "normal_damping" | "tangential_damping") => damping(found, asked),
+        (_, "tangential_stiffness") => tangential_stiffness(found, asked),
+        (_, "mass" | "normal_stiffness") => of_factor(found / asked, NO_WEIGHT),
+        _ => Vec::new(),
+    };
+    texts
+        .into_iter()
+        .map(|text| format!("{name}: {text}"))
+        .collect()
+}
+
+/// In the micro-tests k_n/k_t = 1/k_t, since k_n = 1.
+fn tangential_stiffness(found: f64, asked: f64) -> Vec<String> {
+    let mut texts = of_factor(found / asked, NO_WEIGHT);
+    if is_about(found, 1.0) {
+        texts.push("k_n: the normal stiffness serves for both".to_owned());
+    }
+    if is_about(found, 1.0 / asked) {
+        texts.push("1/k_t: the ratio is turned round".to_owned());
+    }
+    texts
+}
+
+fn damping(found: f64, asked: f64) -> Vec<String> {
+    let factor = found / asked;
+    if factor.abs() < 1e-6 {
+        return vec!["there is no damping".to_owned()];
+    }
+    let own = |value: f64, meaning: &str| (value, meaning.to_owned());
+    let candidates = [
+        own(-1.0, "its sign: it must oppose the motion"),
+        own(
+            2.0,
+            "twice: 2 sqrt(k m) and a ratio, where the coefficient itself is given, or both bodies count",
+        ),
+        own(
+            0.5,
+            "half: two equal dashpots in series, or the reduced mass m/2 counts, or one body alone",
+        ),
+        own(
+            asked,
+            "its square: the given coefficient is multiplied by itself",
+        ),
+        own(
+            2f64.sqrt(),
+            "sqrt 2: the mass in its place is twice the reduced one",
+        ),
+        own(
+            0.5f64.sqrt(),
+            "1/sqrt 2: the reduced mass m/2 in place of m; the coefficient is given, not the ratio",
+        ),
+    ];
+    meanings(factor, &candidates)
+}
+
+fn usual(name: &str) -> &'static str {
+    match name {
+        "mass" => {
+            "usual causes: density times volume in place of mass 1; a force that is written, but not applied"
+        }
+        "normal stiffness" => {
+            "usual causes: a modulus in place of a stiffness; two materials in series; Hertz in place of Hooke"
+        }
+        "tangential stiffness" => {
+            "usual causes: the ratio k_n/k_t turned round; two materials in series"
+        }
+        "damping" => {
+            "usual causes: a damping ratio or a restitution in place of the coefficient; global damping besides"
+        }
+        "radius and torque" => {
+            "usual causes: a diameter in place of the radius; a torque with the wrong sign"
+        }
+        "friction" => "usual causes: an angle in place of the coefficient; a mean of two materials",
+        "force of the top wall" => {
+            "usual causes: its sign; the sum of several walls; a force of another step"
+        }
+        MOMENTS_NAME => {
+            "usual causes: rows written after the positions moved, with the forces of before"
+        }
+        _ => "",
+    }
+}

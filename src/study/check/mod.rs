@@ -1,0 +1,289 @@
+//! The check of a folder before anything is judged: mandatory items, consistency, information, in this order.
+//!
+//! A failure is explained by computing: the native DEM makes a mistake, or its series is written wrongly, and the result
+//! is compared with what the code has written.
+
+mod beside;
+mod computed;
+mod factor;
+mod information;
+mod micro;
+mod mistake;
+mod parameter;
+mod reaction;
+mod report;
+mod rows;
+mod stack;
+mod unreadable;
+mod written;
+
+pub use report::{Grade, Item, Outcome, Report};
+
+use super::convention::ask;
+use super::yield_force::planned_protocol;
+use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
+use crate::model::{Case, ContactConvention, Stack};
+use crate::theory::quasistatic_limit;
+use information::{information, same_bits};
+use micro::Micro;
+use std::io;
+use std::path::Path;
+use tempfile::TempDir;
+use unreadable::explained;
+
+/// The stack that is compressed: soft, so that every convention shows, and above the critical friction.
+const FRICTION: f64 = 0.3;
+const STIFFNESS: f64 = 100.0;
+/// Wall speed in units of the displacement by which the speeds of measurements are measured: twice their fastest.
+const SPEED: f64 = 4e-3;
+const TIME_STEP: f64 = 0.1;
+
+/// The case by which a code with this `convention` is checked.
+///
+/// # Panics
+/// Never: under the paper's convention the stack yields.
+pub fn case(convention: ContactConvention) -> Case {
+    let stack = Stack::paper(FRICTION, STIFFNESS);
+    let protocol = |planned_by: &ContactConvention| {
+        let limit = quasistatic_limit(&stack, planned_by);
+        planned_protocol(&limit, &stack, planned_by, SPEED, TIME_STEP)
+    };
+    let own = protocol(&convention).or_else(|| protocol(&ContactConvention::PAPER));
+    Case {
+        stack,
+        convention,
+        protocol: own.expect("the stack yields under the paper's convention"),
+    }
+}
+
+/// Checks `code`, whose folder is `folder`; its runs are made anew, below a temporary directory, in the way of `context`.
+///
+/// # Errors
+/// If there is no place for the runs.
+pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Report> {
+    let place = tempfile::Builder::new()
+        .prefix("tristack-check-")
+        .tempdir()?;
+    let mut check = Check {
+        code,
+        context,
+        report: Report::default(),
+        directory: place.path(),
+    };
+    let completed = check.go_through();
+    let mut report = check.report;
+    report.next = next(
+        completed.is_some() && report.failed_grade().is_none(),
+        folder,
+    );
+    if completed.is_none() {
+        keep(place, context);
+    }
+    Ok(report)
+}
+
+/// Keeps the directory of a run that failed, with its output.
+fn keep(place: TempDir, context: &RunContext) {
+    if !context.interrupt.requested() {
+        keep_evidence(place);
+    }
+}
+
+fn next(is_green: bool, folder: &str) -> String {
+    match is_green {
+        true => format!("tristack crosscheck --codes {folder}"),
+        false => format!("mend the first failure, then: tristack check {folder}"),
+    }
+}
+
+/// A check on its way.
+struct Check<'a> {
+    code: Code,
+    context: &'a RunContext<'a>,
+    report: Report,
+    directory: &'a Path,
+}
+
+impl Check<'_> {
+    /// Goes through all items; `None` if going on made no sense.
+    fn go_through(&mut self) -> Option<()> {
+        self.manifest();
+        let installed = self.program()?;
+        let case = case(self.code.convention());
+        let run = self.stack(installed.as_ref(), &case)?;
+        let micro = self.micro_tests(installed.as_ref())?;
+        let convention = micro
+            .as_ref()
+            .map_or_else(|| self.code.convention(), Micro::convention);
+        self.report
+            .items
+            .extend(stack::items(&run.series, &case, convention));
+        match &micro {
+            Some(micro) => self.report.items.extend(micro.items()),
+            None => self.add(Item::not_tested(
+                Grade::Consistency,
+                "micro-tests",
+                "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured",
+            )),
+        }
+        let again = self.run(installed.as_ref(), &case, "again");
+        self.add(same_bits(
+            &run.series,
+            again.as_ref().map(|run| &run.series),
+        ));
+        self.report
+            .items
+            .extend(information(self.code, micro.as_ref()));
+        Some(())
+    }
+
+    fn add(&mut self, item: Item) {
+        self.report.items.push(item);
+    }
+
+    fn manifest(&mut self) {
+        let motion = self.code.check_task(TaskKind::Motion).is_ok();
+        let tasks = if motion { "stack, motion" } else { "stack" };
+        let found = format!("{} ({}): tasks {tasks}", self.code, self.code.title());
+        self.add(Item::passed(Grade::Mandatory, "manifest", found));
+    }
+
+    /// The program is there and says its version, the same one twice.
+    fn program(&mut self) -> Option<Box<dyn InstalledCode>> {
+        const NAME: &str = "program";
+        let expected = "a program that starts and says its version";
+        let fail = |found: String, causes: Vec<String>| {
+            Item::failed(Grade::Mandatory, NAME, expected, found, causes)
+        };
+        let Some(installed) = self.code.find() else {
+            let hint = self.code.installation_hint().to_owned();
+            let found =
+                "the first word of `command` names no program in the search path".to_owned();
+            let causes = vec![
+                format!("it is not installed; `install` of code.toml says: {hint}"),
+                "its name is misspelt, or it is a file of the folder: files are given as {deck}, to an interpreter".to_owned(),
+            ];
+            self.add(fail(found, causes));
+            return None;
+        };
+        if let Some(reason) = installed.broken() {
+            let causes = vec![
+                "`version.arguments` make it do something else than print its version".to_owned(),
+            ];
+            self.add(fail(reason.to_owned(), causes));
+            return None;
+        }
+        let versions = [&installed, &self.code.find()?].map(|own| own.identity().version.clone());
+        if versions[0] != versions[1] {
+            let found = format!("asked twice, it says {} and {}", versions[0], versions[1]);
+            let causes = vec!["the first line that it prints holds a date, a counter or a path: `version.before` is the \
+                               text in front of the version in that line".to_owned()];
+            self.add(fail(found, causes));
+            return None;
+        }
+        let [version, _] = versions;
+        self.add(match version.as_str() {
+            "unknown" => Item::remark(
+                Grade::Mandatory,
+                NAME,
+                "its version is unknown: runs of different versions are kept apart by the hash of the program alone; \
+                 `version = { arguments = [...], before = \"...\" }` in [program] asks for it",
+            ),
+            version => Item::passed(Grade::Mandatory, NAME, format!("version {version}")),
+        });
+        Some(installed)
+    }
+
+    /// A small stack, whose result must be complete.
+    fn stack(&mut self, installed: &dyn InstalledCode, case: &Case) -> Option<Run> {
+        const NAME: &str = "task stack";
+        let outcome = self.try_run(installed, case, "stack");
+        match outcome {
+            Ok(run) => {
+                let rows = run.series.samples().len();
+                let found = format!(
+                    "{rows} rows at the steps asked for, {} steps in {:.2} s",
+                    case.total_steps(),
+                    run.provenance.seconds
+                );
+                self.add(Item::passed(Grade::Mandatory, NAME, found));
+                Some(run)
+            }
+            Err(failure) => {
+                self.fail(NAME, failure.as_deref(), Some(case));
+                None
+            }
+        }
+    }
+
+    fn fail(&mut self, name: &'static str, failure: Option<&Failure>, case: Option<&Case>) {
+        let Some(failure) = failure else {
+            let none = "the program ended without reporting a result".to_owned();
+            return self.add(Item::failed(
+                Grade::Mandatory,
+                name,
+                "a complete result",
+                none,
+                Vec::new(),
+            ));
+        };
+        let told = explained(failure, case);
+        self.add(Item::failed(
+            Grade::Mandatory,
+            name,
+            told.expected,
+            told.found,
+            told.causes,
+        ));
+    }
+
+    fn try_run(
+        &self,
+        installed: &dyn InstalledCode,
+        case: &Case,
+        name: &str,
+    ) -> Result<Run, Option<Box<Failure>>> {
+        let directory = self.directory.join(name);
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        let mut outcome = None;
+        installed.run(&[*case], &context, &mut |_, result| outcome = Some(result));
+        outcome.map_or(Err(None), |result| {
+            result.map_err(|failure| Some(Box::new(failure)))
+        })
+    }
+
+    fn run(&self, installed: &dyn InstalledCode, case: &Case, name: &str) -> Option<Run> {
+        self.try_run(installed, case, name).ok()
+    }
+
+    /// The answers to the micro-tests: `None` if they fail, nothing inside if there is no task for them.
+    fn micro_tests(&mut self, installed: &dyn InstalledCode) -> Option<Option<Micro>> {
+        const NAME: &str = "task motion";
+        if self.code.check_task(TaskKind::Motion).is_err() {
+            return Some(None);
+        }
+        let directory = self.directory.join("motion");
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        match ask(installed, &context) {
+            Ok(record) => {
+                let found = format!(
+                    "{} micro-tests in {:.2} s",
+                    record.answers.len(),
+                    record.provenance.seconds
+                );
+                self.add(Item::passed(Grade::Mandatory, NAME, found));
+                Some(Micro::of(self.code, record))
+            }
+            Err(failure) => {
+                self.fail(NAME, Some(&failure), None);
+                None
+            }
+        }
+    }
+}

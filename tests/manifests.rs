@@ -265,7 +265,7 @@ const WRONG: [(&str, &str, &str, &[&str]); 20] = [
     (
         "history_update = \"projected\"",
         "restitution = 2.0",
-        "line 34",
+        "line 37",
         &["`convention.restitution` is 2"],
     ),
     (

@@ -18,8 +18,7 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     let single = single_mistakes(case);
     let single = single.into_par_iter().filter_map(|mistake| {
         let rows = mistake.rows()?;
-        let explains = beside.explains(&rows, &beside.columns);
-        explains.then(|| (beside.distance(&rows, &beside.columns), mistake.text))
+        Some((beside.explained_by(&rows)?, mistake.text))
     });
     let mut fitting: Vec<(f64, String)> = single.collect();
     fitting.extend(late_wall(beside, case));

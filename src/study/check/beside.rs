@@ -7,8 +7,6 @@ use super::rows::{ANGLES, FORCES, LENGTHS, Row, WIDTH, index, indices, peak};
 pub(super) const SAME: f64 = 1e-3;
 /// Part of a deviation that may remain where its cause is found, and part of the largest that is none.
 const EXPLAINED: f64 = 0.1;
-/// The same where a parameter was fitted: a code that has it wrong is often not consistent in it.
-const NEAR: f64 = 0.03;
 
 /// Both series, row by row.
 pub(super) struct Beside<'a> {
@@ -36,20 +34,28 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// The largest distance in `columns` between what was found and the rows `other`, up to their peak.
+    /// The largest distance in `columns` between what was found and the rows `other`, which are those that are expected
+    /// with a mistake in what is written, up to the peak.
     pub fn distance(&self, other: &[Row], columns: &[usize]) -> f64 {
-        let rows = self.found.iter().zip(other).take(peak(other) + 1);
-        rows.flat_map(|(found, other)| {
+        self.distance_until(peak(self.expected), other, columns)
+    }
+
+    /// The same of another run, which may have its peak elsewhere, up to the later peak.
+    pub fn distance_of_run(&self, run: &[Row]) -> f64 {
+        let last = peak(run).max(peak(self.found));
+        self.distance_until(last, run, &self.columns)
+    }
+
+    fn distance_until(&self, last: usize, other: &[Row], columns: &[usize]) -> f64 {
+        let rows = self.found.iter().zip(other).take(last + 1);
+        let apart = rows.flat_map(|(found, other)| {
             let apart =
                 |column: &usize| (found[*column] - other[*column]).abs() / self.scales[*column];
             columns.iter().map(apart)
-        })
-        .fold(0.0, |worst, apart| {
-            if apart > worst || apart.is_nan() {
-                apart
-            } else {
-                worst
-            }
+        });
+        apart.fold(0.0, |worst, apart| match apart > worst || apart.is_nan() {
+            true => apart,
+            false => worst,
         })
     }
 
@@ -63,7 +69,10 @@ impl<'a> Beside<'a> {
         let least = SAME.min(EXPLAINED * self.distance(self.expected, &self.columns));
         let columns = self.columns.iter().copied();
         columns
-            .filter(|&column| !(self.of_column(column) <= least))
+            .filter(|&column| {
+                let distance = self.of_column(column);
+                distance > least || distance.is_nan()
+            })
             .collect()
     }
 
@@ -74,10 +83,11 @@ impl<'a> Beside<'a> {
         rest < SAME && rest <= EXPLAINED * before
     }
 
-    /// Whether the rows `other` come much nearer to what was found, if not all the way.
-    pub fn comes_near(&self, other: &[Row], columns: &[usize]) -> bool {
-        let before = self.distance(self.expected, columns);
-        self.distance(other, columns) <= NEAR * before
+    /// The distance of another run, if it explains what was found.
+    pub fn explained_by(&self, run: &[Row]) -> Option<f64> {
+        let before = self.distance(self.expected, &self.columns);
+        let rest = self.distance_of_run(run);
+        (rest < SAME && rest <= EXPLAINED * before).then_some(rest)
     }
 
     /// The first row in which a column is off, and its values: found, expected.

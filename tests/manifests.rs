@@ -272,7 +272,10 @@ const WRONG: [(&str, &str, &str, &[&str]); 20] = [
         "history_update = \"projected\"",
         "history_updat = \"projected\"",
         "",
-        &["`history_updat`"],
+        &[
+            "`convention.history_updat` is no known key",
+            "did you mean `history_update`?",
+        ],
     ),
 ];
 

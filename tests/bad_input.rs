@@ -137,7 +137,12 @@ fn case_files_are_checked_key_by_key() {
             "stiffnes = 100.0",
             "unknown field `stiffnes`",
         ),
-        ("stiffness = 100.0", "", "missing field `stiffness`"),
+        ("floor_friction = 0.3", "", "missing field `floor_friction`"),
+        (
+            "stiffness = 100.0",
+            "mu = 0.3",
+            "duplicate field `floor_friction`",
+        ),
         (
             "stiffness = 100.0",
             "stiffness = \"high\"",

@@ -474,10 +474,11 @@ class Stack:
     """Equilibrium with torque arms R_c = 1 + pair G and R_f = 1 + floor z, and
     springs that grow with kinematic arms S_c and S_f of the same form.
 
-    b R_c = e R_f and -a sin psi + b cos psi + e = 0 give, with a = G,
-        b = N R_f, e = N R_c, N = G sin psi/W, W = R_f cos psi + R_c,
+    b R_c = e R_f and -a sin psi + b cos psi + e = c give, with a = G,
+        b = N R_f, e = N R_c, N = (G sin psi + c)/W, W = R_f cos psi + R_c,
     and the load on cylinder 1, L = 2 (a cos psi + b sin psi), becomes
-        P(L, G, psi) = L W - 2 G (R_c cos psi + R_f) = 0.
+        P(L, G, psi) = L W - 2 G (R_c cos psi + R_f) - 2 c R_f sin psi = 0,
+    with c = 2 (1 - x_2) where contact 2-3 is closed, and c = 0 where it is open.
     The floor carries z = slope L + offset: 3 L/2 while gravity is raised
     (three equal weights), L/2 + epsilon under compression.
     """
@@ -486,6 +487,7 @@ class Stack:
         self.epsilon, self.kappa = epsilon, kappa
         self.pair, self.floor = pair_arm, floor_arm
         self.kinematic = kinematic_arms or (pair_arm, floor_arm)
+        self.closed = False
         self.ramp()
 
     def ramp(self):
@@ -494,14 +496,21 @@ class Stack:
     def compression(self):
         self.slope, self.offset = mpf(1) / 2, self.epsilon
 
+    def bottom_force(self, T, G):
+        """c, and its derivatives in G and psi; x_2 < 1 where the contact is closed."""
+        if not self.closed:
+            return mpf(0), mpf(0), mpf(0)
+        return 2 - 2 * (2 - G) * sine(T), 2 * sine(T), -2 * (2 - G) * cosine(T)
+
     def load(self, T, G):
-        """L from P = 0, a quadratic in L; the root that is 2 G with equal arms."""
+        """L from P = 0, a quadratic in L; the root that is 2 G with equal arms and c = 0."""
         c = cosine(T)
         r_c = 1 + self.pair * G
         arm = 1 + self.floor * self.offset       # R_f at L = 0
         growth = self.floor * self.slope         # dR_f/dL
-        linear = arm * c + r_c - 2 * G * growth
-        constant = 2 * G * (r_c * c + arm)
+        pushed = 2 * self.bottom_force(T, G)[0] * sine(T)
+        linear = arm * c + r_c - (2 * G + pushed) * growth
+        constant = 2 * G * (r_c * c + arm) + pushed * arm
         root = mp.sqrt(linear**2 + 4 * growth * c * constant)
         return 2 * constant / (linear + root)
 
@@ -509,7 +518,7 @@ class Stack:
         """z, R_c, R_f, b, e."""
         z = self.slope * load + self.offset
         r_c, r_f = 1 + self.pair * G, 1 + self.floor * z
-        n = G * sine(T) / (r_f * cosine(T) + r_c)
+        n = (G * sine(T) + self.bottom_force(T, G)[0]) / (r_f * cosine(T) + r_c)
         return z, r_c, r_f, n * r_f, n * r_c
 
     def kinematic_arms(self, G, z):
@@ -531,15 +540,18 @@ class Stack:
         s, c, rho, load = sine(T), cosine(T), 2 - G, self.load(T, G)
         z, r_c, r_f, _, _ = self.forces(T, G, load)
         s_c, s_f = self.kinematic_arms(G, z)
+        between, between_g, between_psi = self.bottom_force(T, G)
         growth = self.floor * self.slope
         w = r_f * c + r_c
-        n = G * s / w
-        p_load = w + load * growth * c - 2 * G * growth
-        d_load = ((2 * (r_c * c + r_f) + 2 * G * self.pair * c - load * self.pair) / p_load,
-                  (load * r_f - 2 * G * r_c) * s / p_load)
+        n = (G * s + between) / w
+        p_load = w + load * growth * c - 2 * (G + between * s) * growth
+        d_load = ((2 * (r_c * c + r_f) + 2 * G * self.pair * c - load * self.pair
+                   + 2 * between_g * r_f * s) / p_load,
+                  ((load * r_f - 2 * G * r_c) * s
+                   + 2 * r_f * (between_psi * s + between * c)) / p_load)
         d_rf = (growth * d_load[0], growth * d_load[1])
         d_w = (c * d_rf[0] + self.pair, c * d_rf[1] - r_f * s)
-        d_n = ((s - n * d_w[0]) / w, (G * c - n * d_w[1]) / w)
+        d_n = ((s + between_g - n * d_w[0]) / w, (G * c + between_psi - n * d_w[1]) / w)
         arms = s_f * r_f + s_c * r_c
         d_arms = (s_f * d_rf[0] + s_c * self.pair, s_f * d_rf[1])
         in_overlap = self.kappa * (n * d_arms[0] + arms * d_n[0]) + s_c * s

@@ -22,6 +22,7 @@ mod progress;
 mod record;
 mod regimes;
 mod report;
+mod schema;
 mod simulate;
 mod stack_set;
 mod streams;
@@ -70,6 +71,7 @@ enum Command {
     Judge(judge::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
+    Schema(schema::Arguments),
     #[command(name = GUARD_COMMAND, hide = true)]
     Guard(guard::Arguments),
 }
@@ -126,6 +128,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Judge(arguments) => judge::run(&arguments, command),
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
+        Command::Schema(arguments) => schema::run(&arguments),
         Command::Guard(arguments) => guard::run(&arguments),
     }
 }

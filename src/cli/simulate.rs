@@ -6,20 +6,26 @@ use super::options::{
     time_limit,
 };
 use super::out::{Out, write};
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::{
     Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
 };
 use crate::dem::compress_stack_into_frames;
 use crate::files::{FileError, Layout, remove_older, write_atomically};
-use crate::model::{Case, InvalidValue, Protocol, Shortcuts, SideWalls, Stack, shown};
+use crate::model::{
+    Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Protocol, Shortcuts,
+    SideWalls, Stack, shown,
+};
 use crate::output::{
-    VTK_COLLECTION, is_vtk_collection, is_vtk_row, json, run_svg, simulations, vtk_series,
+    VTK_COLLECTION, commented_case, is_vtk_collection, is_vtk_row, json, run_svg, simulations,
+    vtk_series,
 };
 use crate::series::Frames;
 use crate::study::preparation::between_side_walls;
-use crate::study::yield_force::{max_touch_speed, no_yield, planned_protocol, protocol_at_speed};
-use crate::theory::quasistatic_limit;
+use crate::study::yield_force::{
+    NoYield, max_touch_speed, no_yield, planned_protocol, protocol_at_speed,
+};
+use crate::theory::{Limit, quasistatic_limit};
 use clap::{Args, Id, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -27,6 +33,9 @@ use std::time::Duration;
 /// Default wall speed, in units of the predicted displacement z at yield.
 const DEFAULT_SPEED: f64 = 1e-3;
 const DEFAULT_TIME_STEP: f64 = 0.1;
+/// The stack of `--example`.
+const EXAMPLE_FRICTION: f64 = 0.3;
+const EXAMPLE_STIFFNESS: f64 = 100.0;
 
 /// The preparation of the stack before the compression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -45,18 +54,21 @@ enum PreparationKind {
 )]
 pub(super) struct Arguments {
     /// Code that runs the case
-    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
-    code: Code,
-    /// A case file, .toml or .json, instead of --mu, --stiffness and the rest
+    #[arg(long, required_unless_present = "example", value_parser = CodeParser, value_name = "CODE")]
+    code: Option<Code>,
+    /// Print a case file with every key, its default and its meaning, and exit
+    #[arg(long, exclusive = true)]
+    example: bool,
+    /// A case file, .toml or .json, instead of --mu, --stiffness and the rest; needs only what differs from the defaults
     #[arg(long, value_name = "FILE", conflicts_with_all = replaced_by_case())]
     case: Option<PathBuf>,
     /// Floor friction; a number or the word `critical`
-    #[arg(long, required_unless_present = "case", value_parser = friction, allow_negative_numbers = true)]
+    #[arg(long, required_unless_present_any = ["case", "example"], value_parser = friction, allow_negative_numbers = true)]
     mu: Option<f64>,
     /// Stiffness k_n r/(m g)
     #[arg(
         long,
-        required_unless_present = "case",
+        required_unless_present_any = ["case", "example"],
         value_name = "S",
         allow_negative_numbers = true
     )]
@@ -109,13 +121,16 @@ fn replaced_by_case() -> Vec<Id> {
 
 /// Runs one case and prints both estimators.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    if arguments.example {
+        return Ok(print(&example()?));
+    }
     // Micro-tests go to the store, where the other commands find them.
-    settle_one(arguments.code, &RunOptions::default())?;
+    settle_one(arguments.code(), &RunOptions::default())?;
     let case = case(arguments)?;
     tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;
-    let code = arguments.code.find();
-    let code = code.ok_or(CliError::MissingCode(arguments.code))?;
+    let code = arguments.code().find();
+    let code = code.ok_or(CliError::MissingCode(arguments.code()))?;
     let out = Out::claim(arguments.out.as_deref(), &run_layout(arguments, &case))?;
     Out::claim(arguments.vtk_outside(), &vtk_layout())?;
     let begun = begin(arguments.out.as_deref(), &case)?;
@@ -193,7 +208,7 @@ fn draw(arguments: &Arguments, run: &Run) -> Result<ExitStatus, CliError> {
     if arguments.svg.is_none() && arguments.vtk.is_none() {
         return Ok(status);
     }
-    let frames = frames(arguments.code, run)?;
+    let frames = frames(arguments.code(), run)?;
     if let Some(file) = &arguments.svg {
         let name = &run.provenance.identity.code;
         status = write(file, run_svg(name, &run.case, &frames).as_bytes());
@@ -240,8 +255,9 @@ fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
 
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
-        let case = Case::read(path)?;
-        let (code, protocol) = (arguments.code, &case.protocol);
+        let code = arguments.code();
+        let case = Case::read_with(path, |written| completed(written, code))?;
+        let protocol = &case.protocol;
         code.check_convention(&case.convention)?;
         code.check_preparation(&protocol.preparation)?;
         code.check_shortcuts(protocol.shortcuts.is_some())?;
@@ -250,14 +266,10 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
     let stack = arguments.stack.stack(mu, stiffness)?;
-    let convention = arguments.convention.of(arguments.code)?;
+    let convention = arguments.convention.of(arguments.code())?;
     let limit = quasistatic_limit(&stack, &convention);
-    let protocol = match arguments.speed {
-        Some(speed) => protocol_at_speed(&limit, speed, arguments.dt),
-        None => planned_protocol(&limit, &stack, &convention, DEFAULT_SPEED, arguments.dt),
-    };
-    let mut protocol = protocol.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)))?;
-    let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
+    let mut protocol = planned(&limit, &stack, &convention, arguments.speed, arguments.dt)?;
+    let accepted = arguments.code().check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     if let Some(travel) = limit.wall_travel.filter(|_| arguments.shortcuts) {
         let gentle = max_touch_speed(&stack, &convention);
@@ -270,6 +282,52 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
     };
     case.validate().map_err(as_flag)?;
     Ok(case)
+}
+
+/// The usual protocol, at a wall speed if one is given.
+fn planned(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+    speed: Option<f64>,
+    time_step: f64,
+) -> Result<Protocol, Box<NoYield>> {
+    let protocol = match speed {
+        Some(speed) => protocol_at_speed(limit, speed, time_step),
+        None => planned_protocol(limit, stack, convention, DEFAULT_SPEED, time_step),
+    };
+    protocol.ok_or_else(|| Box::new(no_yield(stack, convention, limit)))
+}
+
+/// The case of which a file says a part: the rest is as for a case of the command line.
+fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
+    let (stack, own) = (written.stack, &written.protocol);
+    stack.validate()?;
+    let convention = written.convention.unwrap_or_else(|| code.convention());
+    convention.validate()?;
+    let limit = quasistatic_limit(&stack, &convention);
+    let time_step = own.time_step.unwrap_or(DEFAULT_TIME_STEP);
+    let planned = planned(&limit, &stack, &convention, own.wall_speed, time_step);
+    let mut protocol = planned.map_err(|no_yield| no_yield.as_value())?;
+    if let Some(walls) = own.side_walls(stack.epsilon()) {
+        protocol = between_side_walls(&protocol, walls);
+    }
+    Ok(Case {
+        stack,
+        convention,
+        protocol: own.over(&protocol),
+    })
+}
+
+/// A case file with every key and its default, and what each means.
+fn example() -> Result<String, CliError> {
+    let stack = Stack::paper(EXAMPLE_FRICTION, EXAMPLE_STIFFNESS);
+    let written = PartialCase {
+        stack,
+        convention: None,
+        protocol: PartialProtocol::default(),
+    };
+    Ok(commented_case(&completed(&written, Code::NATIVE)?))
 }
 
 /// `protocol` with the preparation of the command line.
@@ -288,7 +346,7 @@ fn prepared(
             // Adding zero turns -0 into 0, which is the same push and must be the same case.
             let walls = SideWalls::paper(push.unwrap_or(0.0) + 0.0, stack.epsilon());
             let protocol = between_side_walls(protocol, walls);
-            let accepted = arguments.code.check_preparation(&protocol.preparation);
+            let accepted = arguments.code().check_preparation(&protocol.preparation);
             accepted.map_err(as_flag)?;
             Ok(protocol)
         }
@@ -319,7 +377,7 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
 
 /// The files of a run in the directory of `--out`, with pictures that are asked for in the same place.
 fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
-    let mut files = arguments.code.run_files(case);
+    let mut files = arguments.code().run_files(case);
     files.extend([SERIES, SUMMARY].map(str::to_owned));
     files.extend(arguments.in_out(arguments.svg.as_deref()));
     if let Some(vtk) = arguments.in_out(arguments.vtk.as_deref()) {
@@ -351,6 +409,11 @@ fn vtk_layout() -> Layout {
 }
 
 impl Arguments {
+    /// The code, which is not asked for an example.
+    fn code(&self) -> Code {
+        self.code.unwrap_or(Code::NATIVE)
+    }
+
     /// The path of `place` in the directory of `--out`, if it lies there.
     fn in_out(&self, place: Option<&Path>) -> Option<String> {
         let [out, place] =

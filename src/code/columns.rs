@@ -2,9 +2,11 @@
 //! `floor_n2 = { from = "fn2", factor = -1.0 }`.
 
 use crate::series::{ColumnSource, ColumnSources, Motion, Series};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -42,21 +44,34 @@ impl<'de> Deserialize<'de> for Name {
 }
 
 /// A column as it is written.
-struct Written {
+pub(super) struct Written {
     from: String,
     factor: f64,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct WithFactor {
+    /// Name of the column in the result.
     from: String,
+    /// Factor that makes its numbers those of tristack.
     #[serde(default = "one")]
     factor: f64,
 }
 
 fn one() -> f64 {
     1.0
+}
+
+impl JsonSchema for Written {
+    fn schema_name() -> Cow<'static, str> {
+        "Column".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let with_factor = generator.subschema_for::<WithFactor>();
+        json_schema!({ "anyOf": [{ "type": "string" }, with_factor] })
+    }
 }
 
 impl<'de> Deserialize<'de> for Written {

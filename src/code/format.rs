@@ -2,13 +2,14 @@
 
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{ColumnSources, Header, Motion, PyramidRun, Row, Series, SeriesError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// LIGGGHTS cuts the words of a header to so many characters.
 const CUT: usize = 8;
 
 /// How the parameters of a task are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ParameterFormat {
     /// A JSON object, numbers in their shortest exact form.
@@ -34,7 +35,7 @@ impl ParameterFormat {
 }
 
 /// How a code writes its results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResultFormat {
     /// Comma-separated columns under a header, in any order and among others.

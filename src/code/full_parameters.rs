@@ -4,7 +4,7 @@
 use super::manifest::TaskKind;
 use super::parameters::{self, merged};
 use crate::model::{Case, ContactConvention, ContactTest, PreparationSteps, Pyramid};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// Raised when a parameter goes or changes its meaning.
 const SCHEMA: u32 = 1;
@@ -100,6 +100,26 @@ parameters! {
     "spin2", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
     "half_width", "r", PILE, "distance of the side walls from the middle; cylinders.data has the starting positions";
     "timed_steps", "1", PILE, "steps whose duration is measured, the last ones";
+}
+
+impl TaskKind {
+    /// JSON Schema of its parameters; `x-unit` is the unit of each.
+    pub(crate) fn parameters_schema(self) -> Value {
+        let own: Vec<&Parameter> = PARAMETERS
+            .iter()
+            .filter(|one| one.tasks.contains(&self))
+            .collect();
+        let described = own.iter().map(|one| {
+            let schema =
+                json!({ "description": one.meaning, "type": "number", "x-unit": one.unit });
+            (one.name.to_owned(), schema)
+        });
+        json!({
+            "type": "object",
+            "properties": described.collect::<Map<_, _>>(),
+            "required": own.iter().map(|one| one.name).collect::<Vec<_>>(),
+        })
+    }
 }
 
 /// The parameters of a case.

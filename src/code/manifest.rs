@@ -1,18 +1,19 @@
 //! The keys of a manifest.
 
-use super::columns::read_columns;
+use super::columns::{Written, read_columns};
 use super::convention::{ConventionKey, Settled};
 use super::format::{ParameterFormat, ResultFormat};
 use super::manifest_error::Place;
 use crate::model::ContactConvention;
 use crate::series::ColumnSources;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use toml::{Spanned, Table};
 
 /// One code, as the manifest describes it.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
     /// Version of the keys: 1.
@@ -31,18 +32,23 @@ pub struct Definition {
     /// How to install the program.
     #[serde(default)]
     pub(super) install: String,
+    /// Mark of the code in figures.
     pub(super) mark: Option<Mark>,
+    /// Durations for forecasts; a multiple is the time limit.
     #[serde(default)]
     pub(super) seconds: Seconds,
     /// Absent for the native code alone.
     pub(super) program: Option<Program>,
+    /// The file that holds the parameters of a task.
     #[serde(default)]
     pub(super) parameters: ParameterFile,
+    /// The file that holds the result of a task.
     #[serde(default)]
     pub(super) result: ResultFile,
+    /// The files of each kind of task; a kind that is missing is refused by the code.
     #[serde(default)]
     pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
-    /// With the paper's values for the keys that are left out.
+    /// The contact convention of the code; a key that is left out is measured by the probe.
     #[serde(default)]
     pub(super) convention: ContactConvention,
     /// The keys of the convention that are left out, which the probe measures.
@@ -51,8 +57,10 @@ pub struct Definition {
     /// The convention after the probe.
     #[serde(skip)]
     pub(super) settled: OnceLock<Settled>,
+    /// Properties of its time integration.
     #[serde(default)]
     pub(super) integration: Integration,
+    /// Parameter values that the code cannot take.
     #[serde(default)]
     pub(super) refused: Refused,
     /// Placeholders of the command.
@@ -60,6 +68,7 @@ pub struct Definition {
     pub(super) set: BTreeMap<String, String>,
     /// Further codes, by name, with the keys in which they differ.
     #[serde(default, rename = "variants")]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
     _variants: BTreeMap<String, Table>,
     /// Name in the manifest, which variants share.
     #[serde(skip)]
@@ -70,7 +79,7 @@ pub struct Definition {
 }
 
 /// The kinds of tasks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TaskKind {
     /// Compress a stack after a gravity ramp.
@@ -99,15 +108,17 @@ impl TaskKind {
 }
 
 /// Mark of a code in figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
+    /// Its outline.
     pub shape: Shape,
+    /// Its colour.
     pub colour: Colour,
 }
 
 /// Outlines, so that marks at the same place do not hide each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
     Dot,
@@ -119,7 +130,7 @@ pub enum Shape {
 }
 
 /// Colours that the colour-blind tell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Colour {
     Ink,
@@ -131,10 +142,12 @@ pub enum Colour {
 }
 
 /// Durations for forecasts; a multiple is the time limit.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Seconds {
+    /// Wall time of a start, in seconds.
     pub(super) start: f64,
+    /// Wall time of a step of a stack, in seconds.
     pub(super) step: f64,
 }
 
@@ -151,7 +164,7 @@ impl Default for Seconds {
 pub(super) type Environment = BTreeMap<String, String>;
 
 /// How a code is started.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Program {
     /// Words with placeholders, never a line for a shell.
@@ -160,11 +173,14 @@ pub(super) struct Program {
     /// variable; a directory with one that is not set is left out. The search path is one of them only as `$PATH`, or if
     /// there are none.
     #[serde(default)]
+    #[schemars(with = "Vec<String>")]
     pub(super) search: Vec<Spanned<String>>,
     /// A build of the program that computes with more digits.
     pub(super) higher_precision: Option<String>,
+    /// How the version of the program is found.
     #[serde(default)]
     pub(super) version: VersionQuestion,
+    /// Variables for its environment.
     #[serde(default)]
     pub(super) environment: Environment,
     /// Files in the working directory that say why a run failed, and are quoted then.
@@ -173,7 +189,7 @@ pub(super) struct Program {
 }
 
 /// How the version of a program is found.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct VersionQuestion {
     /// Whether the version of its package, which is found faster, will do.
@@ -185,16 +201,19 @@ pub(super) struct VersionQuestion {
 }
 
 /// The file that holds the parameters of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ParameterFile {
+    /// Its name in the run directory.
     pub(super) file: String,
+    /// How it is written.
     pub(super) format: ParameterFormat,
+    /// How many of them there are.
     pub(super) content: ParameterContent,
 }
 
 /// The parameters that a deck is given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum ParameterContent {
     /// Everything that a deck needs (docs/formats.md, `task`).
@@ -214,14 +233,17 @@ impl Default for ParameterFile {
 }
 
 /// The file that holds the result of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ResultFile {
+    /// Its name in the run directory.
     pub(super) file: String,
+    /// How it is written.
     pub(super) format: ResultFormat,
     /// Columns under other names, in other units or directions: the name that tristack gives them, and the name in the
     /// result, with a factor if there is one.
     #[serde(deserialize_with = "read_columns")]
+    #[schemars(with = "BTreeMap<String, Written>")]
     pub(super) columns: ColumnSources,
 }
 
@@ -236,7 +258,7 @@ impl Default for ResultFile {
 }
 
 /// The files of a task.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TaskFiles {
     /// The first one is the deck.
@@ -245,13 +267,14 @@ pub(super) struct TaskFiles {
     pub(super) result: Option<String>,
     /// Its columns, where they are not the common ones.
     #[serde(default, deserialize_with = "read_columns")]
+    #[schemars(with = "BTreeMap<String, Written>")]
     pub(super) columns: ColumnSources,
     #[serde(skip)]
     pub(super) contents: Vec<Vec<u8>>,
 }
 
 /// Properties of a code's time integration that show in a comparison with its native twin.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Integration {
     /// Steps by which reported velocities lag behind reported positions.
@@ -273,7 +296,7 @@ impl Default for Integration {
 }
 
 /// The origin of the angles of a code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Angle {
     /// The integrator turns the body by spin × time step.
@@ -285,16 +308,19 @@ pub(crate) enum Angle {
 }
 
 /// Parameter values that the code cannot take.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Refused {
+    /// Coefficients of restitution.
     pub(super) restitution: Option<RefusedValues>,
 }
 
 /// The values, and the reason.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RefusedValues {
+    /// The values.
     pub(super) values: Vec<f64>,
+    /// Why it cannot take them.
     pub(super) because: String,
 }

@@ -4,11 +4,12 @@ use super::registry::Code;
 use crate::files::system_text;
 use crate::model::{Case, sha256_hex};
 use crate::series::Series;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// The program that computes.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
     /// Name of the code.

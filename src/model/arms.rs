@@ -1,6 +1,7 @@
 //! Arms of a contact: the lever of its torque, and the radius at which its surfaces move.
 
 use super::validity::{InvalidValue, within};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -11,7 +12,7 @@ pub(crate) const ARM_RANGE: [f64; 2] = [-1.0, 1.0];
 ///
 /// In a reciprocal law both are equal: what the contact force does on the turning cylinders is then what its
 /// springs and dampers take up. In a case file, a kinematic arm that is left out is the torque arm.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "WrittenArms", bound(deserialize = "Self: From<WrittenArms>"))]
 pub struct ContactArms<N = f64> {
     /// r₁ of the torque, R f_t.
@@ -23,10 +24,12 @@ pub struct ContactArms<N = f64> {
 }
 
 /// [`ContactArms`] as a case file spells them.
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 struct WrittenArms {
+    /// r₁ of the torque, R f_t.
     torque_arm: f64,
+    /// r₁ of the surface velocity, v_t − R ω, which stretches the spring and is damped; left out, it is the torque arm.
     kinematic_arm: Option<f64>,
 }
 
@@ -67,11 +70,12 @@ impl fmt::Display for ContactArms {
 }
 
 /// Arms of every contact of a stack.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(
     default,
     bound(deserialize = "ContactArms<N>: Deserialize<'de>, N: Default")
 )]
+#[schemars(bound = "N: JsonSchema + Default + Serialize")]
 pub struct Arms<N = f64> {
     /// Cylinder–cylinder contacts.
     pub pair: ContactArms<N>,

@@ -3,6 +3,7 @@
 use super::{
     ContactConvention, InvalidValue, Preparation, Protocol, Stack, exact, sha256_hex, shown,
 };
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -97,24 +98,37 @@ impl Case {
 
     /// Reads and validates a case from the content of the file at `path`, whose ending says the format.
     pub fn parse(content: &[u8], path: &Path) -> Result<Self, CaseError> {
+        let case: Self = CaseError::deserialized(content, path)?;
+        case.validate().map_err(CaseError::in_file(path))?;
+        Ok(case)
+    }
+}
+
+impl CaseError {
+    /// A value in the file at `path` is out of its range.
+    pub(super) fn in_file(path: &Path) -> impl FnOnce(InvalidValue) -> Self {
+        let path = path.to_owned();
+        |invalid| Self::Invalid { path, invalid }
+    }
+
+    /// The content of the file at `path`, whose ending says the format.
+    pub(super) fn deserialized<T: DeserializeOwned>(
+        content: &[u8],
+        path: &Path,
+    ) -> Result<T, Self> {
         let parsed = match path.extension().and_then(|extension| extension.to_str()) {
             Some("toml") => toml::from_slice(content).map_err(|error| error.to_string()),
             Some("json") => serde_json::from_slice(content).map_err(|error| error.to_string()),
             _ => {
-                return Err(CaseError::UnknownFormat {
+                return Err(Self::UnknownFormat {
                     path: path.to_owned(),
                 });
             }
         };
-        let case: Self = parsed.map_err(|message| CaseError::Malformed {
+        parsed.map_err(|message| Self::Malformed {
             path: path.to_owned(),
             message,
-        })?;
-        case.validate().map_err(|invalid| CaseError::Invalid {
-            path: path.to_owned(),
-            invalid,
-        })?;
-        Ok(case)
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Arms;
 use super::law::ContactLaw;
 use super::validity::{InvalidValue, within};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -13,7 +14,7 @@ pub const PAPER_RESTITUTION: f64 = 0.7;
 pub(crate) const CYLINDER_INERTIA: f64 = 0.5;
 
 /// The force that Coulomb's limit μ |f_n| is compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CoulombOperand {
     /// The whole tangential force, spring and damping.
@@ -24,7 +25,7 @@ pub enum CoulombOperand {
 }
 
 /// Length of the tangential spring while the contact slides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlidingSpring {
     /// It keeps the length it had when the sliding began.
@@ -34,7 +35,7 @@ pub enum SlidingSpring {
 }
 
 /// Change of the tangential spring when the contact turns by dψ in a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HistoryUpdate {
     /// It turns with the contact and keeps its length.
@@ -47,7 +48,7 @@ pub enum HistoryUpdate {
 }
 
 /// Normal force while two surfaces separate so fast that damping exceeds the spring.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TensileForce {
     /// The normal force may become negative and pull.
@@ -61,7 +62,7 @@ pub enum TensileForce {
 /// Only the arms move the quasi-static limit of the yield force, above μ_c by 20 % and more between existing
 /// codes; the rest of a convention shows in trajectories. A key that a case file leaves out has the paper's
 /// value.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactConvention {
     /// Arm coefficients; the keys `pair` and `floor` of a case file.

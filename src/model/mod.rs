@@ -6,6 +6,7 @@
 
 mod arms;
 mod case;
+mod case_file;
 mod contact_test;
 mod convention;
 mod digest;
@@ -21,6 +22,7 @@ mod validity;
 pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
+pub use case_file::{PartialCase, PartialProtocol};
 pub use contact_test::{ContactTest, InitialMotion};
 pub(crate) use convention::CYLINDER_INERTIA;
 pub use convention::{

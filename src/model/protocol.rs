@@ -3,6 +3,7 @@
 use super::shortcuts::Shortcuts;
 use super::side_walls::{SideWallSteps, SideWalls};
 use super::validity::{InvalidValue, positive, within};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 const SMALLEST_TIME_STEP: f64 = 1e-6;
@@ -20,20 +21,20 @@ const ROUNDING: f64 = 1e-9;
 const MOST_CHANGED: f64 = 0.02;
 
 /// The way in which the stack is brought to rest under gravity.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Preparation {
+pub enum Preparation<N = f64> {
     /// Three just-touching cylinders, stress free; gravity rises from 0 to g as the smooth step
     /// x³(10 − 15x + 6x²) over `ramp_time`, then the stack rests for `rest_time`. Ends with c = 0.
     GravityRamp {
-        /// Duration of the ramp.
-        ramp_time: f64,
-        /// Duration of the rest after it.
-        rest_time: f64,
+        /// Duration of the ramp, in √(m/k_n).
+        ramp_time: N,
+        /// Duration of the rest after it, in √(m/k_n).
+        rest_time: N,
     },
     /// The paper's protocol (supplement I.B): side walls pushed in by A, the top cylinder lowered, the walls
     /// withdrawn. A determines the final c and the final tangential forces.
-    SideWalls(SideWalls),
+    SideWalls(SideWalls<N>),
 }
 
 /// A preparation counted in time steps, as every code runs it. Every count is a multiple of
@@ -61,7 +62,7 @@ impl PreparationSteps {
     }
 }
 
-impl Preparation {
+impl Preparation<f64> {
     /// The name on the command line and in case files.
     pub fn as_str(&self) -> &'static str {
         match self {
@@ -134,15 +135,15 @@ pub(crate) fn smooth_step(step: u64, steps: u64) -> f64 {
 }
 
 /// Times at which rows of the time series are taken: coarsely at first, finely around the yield.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Sampling {
-    /// Time between rows far from the yield.
-    pub coarse_interval: f64,
-    /// Wall travel from which rows are taken finely.
-    pub fine_from_travel: f64,
-    /// Time between rows near the yield.
-    pub fine_interval: f64,
+pub struct Sampling<N = f64> {
+    /// Time between rows far from the yield, in √(m/k_n).
+    pub coarse_interval: N,
+    /// Wall travel from which rows are taken finely, in r.
+    pub fine_from_travel: N,
+    /// Time between rows near the yield, in √(m/k_n).
+    pub fine_interval: N,
 }
 
 /// One compression run: prepare, then lower a frictionless wall at constant speed.

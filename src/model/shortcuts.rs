@@ -1,13 +1,14 @@
 //! Options that make a run shorter. Their effect on the result has to be measured; literal runs have none.
 
 use super::validity::{InvalidValue, within};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A factor beyond which the first touch of the wall is a blow.
 const LARGEST_FACTOR: f64 = 1000.0;
 
 /// How the compression is made shorter. Offered by the native code.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shortcuts {
     /// Factor by which the wall is faster at first, 1 or more.

@@ -1,6 +1,7 @@
 //! The paper's preparation: side walls hold the bottom cylinders while the top one is put on them.
 
 use super::validity::{InvalidValue, positive, within};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Side walls may push as far as the bottom cylinders can give way without meeting under the top one.
@@ -24,23 +25,23 @@ const LOWERED_BY: f64 = 0.2;
 /// speed when it touches. At v_fall = 0.1 an impact would press it in by ten times what its weight does at
 /// 1/ε = 100, and throw it 25 r up at 10⁴; the default is therefore to let it go at rest, and the fall
 /// speed itself decides nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SideWalls {
+pub struct SideWalls<N = f64> {
     /// A, how far each wall moves inwards, in r.
-    pub push: f64,
+    pub push: N,
     /// v_fall, speed at which the top cylinder is lowered, in r √(k_n/m).
-    pub fall_speed: f64,
+    pub fall_speed: N,
     /// Speed with which it is let go where it touches, in r √(k_n/m): 0, or up to `fall_speed`.
-    pub landing_speed: f64,
+    pub landing_speed: N,
     /// v_wall, speed of the walls, inwards and outwards, in r √(k_n/m).
-    pub withdrawal_speed: f64,
+    pub withdrawal_speed: N,
     /// Distance that each wall moves outwards, in r; more than A, so that it ends without contact.
-    pub withdrawal: f64,
+    pub withdrawal: N,
     /// Duration of the rest after the push and of the rest under the top cylinder, each, in √(m/k_n).
-    pub settle_time: f64,
+    pub settle_time: N,
     /// Duration of the rest after the walls are gone, in √(m/k_n).
-    pub rest_time: f64,
+    pub rest_time: N,
 }
 
 /// The same counted in time steps, as every code runs it.

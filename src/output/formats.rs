@@ -10,7 +10,7 @@ use super::{
 use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
 
-const TOP: &str = "# Tables and their columns
+const TOP: &str = "# Tables, results and parameters
 
 Made from the declarations in the source (`tristack::output::formats_page`); a test compares, and
 `TRISTACK_UPDATE_GOLDEN=1 cargo test --test formats` writes it anew.
@@ -32,10 +32,40 @@ Where a command has several tables (`tristack regimes`), `schema` is `tristack/t
 objects with `schema`, `units` and `rows`.
 
 Units: mass m, radius r and normal stiffness k_n of the cylinders, and gravity g; forces F = f/(m g) are in m g.
+
+`tristack schema` prints the same as JSON Schema, with the keys of manifests and the parameters of tasks.
 ";
 
-/// The content of docs/formats.md: every machine-readable table, with the unit and the meaning of its columns.
+const RESULTS: &str = "
+# Results of codes
+
+What a code delivers for a task, in CSV or as a table in its log, in the units r = m = k_n = 1. x points to the right, y
+upwards, angles turn counter-clockwise.
+";
+
+const TASKS: &str = "
+# Parameters of tasks
+
+What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 the left one.
+
+";
+
+/// The content of docs/formats.md: every machine-readable table and file, with the unit and the meaning of its columns.
 pub fn formats_page() -> String {
+    let tables = json_tables().into_iter();
+    let tables = tables.map(|table| format!("\n{}", table.described()));
+    let files = result_files().into_iter();
+    let files = files.map(|file| format!("\n{}", file.described()));
+    TOP.to_owned()
+        + &tables.collect::<String>()
+        + RESULTS
+        + &files.collect::<String>()
+        + TASKS
+        + &task().described()
+}
+
+/// Every table that is JSON too, without rows.
+pub(super) fn json_tables() -> Vec<DataTable<'static>> {
     let mut tables = vec![
         crosscheck(&[]),
         budget(&[]),
@@ -50,9 +80,6 @@ pub fn formats_page() -> String {
         theory(&[]),
         forecasts(&[]),
         simulations(&[]),
-        series(),
-        motion(),
-        task(),
         bench(&[]),
         scaling(&[]),
         pyramids(&[]),
@@ -61,30 +88,27 @@ pub fn formats_page() -> String {
     ];
     tables.extend(judged_series(None));
     tables.extend(declared_tables());
-    let described = tables
-        .iter()
-        .map(|table| format!("\n{}", table.described()));
-    TOP.to_owned() + &described.collect::<String>()
+    tables
 }
 
-/// The columns of a time series, which `series` itself writes as CSV.
-fn series() -> DataTable<'static> {
-    file(
-        "series",
-        "A row is one moment of a compression. A series is CSV alone, also between tristack and a code.",
-        "`tristack simulate` (series.csv)",
-        &Sample::COLUMNS,
-    )
-}
-
-/// The columns of a motion, which a code writes.
-fn motion() -> DataTable<'static> {
-    file(
-        "motion",
-        "A row is one step of a micro-test, from step 0 on. It is what the deck of a code delivers for the task `motion`.",
-        "the result file that the manifest of the code names",
-        &MotionRow::COLUMNS,
-    )
+/// The files that codes deliver, without rows.
+pub(super) fn result_files() -> [DataTable<'static>; 2] {
+    [
+        file(
+            "series",
+            "A row is one moment of a compression. Positions and angles are those of its step, and forces those at these \
+             positions; where they depend on velocities, on those that the code has then, half a step before in most.",
+            "`tristack simulate` (series.csv), and the result of the tasks `stack` and `side-walls`",
+            &Sample::COLUMNS,
+        ),
+        file(
+            "motion",
+            "A row is one step of a micro-test, from step 0 on. Positions are those of its step, forces and torques those \
+             at these positions.",
+            "the result of the task `motion`",
+            &MotionRow::COLUMNS,
+        ),
+    ]
 }
 
 /// The parameters that the deck of a code is given.
@@ -119,7 +143,8 @@ fn file<R: 'static>(
     for column in declared {
         columns = columns
             .number(column.name, column.unit, column.value)
-            .means(column.meaning);
+            .means(column.meaning)
+            .missing_where(column.is_optional);
     }
     columns.rows([])
 }

@@ -1,6 +1,7 @@
 //! Output for people and programs: tables in every format, figures, pages.
 
 mod bench;
+mod case_file;
 mod check;
 mod crosscheck;
 mod explain;
@@ -14,6 +15,7 @@ mod passport;
 mod plan;
 mod probe;
 mod regimes;
+mod schema;
 mod series;
 mod simulation;
 mod start_list;
@@ -25,10 +27,12 @@ mod vtk;
 pub use bench::pyramids;
 pub use figures::{StackPanel, representative_panels, run_svg};
 pub use formats::formats_page;
+pub use schema::{Document, all_json_schemas};
 pub use table::{DataTable, Table};
 pub use vtk::{VtkFile, vtk_series};
 
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
+pub(crate) use case_file::commented_case;
 pub(crate) use check::{check, check_text};
 pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
 pub(crate) use explain::explanation;

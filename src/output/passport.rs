@@ -6,7 +6,10 @@ use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
 use crate::study::convention::{ArmEffects, MeasuredKey, Passport, TOLERANCE, reservations};
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::Serialize;
+use serde_json::Value;
 
 /// Name and version of the format.
 pub(crate) const PASSPORT: &str = "tristack/passport/1";
@@ -97,24 +100,52 @@ pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
     serde_json::to_string_pretty(&document).expect("plain values have a JSON form") + "\n"
 }
 
-/// The entries of a passport in JSON.
-#[derive(Serialize)]
+/// JSON Schema of a passport.
+pub(super) fn passport_schema() -> Value {
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let generator = settings.into_generator();
+    let mut schema = generator.into_root_schema_for::<Document<()>>().to_value();
+    let properties = &mut schema["properties"];
+    properties["convention"] = measured_convention(&[]).json_schema();
+    properties["arm_effects"] = arm_effects(&[]).json_schema();
+    properties["properties"] = probe(&[]).json_schema();
+    schema
+}
+
+/// Passport of a code: its contact convention as micro-tests measure it.
+#[derive(Serialize, JsonSchema)]
+#[schemars(title = "Passport")]
 struct Document<'a, T> {
+    /// Name and version of the format.
     schema: &'static str,
+    /// The command that made it.
     command: &'a str,
+    /// Name of the code.
+    #[schemars(with = "String")]
     code: Code,
+    /// Its name in prose.
     title: &'static str,
+    /// The worst verdict on a property.
     verdict: Verdict,
+    /// Codes that mean the same by a contact.
+    #[schemars(with = "Vec<String>")]
     twins: &'a [Code],
+    /// Codes with the same arms.
+    #[schemars(with = "Vec<String>")]
     same_arms: &'a [Code],
+    /// The program that was probed.
     program: &'a Identity,
     /// SHA-256 of the files of the micro-tests.
     deck_hash: String,
     /// SHA-256 of everything that the micro-tests were given.
     answers_hash: &'a str,
+    /// Version of tristack.
     tristack: &'a str,
+    /// Date of the probe, UTC.
     date: &'a str,
+    /// Processor and system.
     machine: &'a str,
+    /// What it leaves open.
     reservations: Vec<String>,
     convention: T,
     arm_effects: T,

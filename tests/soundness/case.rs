@@ -3,7 +3,7 @@
 use super::{Seed, marked, scenes};
 use std::path::Path;
 use tristack::code::{Code, Task};
-use tristack::model::{Case, SideWalls, Stack};
+use tristack::model::{Case, PartialCase, Preparation, SideWalls, Stack};
 use tristack::study::yield_force::plan;
 
 const FILES: [&str; 2] = ["case.json", "case.toml"];
@@ -17,9 +17,27 @@ pub fn check(data: &[u8]) {
         return;
     };
     let path = Path::new(FILES[usize::from(kind) % FILES.len()]);
-    match Case::parse(text, path) {
-        Ok(case) => is_sound(&case),
-        Err(refusal) => assert!(refusal.to_string().contains("case.")),
+    for parsed in [
+        Case::parse(text, path),
+        Case::parse_with(text, path, |written| Ok(completed(written))),
+    ] {
+        match parsed {
+            Ok(case) => is_sound(&case),
+            Err(refusal) => assert!(refusal.to_string().contains("case.")),
+        }
+    }
+}
+
+/// What is left out, as it is in a short case.
+fn completed(written: &PartialCase) -> Case {
+    let mut planned = scenes::short_case().protocol;
+    if let Some(walls) = written.protocol.side_walls(written.stack.epsilon()) {
+        planned.preparation = Preparation::SideWalls(walls);
+    }
+    Case {
+        stack: written.stack,
+        convention: written.convention.unwrap_or_default(),
+        protocol: written.protocol.over(&planned),
     }
 }
 
@@ -41,12 +59,12 @@ fn is_sound(case: &Case) {
 
 pub fn seeds() -> Vec<Seed> {
     let mut walls = scenes::short_case();
-    walls.protocol.preparation =
-        tristack::model::Preparation::SideWalls(SideWalls::paper(0.005, 0.01));
+    walls.protocol.preparation = Preparation::SideWalls(SideWalls::paper(0.005, 0.01));
     let toml = "[stack]\nfloor_friction = 0.3\nstiffness = 100.0\n[convention]\npair_arm = -0.5\n\
         coulomb_operand = \"spring\"\n[protocol]\ntime_step = 0.1\nwall_speed = 1e-3\nwall_travel = 0.8\n\
         preparation = { kind = \"gravity-ramp\", ramp_time = 100.0, rest_time = 100.0 }\n\
         sampling = { coarse_interval = 10.0, fine_from_travel = 0.6, fine_interval = 2.0 }\n";
+    let partial_walls = "[stack]\nmu = 0.3\nkappa = 1.5\n[protocol.preparation]\nkind = \"side-walls\"\npush = 0.01\n";
     let stack = Stack::paper(0.3, 1e3);
     let planned = plan(
         Code::named("yade").expect("it is built in"),
@@ -66,6 +84,8 @@ pub fn seeds() -> Vec<Seed> {
         ),
         ("side-walls", marked(0, walls.to_json())),
         ("toml", marked(1, toml)),
+        ("partial", marked(1, "[stack]\nmu = 0.3\n")),
+        ("partial-walls", marked(1, partial_walls)),
     ];
     own.map(|(name, input)| (name.to_owned(), input))
         .into_iter()

@@ -1,5 +1,6 @@
 //! The declaration of a table's columns.
 
+use super::value::{Typed, ValueKind};
 use super::{DataTable, Value};
 use crate::code::Code;
 use crate::model::{Arms, ContactConvention, Stack};
@@ -30,6 +31,9 @@ pub(super) struct Column<'a, R> {
     /// Unit of a number, `1` for a pure one; empty for a text.
     pub unit: &'static str,
     pub meaning: &'static str,
+    pub kind: ValueKind,
+    /// Whether a value may be missing.
+    pub is_optional: bool,
     /// Name in tables for people; `None` for a column that they leave out.
     pub heading: Option<&'static str>,
     value: ValueOf<'a, R>,
@@ -62,6 +66,8 @@ impl<'a, R: 'a> Column<'a, R> {
             name: self.name,
             unit: self.unit,
             meaning: self.meaning,
+            kind: self.kind,
+            is_optional: self.is_optional,
             heading: self.heading,
             digits: self.digits,
         }
@@ -99,7 +105,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column of numbers in `unit`, `1` for pure ones.
-    pub(crate) fn number<V: Into<Value>>(
+    pub(crate) fn number<V: Typed>(
         mut self,
         name: &'static str,
         unit: &'static str,
@@ -110,6 +116,8 @@ impl<'a, R: 'a> Columns<'a, R> {
             name,
             unit,
             meaning: "",
+            kind: V::KIND,
+            is_optional: V::IS_OPTIONAL,
             heading: None,
             value: Box::new(move |row| value(row).into()),
             digits: |number| number.to_string(),
@@ -119,11 +127,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column of words or flags.
-    pub(crate) fn text<V: Into<Value>>(
-        self,
-        name: &'static str,
-        value: impl Fn(&R) -> V + 'a,
-    ) -> Self {
+    pub(crate) fn text<V: Typed>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
         self.number(name, "", value)
     }
 
@@ -139,6 +143,12 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// Says in docs/formats.md what the column means.
     pub(crate) fn means(mut self, meaning: &'static str) -> Self {
         self.current().meaning = meaning;
+        self
+    }
+
+    /// Says whether a value may be missing, where its type leaves that open.
+    pub(crate) fn missing_where(mut self, is_optional: bool) -> Self {
+        self.current().is_optional = is_optional;
         self
     }
 

@@ -3,6 +3,7 @@
 use super::columns::{Column, Columns, Schema};
 use super::{Table, Value};
 use serde::{Serialize, Serializer};
+use serde_json::json;
 
 /// A table with its values, which are computed when they are written.
 pub struct DataTable<'a> {
@@ -86,6 +87,71 @@ impl DataTable<'_> {
         table
     }
 
+    /// JSON Schema of the table as an object, without the `command` that stands above several tables.
+    pub(crate) fn json_schema(&self) -> serde_json::Value {
+        let Schema {
+            name,
+            version,
+            what,
+            found_in,
+        } = self.schema;
+        let columns = |of: fn(&Column<usize>) -> serde_json::Value| -> serde_json::Value {
+            let columns = self
+                .named()
+                .map(|column| (column.name.to_owned(), of(column)));
+            serde_json::Value::Object(columns.collect())
+        };
+        let names: Vec<&str> = self.named().map(|column| column.name).collect();
+        json!({
+            "description": format!("{what} In {found_in}."),
+            "type": "object",
+            "properties": {
+                "schema": { "const": format!("tristack/{name}/{version}") },
+                "command": { "type": "string" },
+                "units": {
+                    "description": "The unit of every column of numbers, `1` for pure ones.",
+                    "type": "object",
+                    "additionalProperties": { "type": "string" },
+                },
+                "rows": {
+                    "type": "array",
+                    "items": {
+                        "type": "object",
+                        "properties": columns(column_schema),
+                        "required": names,
+                        "additionalProperties": false,
+                    },
+                },
+            },
+            "required": ["schema", "units", "rows"],
+            "additionalProperties": false,
+        })
+    }
+
+    /// JSON Schema of a row of a file of numbers, which leaves out whole columns.
+    pub(crate) fn rows_schema(&self) -> serde_json::Value {
+        let columns = self.named().map(|column| {
+            let schema =
+                json!({ "description": column.meaning, "type": "number", "x-unit": column.unit });
+            (column.name.to_owned(), schema)
+        });
+        let columns: serde_json::Map<_, _> = columns.collect();
+        let needed = self.named().filter(|column| !column.is_optional);
+        let names: Vec<&str> = needed.map(|column| column.name).collect();
+        json!({
+            "description": self.schema.what,
+            "type": "object",
+            "properties": columns,
+            "required": names,
+            "additionalProperties": false,
+        })
+    }
+
+    /// Its name.
+    pub(crate) fn name(&self) -> &'static str {
+        self.schema.name
+    }
+
     /// The section of docs/formats.md on the table.
     pub(crate) fn described(&self) -> String {
         let Schema {
@@ -105,6 +171,18 @@ impl DataTable<'_> {
             columns.markdown()
         )
     }
+}
+
+fn column_schema(column: &Column<usize>) -> serde_json::Value {
+    let kind = column.kind.as_str();
+    let mut schema = json!({ "description": column.meaning, "type": kind });
+    if column.is_optional {
+        schema["type"] = json!([kind, "null"]);
+    }
+    if !column.unit.is_empty() {
+        schema["x-unit"] = json!(column.unit);
+    }
+    schema
 }
 
 /// `tables` as a JSON object with the `command` that made them. A single table has its `units` and `rows` in this

@@ -34,6 +34,71 @@ impl Value {
     }
 }
 
+/// JSON type of the values of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ValueKind {
+    Text,
+    Integer,
+    Number,
+    Flag,
+}
+
+impl ValueKind {
+    /// Its name in a JSON Schema.
+    pub(super) fn as_str(self) -> &'static str {
+        match self {
+            Self::Text => "string",
+            Self::Integer => "integer",
+            Self::Number => "number",
+            Self::Flag => "boolean",
+        }
+    }
+}
+
+/// Values of a column, all of one kind.
+pub(crate) trait Typed: Into<Value> {
+    const KIND: ValueKind;
+    /// Whether a value may be missing.
+    const IS_OPTIONAL: bool = false;
+}
+
+impl Typed for f64 {
+    const KIND: ValueKind = ValueKind::Number;
+    /// JSON has no number that is not finite.
+    const IS_OPTIONAL: bool = true;
+}
+
+impl Typed for u64 {
+    const KIND: ValueKind = ValueKind::Integer;
+}
+
+impl Typed for usize {
+    const KIND: ValueKind = ValueKind::Integer;
+}
+
+impl Typed for bool {
+    const KIND: ValueKind = ValueKind::Flag;
+}
+
+impl Typed for &str {
+    const KIND: ValueKind = ValueKind::Text;
+}
+
+impl Typed for String {
+    const KIND: ValueKind = ValueKind::Text;
+}
+
+/// The word of an enum.
+impl Typed for Value {
+    const KIND: ValueKind = ValueKind::Text;
+    const IS_OPTIONAL: bool = true;
+}
+
+impl<T: Typed> Typed for Option<T> {
+    const KIND: ValueKind = T::KIND;
+    const IS_OPTIONAL: bool = true;
+}
+
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

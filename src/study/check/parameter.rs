@@ -130,7 +130,7 @@ impl Parameter {
         let nearest = tries.min_by(|left, right| distance(*left).total_cmp(&distance(*right)))?;
         let factor = minimum(&distance, nearest - spacing, nearest + spacing).exp();
         let rows = self.mistaken(case, factor).rows()?;
-        let explains = beside.explains(&rows, &beside.columns);
+        let explains = beside.comes_near(&rows, &beside.columns);
         explains.then(|| {
             (
                 beside.distance(&rows, &beside.columns),

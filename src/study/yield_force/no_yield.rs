@@ -1,6 +1,6 @@
 //! The refusal to run a stack that does not yield.
 
-use crate::model::{ContactConvention, Stack, exact};
+use crate::model::{ContactConvention, InvalidValue, Stack, exact};
 use crate::theory::{Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -20,6 +20,18 @@ fn accepted(range: Option<(f64, f64)>) -> String {
     range.map_or_else(String::new, |(lowest, highest)| {
         format!("; at this stiffness it must be between {lowest:.4} and {highest:.4}")
     })
+}
+
+impl NoYield {
+    /// The floor friction as the wrong value of a case file.
+    pub(crate) fn as_value(&self) -> InvalidValue {
+        let Self { reason, range, .. } = self;
+        let accepted = format!(
+            "one at which the stack yields: {reason}{}",
+            accepted(*range)
+        );
+        InvalidValue::new("stack.floor_friction", self.stack.floor_friction, accepted)
+    }
 }
 
 /// The refusal to run a stack that does not yield, with the accepted frictions.

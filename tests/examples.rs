@@ -181,8 +181,13 @@ fn installed_examples_mean_by_a_contact_what_is_written_of_them() {
             continue;
         }
         assert_eq!(status, Some(2), "{message}");
-        let text = format!("{message}{}", String::from_utf8_lossy(&output.stdout));
-        assert!(text.contains("floor k_t grows with the overlap"), "{text}");
+        let growth = rows
+            .iter()
+            .find(|row| row["property"] == "floor_tangential_stiffness_exponent");
+        let exponent = growth
+            .and_then(|row| row["measured"].as_f64())
+            .expect("it grows");
+        assert!((exponent - 0.5).abs() < 1e-6, "{exponent}");
         let elsewhere = |row: &&serde_json::Value| {
             let property = row["property"].as_str().expect("a name");
             !property.starts_with("floor_")
@@ -199,6 +204,8 @@ fn installed_examples_repeat_their_recorded_rows() {
         let message = String::from_utf8_lossy(&output.stderr);
         let live = json_rows(&String::from_utf8_lossy(&output.stdout));
         assert_eq!(live.len(), 2, "{message}");
+        let fault = "floor k_t grows with the overlap";
+        assert_eq!(message.contains(fault), !example.agrees, "{message}");
         for row in live {
             assert_eq!(
                 row["verdict"] == "agrees",

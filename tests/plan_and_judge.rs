@@ -561,6 +561,16 @@ fn what_is_wrong_with_a_command_is_said() {
             "accepted is one inside the directory",
         ),
         ("\"rows\"", "\"rwos\"", "unknown field `rwos`"),
+        (
+            "\"stiffness\": 100.0",
+            "\"stiffness\": -1.0",
+            "`stack.stiffness` is -1",
+        ),
+        (
+            "\"wall_travel\": ",
+            "\"wall_travel\": -",
+            "`protocol.wall_travel` is -",
+        ),
     ] {
         fs::write(&plan, text.replacen(from, to, 1)).expect("a plan");
         let (status, _, message) = judge(&bench, "");

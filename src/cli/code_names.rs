@@ -59,7 +59,7 @@ pub(super) fn names() -> Vec<String> {
     names
 }
 
-/// The code in the folder `text`, or in `FOLDER:NAME`.
+/// The code in the folder at the path `text`, or in `PATH:NAME`.
 pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
     in_folder(Path::new(""), text)
 }

@@ -184,8 +184,8 @@ fn read(
 }
 
 fn differ(one: f64, other: f64) -> bool {
-    // Also where one of them is not a number.
-    !((one - other).abs() <= ROUNDING * other)
+    let apart = (one - other).abs();
+    apart > ROUNDING * other || apart.is_nan()
 }
 
 fn expected_because(flag: &str) -> &'static str {

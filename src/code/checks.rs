@@ -144,7 +144,7 @@ impl TaskKind {
 }
 
 /// Whether a path names something below the directory it starts from.
-fn stays_inside(path: &str) -> bool {
+pub(super) fn stays_inside(path: &str) -> bool {
     let mut parts = Path::new(path).components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

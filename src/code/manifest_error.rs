@@ -1,5 +1,6 @@
 //! Errors of a manifest: file, line, key, value, what is accepted, and the word that was probably meant.
 
+use super::convention::ConventionKey;
 use super::folder::MANIFEST;
 use crate::model::{InvalidValue, readable, shown};
 use std::path::{Path, PathBuf};
@@ -54,22 +55,49 @@ pub(super) fn refused(
 /// The `message` of a parser about what stands at the key `path`, with the accepted word that is most like a wrong one.
 pub(super) fn explained(message: &str, path: &str) -> String {
     let (problem, accepted) = message.split_once(", expected ").unwrap_or((message, ""));
-    let unknown = ["unknown field `", "unknown variant `"];
-    let word = unknown.iter().find_map(|start| problem.strip_prefix(start));
-    let Some(word) = word.and_then(|word| word.strip_suffix('`')) else {
+    let word_after = |start: &str| problem.strip_prefix(start)?.strip_suffix('`');
+    let (key, value) = (
+        word_after("unknown field `"),
+        word_after("unknown variant `"),
+    );
+    let Some(word) = key.or(value) else {
         return match path {
             "" => message.to_owned(),
             path => format!("`{path}`: {message}"),
         };
     };
-    let found = match path.rsplit('.').next() == Some(word) {
-        true => format!("`{path}` is no known key"),
-        false => format!("`{path}` is `{word}`"),
+    let is_own = path.rsplit('.').next() == Some(word);
+    let found = match (is_own, key) {
+        (true, _) => format!("`{path}` is no known key"),
+        (false, Some(_)) => format!("`{path}.{word}` is no known key"),
+        (false, None) => format!("`{path}` is `{word}`"),
     };
-    let known: Vec<&str> = accepted.split('`').skip(1).step_by(2).collect();
-    let meant =
-        nearest(word, &known).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
-    format!("{found}; accepted is {accepted}{meant}")
+    let listed: Vec<&str> = accepted.split('`').skip(1).step_by(2).collect();
+    // The parser does not list the keys of a convention.
+    let known = match listed.is_empty() {
+        true => convention_keys(path),
+        false => listed,
+    };
+    let meant = nearest(word, &known).map(|word| format!("; did you mean `{word}`?"));
+    let accepted = match accepted {
+        "" => format!("one of `{}`", known.join("`, `")),
+        accepted => accepted.to_owned(),
+    };
+    format!(
+        "{found}; accepted is {accepted}{}",
+        meant.unwrap_or_default()
+    )
+}
+
+/// The keys below `path` that say something of the convention of a code.
+fn convention_keys(path: &str) -> Vec<&'static str> {
+    let known = ConventionKey::ALL.into_iter().map(ConventionKey::as_str);
+    let known = known.chain(["convention.restitution"]);
+    let below =
+        known.filter_map(|key| key.strip_prefix(path)?.strip_prefix('.')?.split('.').next());
+    let mut keys: Vec<&str> = below.collect();
+    keys.dedup();
+    keys
 }
 
 /// The one of `known` that is most like `word`, if any is.
@@ -94,6 +122,21 @@ mod tests {
             "`program.comand` is no known key; accepted is one of `command`, `version`; did you mean `command`?"
         );
         assert!(!explained(&message.replace("comand", "xyz"), "program.xyz").contains("mean"));
+    }
+
+    #[test]
+    fn a_wrong_key_of_a_convention_is_told_with_the_known_ones() {
+        let told = explained("unknown field `history_updat`", "convention");
+        assert!(told.starts_with(
+            "`convention.history_updat` is no known key; accepted is one of `pair`, `floor`, "
+        ));
+        assert!(told.ends_with("did you mean `history_update`?"), "{told}");
+        let message = "unknown field `torqe_arm`, expected `torque_arm` or `kinematic_arm`";
+        assert_eq!(
+            explained(message, "convention.pair"),
+            "`convention.pair.torqe_arm` is no known key; accepted is `torque_arm` or `kinematic_arm`; did you mean \
+             `torque_arm`?"
+        );
     }
 
     #[test]

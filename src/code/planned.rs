@@ -1,6 +1,7 @@
 //! Runs that are made elsewhere. The directory of each holds what a live run is given, to the byte; its result is read
 //! from there, and no program is started.
 
+use super::checks::stays_inside;
 use super::failure::FailureKind;
 use super::manifest::Environment;
 use super::manifest_error::refused;
@@ -12,7 +13,7 @@ use crate::series::SeriesError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
-use std::path::{Component, Path};
+use std::path::Path;
 
 /// Digits of the hash of its inputs in the name of a run's directory.
 const HASH_DIGITS: usize = 12;
@@ -145,21 +146,19 @@ impl PreparedRun {
 }
 
 impl PlannedRun {
-    /// Refuses a run that somebody has made to read elsewhere than below its plan.
+    /// Refuses a run whose files are elsewhere than below its plan, or whose case is none.
     pub(crate) fn check(&self) -> Result<(), String> {
-        let names = self.files.keys().chain([&self.directory, &self.result]);
-        for name in names {
-            let mut parts = Path::new(name).components().peekable();
-            let inside =
-                parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)));
-            if !inside {
-                let name = readable(name);
-                return Err(format!(
-                    "`{name}` is the path of a run; accepted is one inside the directory of the plan"
-                ));
-            }
+        let mut names = self.files.keys().chain([&self.directory, &self.result]);
+        if let Some(name) = names.find(|name| !stays_inside(name)) {
+            let name = readable(name);
+            return Err(format!(
+                "`{name}` is the path of a run; accepted is one inside the directory of the plan"
+            ));
         }
-        Ok(())
+        match &self.task {
+            PlannedTask::Stack(case) => case.validate().map_err(|error| error.to_string()),
+            PlannedTask::Motion(_) => Ok(()),
+        }
     }
 
     /// Reads the outcome of `task`, which is that of this run by `code`, below `root`.

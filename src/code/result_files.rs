@@ -41,25 +41,22 @@ impl ResultFiles {
         }
     }
 
-    fn outcome<T: Task>(&self, task: &T) -> Result<T::Outcome, Failure> {
+    fn outcome<T: Task>(&self, task: &T) -> Result<T::Outcome, Box<Failure>> {
         let Some(run) = self.runs.get(&self.name.deck_hash(task)) else {
             let root = shown(&self.root);
             let message = format!(
                 "{root} has no run of {task} with the files of today; plan again in the same directory"
             );
-            return Err(Failure::new(
-                self.name,
-                task,
-                FailureKind::NoResult(message),
-            ));
+            let kind = FailureKind::NoResult(message);
+            return Err(Failure::new(self.name, task, kind).into());
         };
         run.outcome(self.name, task, &self.root).map_err(|kind| {
             let program = self.name.definition().program.as_ref();
             let logs = program.map_or(&[][..], |program| &program.logs);
-            Failure {
+            Box::new(Failure {
                 last_lines: last_lines(&self.root.join(&run.directory), logs),
                 ..Failure::new(self.name, task, kind)
-            }
+            })
         })
     }
 
@@ -98,18 +95,17 @@ impl InstalledCode for ResultFiles {
 
     fn run(&self, cases: &[Case], _: &RunContext, finished: Finished<Run>) {
         for (index, case) in cases.iter().enumerate() {
-            let series = self.outcome(case);
+            let series = self.outcome(case).map_err(|failure| *failure);
             finished(index, series.map(|series| self.run_of(case, series)));
         }
     }
 
     fn probe(&self, tests: &[ContactTest], _: &RunContext) -> Result<Vec<Motion>, Box<Failure>> {
-        let motions = tests.iter().map(|test| self.outcome(test));
-        Ok(motions.collect::<Result<_, Failure>>()?)
+        tests.iter().map(|test| self.outcome(test)).collect()
     }
 
     fn build(&self, pyramids: &[Pyramid], _: &RunContext) -> Result<Vec<PyramidRun>, Box<Failure>> {
-        let pyramids = pyramids.iter().map(|pyramid| self.outcome(pyramid));
-        Ok(pyramids.collect::<Result<_, Failure>>()?)
+        let pyramids = pyramids.iter();
+        pyramids.map(|pyramid| self.outcome(pyramid)).collect()
     }
 }

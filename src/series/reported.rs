@@ -30,8 +30,7 @@ pub(crate) fn not_tested<'a>(
 ) -> impl Iterator<Item = &'static str> + 'a {
     let is_absent = |column: &&str| absent.iter().any(|name| name.as_ref() == *column);
     let checks = CHECKS.iter();
-    checks
-        .filter_map(move |(check, needed)| needed.iter().any(|it| is_absent(&it)).then_some(*check))
+    checks.filter_map(move |(check, needed)| needed.iter().any(&is_absent).then_some(*check))
 }
 
 /// Whether the rows hold all `columns`.

@@ -201,7 +201,7 @@ impl Series {
         let last = samples.last().filter(|last| last.step > 0);
         let last = last.ok_or_else(|| SeriesError::absent("it has no row after step 0"))?;
         let time_step = last.time / last.step as f64;
-        if !(time_step > 0.0) {
+        if time_step <= 0.0 || time_step.is_nan() {
             let message = format!("`time` is {}, but must rise from 0", last.time);
             return Err(SeriesError::garbled(samples.len(), message));
         }

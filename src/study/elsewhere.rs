@@ -70,11 +70,17 @@ impl Plan {
             let message = format!("`schema` is {}; accepted is {SCHEMA}", plan.schema);
             return Err(FileError::content(&path, message));
         }
-        for run in &plan.runs {
-            run.check()
-                .map_err(|message| FileError::content(&path, message))?;
-        }
+        let checked = plan.check();
+        checked.map_err(|message| FileError::content(&path, message))?;
         Ok(Some(plan))
+    }
+
+    /// Refuses what no plan says: somebody may have edited it.
+    fn check(&self) -> Result<(), String> {
+        for row in &self.rows {
+            row.stack.validate().map_err(|error| error.to_string())?;
+        }
+        self.runs.iter().try_for_each(PlannedRun::check)
     }
 
     /// Plans `rows` for `code`, whose results are expected below `root`, and reads the results that are there already:

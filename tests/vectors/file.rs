@@ -30,7 +30,7 @@ pub struct Provenance {
 
 impl Provenance {
     pub fn of(program_sources: String) -> Self {
-        let generator = ["vectors.py", "generate.py"].map(|name| golden(name));
+        let generator = ["vectors.py", "generate.py"].map(golden);
         let generator = generator.map(|path| fs::read(path).expect("the generator is there"));
         Self {
             program: format!("tristack {}", env!("CARGO_PKG_VERSION")),

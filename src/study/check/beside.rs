@@ -34,20 +34,28 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// The largest distance in `columns` between what was found and the rows `other`, up to their peak.
+    /// The largest distance in `columns` between what was found and the rows `other`, which are those that are expected
+    /// with a mistake in what is written, up to the peak.
     pub fn distance(&self, other: &[Row], columns: &[usize]) -> f64 {
-        let rows = self.found.iter().zip(other).take(peak(other) + 1);
-        rows.flat_map(|(found, other)| {
+        self.distance_until(peak(self.expected), other, columns)
+    }
+
+    /// The same of another run, which may have its peak elsewhere, up to the later peak.
+    pub fn distance_of_run(&self, run: &[Row]) -> f64 {
+        let last = peak(run).max(peak(self.found));
+        self.distance_until(last, run, &self.columns)
+    }
+
+    fn distance_until(&self, last: usize, other: &[Row], columns: &[usize]) -> f64 {
+        let rows = self.found.iter().zip(other).take(last + 1);
+        let apart = rows.flat_map(|(found, other)| {
             let apart =
                 |column: &usize| (found[*column] - other[*column]).abs() / self.scales[*column];
             columns.iter().map(apart)
-        })
-        .fold(0.0, |worst, apart| {
-            if apart > worst || apart.is_nan() {
-                apart
-            } else {
-                worst
-            }
+        });
+        apart.fold(0.0, |worst, apart| match apart > worst || apart.is_nan() {
+            true => apart,
+            false => worst,
         })
     }
 
@@ -61,7 +69,10 @@ impl<'a> Beside<'a> {
         let least = SAME.min(EXPLAINED * self.distance(self.expected, &self.columns));
         let columns = self.columns.iter().copied();
         columns
-            .filter(|&column| !(self.of_column(column) <= least))
+            .filter(|&column| {
+                let distance = self.of_column(column);
+                distance > least || distance.is_nan()
+            })
             .collect()
     }
 
@@ -70,6 +81,13 @@ impl<'a> Beside<'a> {
         let before = self.distance(self.expected, columns);
         let rest = self.distance(other, columns);
         rest < SAME && rest <= EXPLAINED * before
+    }
+
+    /// The distance of another run, if it explains what was found.
+    pub fn explained_by(&self, run: &[Row]) -> Option<f64> {
+        let before = self.distance(self.expected, &self.columns);
+        let rest = self.distance_of_run(run);
+        (rest < SAME && rest <= EXPLAINED * before).then_some(rest)
     }
 
     /// The first row in which a column is off, and its values: found, expected.

@@ -18,8 +18,7 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     let single = single_mistakes(case);
     let single = single.into_par_iter().filter_map(|mistake| {
         let rows = mistake.rows()?;
-        let explains = beside.explains(&rows, &beside.columns);
-        explains.then(|| (beside.distance(&rows, &beside.columns), mistake.text))
+        Some((beside.explained_by(&rows)?, mistake.text))
     });
     let mut fitting: Vec<(f64, String)> = single.collect();
     fitting.extend(late_wall(beside, case));
@@ -39,8 +38,11 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     causes
 }
 
+/// Description of a mistake in the law, and the mistake.
+type OfLaw = (&'static str, fn(&mut MistakenLaw));
+
 /// Mistakes in the law, which have no size.
-const OF_LAW: [(&str, fn(&mut MistakenLaw)); 16] = [
+const OF_LAW: [OfLaw; 16] = [
     (
         "the spin enters the surface velocity with the wrong sign",
         |law| law.everywhere(|change| change.spin = -1.0),

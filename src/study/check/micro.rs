@@ -4,13 +4,15 @@
 use super::factor::{is_about, meanings, of_factor, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item};
-use crate::code::Code;
+use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::ProbeRecord;
 use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
 
 /// Relative deviation from which on numbers with few digits are another number.
 const GROSS: f64 = 1e-2;
+/// Most causes of one item.
+const MOST_CAUSES: usize = 3;
 /// m g in the micro-tests, which have no gravity: no factor is mistaken for it.
 const NO_WEIGHT: f64 = f64::INFINITY;
 
@@ -119,9 +121,12 @@ impl Micro {
             return Item::passed(Grade::Consistency, NAME, "as measured");
         }
         let measured = wrong.iter().filter_map(|own| Some((own, own.measured?)));
-        let causes = measured
-            .map(|(own, value)| self.correction(own, value))
-            .collect();
+        let mut causes: Vec<String> = Vec::new();
+        for cause in measured.map(|(own, value)| self.correction(own, value)) {
+            if causes.len() < MOST_CAUSES && !causes.contains(&cause) {
+                causes.push(cause);
+            }
+        }
         let expected = format!("{} (declared)", list(&wrong, |own| own.declared));
         let found = format!("{} (measured)", list(&wrong, |own| own.measured));
         Item::failed(Grade::Consistency, NAME, expected, found, causes)
@@ -137,6 +142,12 @@ impl Micro {
                 format!("{name} is {value}, for which the manifest has no word: the law is another one")
             },
             |key| {
+                let is_euler = key == ConventionKey::VelocityLag && is_about(value, -0.5);
+                if is_euler {
+                    return "explicit Euler: positions move on with the velocities of before the kick; kick the \
+                            velocities first, then move with the new ones"
+                        .to_owned();
+                }
                 let value = measured.value(key);
                 let value = value.parse::<f64>().map_or(value, |number| rounded(number).to_string());
                 format!("the code has another convention than code.toml says, which might be: {key} = {value}")

@@ -121,22 +121,15 @@ impl Parameter {
     pub fn fit(self, beside: &Beside, case: &Case) -> Option<(f64, String)> {
         let distance = |exponent: f64| {
             let rows = self.mistaken(case, exponent.exp()).rows();
-            rows.map_or(f64::INFINITY, |rows| {
-                beside.distance(&rows, &beside.columns)
-            })
+            rows.map_or(f64::INFINITY, |rows| beside.distance_of_run(&rows))
         };
         let spacing = LARGEST_FACTOR.ln() / f64::from(FIRST_TRIES);
         let tries = (-FIRST_TRIES..=FIRST_TRIES).map(|index| f64::from(index) * spacing);
         let nearest = tries.min_by(|left, right| distance(*left).total_cmp(&distance(*right)))?;
         let factor = minimum(&distance, nearest - spacing, nearest + spacing).exp();
         let rows = self.mistaken(case, factor).rows()?;
-        let explains = beside.explains(&rows, &beside.columns);
-        explains.then(|| {
-            (
-                beside.distance(&rows, &beside.columns),
-                self.described(case, factor),
-            )
-        })
+        let rest = beside.explained_by(&rows)?;
+        Some((rest, self.described(case, factor)))
     }
 
     fn described(self, case: &Case, factor: f64) -> String {

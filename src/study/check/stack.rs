@@ -1,21 +1,19 @@
 //! The stack at rest and under the wall: what mechanics demands of its series, and the series of the native DEM.
 
 use super::beside::{Beside, SAME};
-use super::factor::{of_factor, of_friction};
+use super::factor::{is_about, of_factor, of_friction};
 use super::mistake::every_step;
-use super::report::{Grade, Item};
+use super::report::{Grade, Item, Outcome};
 use super::rows::{Row, index, indices, name, rows_of};
 use super::{computed, written};
 use crate::dem::compress_stack;
 use crate::model::{Case, ContactConvention};
-use crate::series::{ENOUGH_DIGITS, Law, Mechanics, Series, YieldEstimates};
+use crate::series::{ENOUGH_DIGITS, Law, Mechanics, Series, YieldEstimates, most_digits};
 
 /// Relative deviation of the weight from which on it is not that of the stack: what ringing leaves is far smaller.
 const SAME_WEIGHT: f64 = 1e-3;
 /// Relative deviation of the friction of a sliding floor; codes cap the force at μ n itself.
 const SAME_FRICTION: f64 = 1e-6;
-/// Most columns whose relation to the native DEM is described where no mistake explains them.
-const MOST_DESCRIBED: usize = 3;
 
 /// The items on the `series` of `case`, which a code with this `convention` has written.
 pub(super) fn items(series: &Series, case: &Case, convention: ContactConvention) -> Vec<Item> {
@@ -39,18 +37,24 @@ pub(super) fn items(series: &Series, case: &Case, convention: ContactConvention)
     items.push(friction(series, case));
     items.push(path(&beside, case));
     items.push(digits(series, case));
-    if items.iter().any(|item| !item.expected.is_empty()) {
-        let causes = diagnosis(&beside, &own);
-        for item in items.iter_mut().filter(|item| !item.expected.is_empty()) {
-            if item.causes.is_empty() || !causes.is_empty() {
-                item.causes = match causes.is_empty() {
-                    true => vec![usual(item.name).to_owned()],
-                    false => causes.clone(),
-                };
-            }
+    explain(&mut items, &beside, &own);
+    items
+}
+
+/// Gives every item that failed its causes: those that explain the whole series, else its own, else the usual ones.
+fn explain(items: &mut [Item], beside: &Beside, case: &Case) {
+    let failed = |item: &Item| item.outcome == Outcome::Failed;
+    if !items.iter().any(failed) {
+        return;
+    }
+    let causes = diagnosis(beside, case);
+    for item in items.iter_mut().filter(|item| failed(item)) {
+        if !causes.is_empty() {
+            item.causes.clone_from(&causes);
+        } else if item.causes.is_empty() {
+            item.causes = vec![usual(item.name).to_owned()];
         }
     }
-    items
 }
 
 /// An item that fails; its causes are found for all items together where it has none of its own.
@@ -82,10 +86,16 @@ fn weight(rows: &[Row], case: &Case) -> Item {
         "floor_n2 + floor_n3 = {borne:.6} m g at step 0 ({:.4} times)",
         borne / 3.0
     );
-    let causes = match borne {
-        borne if borne.abs() > 1e-9 => of_factor(borne / 3.0, weight),
-        _ => Vec::new(),
+    let count = [(1.0, "one cylinder"), (2.0, "two cylinders")];
+    let mut causes = match count.into_iter().find(|(count, _)| is_about(borne, *count)) {
+        Some((_, whose)) => vec![format!(
+            "only the weight of {whose} is borne: gravity does not act on all of them, or one floor contact is left out"
+        )],
+        None => Vec::new(),
     };
+    if borne.abs() > 1e-9 {
+        causes.extend(of_factor(borne / 3.0, weight));
+    }
     failed(
         WEIGHT,
         "3 m g = 3 gravity, the stack at rest".to_owned(),
@@ -246,27 +256,10 @@ fn diagnosis(beside: &Beside, case: &Case) -> Vec<String> {
         return plain;
     }
     let causes = written::explanations(beside, case);
-    if !causes.is_empty() {
-        return causes;
+    match causes.is_empty() {
+        true => computed::explanations(beside, case),
+        false => causes,
     }
-    let causes = computed::explanations(beside, case);
-    if !causes.is_empty() {
-        return causes;
-    }
-    let mut columns = beside.deviating();
-    let all = columns.len();
-    columns.sort_by(|&left, &right| beside.of_column(right).total_cmp(&beside.of_column(left)));
-    columns.truncate(MOST_DESCRIBED);
-    let names: Vec<&str> = columns.iter().map(|&column| name(column)).collect();
-    if all == beside.columns.len() || names.is_empty() {
-        return Vec::new();
-    }
-    vec![format!(
-        "no single mistake of those that were tried gives this series; {all} of {} columns are not those of the native DEM, \
-         most of all {}",
-        beside.columns.len(),
-        names.join(", ")
-    )]
 }
 
 /// What the stack at rest shows without computing anything.
@@ -303,10 +296,33 @@ fn at_first_sight(beside: &Beside) -> Vec<String> {
             value(found, "x2"),
             value(found, "x3")
         )
+    } else if beside
+        .found
+        .iter()
+        .all(|row| value(row, "wall_force") == 0.0)
+    {
+        "the wall never presses: it moves upwards, or not at all, or its force is not read; `wall_speed` is downwards"
+            .to_owned()
+    } else if is_single_precision(beside) {
+        "the numbers are those of single precision, some 7 digits: positions, velocities and springs need double precision"
+            .to_owned()
     } else {
         return Vec::new();
     };
     vec![cause]
+}
+
+/// Whether all positions are numbers of single precision, and are no round ones.
+fn is_single_precision(beside: &Beside) -> bool {
+    let columns = indices(&["y1", "x2", "y2"]);
+    let positions = || {
+        beside
+            .found
+            .iter()
+            .flat_map(|row| columns.iter().map(|&column| row[column]))
+    };
+    let is_single = |position: f64| f64::from(position as f32) == position;
+    most_digits(positions()) >= ENOUGH_DIGITS && positions().all(is_single)
 }
 
 fn usual(item: &str) -> &'static str {

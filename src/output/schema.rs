@@ -109,7 +109,13 @@ fn manifest() -> Value {
         entries.retain(|key, _| !["$schema", "title", "description"].contains(&key.as_str()));
     }
     schema["properties"]["variants"]["additionalProperties"] = variant;
-    schema
+    // So does a manifest that takes the rest from another one.
+    let mut extending = without(&schema, "required");
+    extending["required"] = json!(["schema", "name", "extends"]);
+    if let Some(keys) = schema["properties"].as_object_mut() {
+        keys.remove("extends");
+    }
+    json!({ "title": "Manifest", "anyOf": [schema, extending] })
 }
 
 /// `schema` without a keyword at any depth.

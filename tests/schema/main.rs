@@ -129,7 +129,7 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
         ("side-walls", between_walls().all_parameters()),
         (
             "motion",
-            witness_test(ContactConvention::PAPER).parameters(),
+            witness_test(ContactConvention::PAPER).all_parameters(),
         ),
         ("pyramid", pyramid.all_parameters()),
     ];

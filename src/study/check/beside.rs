@@ -68,12 +68,11 @@ impl<'a> Beside<'a> {
     pub fn deviating(&self) -> Vec<usize> {
         let least = SAME.min(EXPLAINED * self.distance(self.expected, &self.columns));
         let columns = self.columns.iter().copied();
-        columns
-            .filter(|&column| {
-                let distance = self.of_column(column);
-                distance > least || distance.is_nan()
-            })
-            .collect()
+        let deviates = |column: &usize| {
+            let distance = self.of_column(*column);
+            distance > least || distance.is_nan()
+        };
+        columns.filter(deviates).collect()
     }
 
     /// Whether the rows `other` explain what was found in `columns`.

@@ -38,11 +38,11 @@ pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
     causes
 }
 
-/// Description of a mistake in the law, and the mistake.
-type OfLaw = (&'static str, fn(&mut MistakenLaw));
+/// A mistake in words, and what it changes in the law.
+type Wrong = (&'static str, fn(&mut MistakenLaw));
 
 /// Mistakes in the law, which have no size.
-const OF_LAW: [OfLaw; 16] = [
+const OF_LAW: [Wrong; 16] = [
     (
         "the spin enters the surface velocity with the wrong sign",
         |law| law.everywhere(|change| change.spin = -1.0),

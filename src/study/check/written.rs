@@ -170,7 +170,7 @@ impl Group<'_> {
     /// The relation between found and expected values, in words.
     fn relation(&self) -> Option<String> {
         self.factor()
-            .or_else(|| self.wrong_start())
+            .or_else(|| self.since_start())
             .or_else(|| self.offset())
             .or_else(|| self.lag())
             .or_else(|| self.magnitude())
@@ -220,7 +220,7 @@ impl Group<'_> {
         explains.then(|| with_factor(self.what, factor, weight, self.columns))
     }
 
-    fn wrong_start(&self) -> Option<String> {
+    fn since_start(&self) -> Option<String> {
         let what = self.what;
         if self.explains(|row, column| self.change(row, column)) {
             return Some(format!(

@@ -83,7 +83,11 @@ fn is_explained(items: &[Value], broken: &Broken) -> bool {
     telling.any(|item| {
         let causes = text(item, "causes");
         let told = format!("{} {} {causes}", text(item, "item"), text(item, "found"));
-        let few = causes.split(" | ").count() <= MOST_CAUSES;
+        let causes = match causes.strip_prefix("usual causes: ") {
+            Some(usual) => usual.split("; ").count(),
+            None => causes.split(" | ").count(),
+        };
+        let few = causes <= MOST_CAUSES;
         few && broken.words.iter().all(|word| told.contains(word.as_str()))
     })
 }

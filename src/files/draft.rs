@@ -157,10 +157,11 @@ const TRIES: usize = 100;
 /// Beginning of the names of [`Scratch`] directories.
 const SCRATCH: &str = "tristack-scratch-";
 
-/// A directory for temporary files, which is removed when dropped, or, if this program is killed, by the next one that
-/// makes one.
+/// A directory for temporary files inside of another one, so that what a program writes beside it is removed as well:
+/// when dropped, or, if this program is killed, by the next one that makes one.
 pub(crate) struct Scratch {
-    directory: TempDir,
+    directory: PathBuf,
+    _outer: TempDir,
     _lock: File,
 }
 
@@ -170,17 +171,19 @@ impl Scratch {
         let root = std::env::temp_dir();
         remove_abandoned(&root, SCRATCH.as_ref());
         for _ in 0..TRIES {
-            let mut directory = temporary(SCRATCH.as_ref());
-            let directory = directory.permissions(Permissions::from_mode(OWNER_ALONE));
-            let directory = directory.tempdir_in(&root)?;
+            let mut outer = temporary(SCRATCH.as_ref());
+            let outer = outer.permissions(Permissions::from_mode(OWNER_ALONE));
+            let outer = outer.tempdir_in(&root)?;
             // Before it is locked, another program may take it for abandoned.
-            let lock = open_directory(directory.path()).ok();
+            let lock = open_directory(outer.path()).ok();
             let free = |lock: &File| !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
+            let directory = outer.path().join("inner");
             if let Some(lock) = lock.filter(free)
-                && directory.path().is_dir()
+                && fs::create_dir(&directory).is_ok()
             {
                 return Ok(Self {
                     directory,
+                    _outer: outer,
                     _lock: lock,
                 });
             }
@@ -190,7 +193,7 @@ impl Scratch {
     }
 
     pub fn path(&self) -> &Path {
-        self.directory.path()
+        &self.directory
     }
 }
 

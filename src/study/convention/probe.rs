@@ -16,7 +16,7 @@ const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, 
 pub const ROUNDS: usize = 2;
 
 /// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it
-/// is called [`ROUNDS`] times.
+/// is called `ROUNDS` times.
 ///
 /// # Errors
 /// Those of `run`.

@@ -9,6 +9,7 @@ mod no_yield;
 mod peak;
 mod plan;
 mod profile;
+mod row;
 mod runs;
 mod series;
 mod touch;

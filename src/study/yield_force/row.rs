@@ -1,0 +1,75 @@
+//! The numbers of a row: what its judgement holds, by their names in tables.
+
+use super::extrapolate::Extrapolation;
+use super::judgement::Judgement;
+use crate::runs::RunSummary;
+
+impl Judgement {
+    /// Floor friction μ.
+    pub fn mu(&self) -> f64 {
+        self.study.stack.floor_friction
+    }
+
+    /// Stiffness 1/ε.
+    pub fn stiffness(&self) -> f64 {
+        self.study.stack.stiffness
+    }
+
+    /// Distance of the limit under the convention of the code from the one under the paper's, relative to F + 3.
+    pub fn model_form(&self) -> Option<f64> {
+        self.study.model_form
+    }
+
+    /// F at vanishing wall speed, in m g.
+    pub fn yield_force(&self) -> Option<f64> {
+        self.finding.as_ref()?.force.map(|(force, _)| force)
+    }
+
+    /// Its uncertainty in m g.
+    pub fn uncertainty(&self) -> Option<f64> {
+        self.finding
+            .as_ref()?
+            .force
+            .map(|(_, uncertainty)| uncertainty)
+    }
+
+    /// The exact yield force under the convention of the code, in m g.
+    pub fn reference_force(&self) -> Option<f64> {
+        self.study.limit.yield_force
+    }
+
+    /// The exact force by which the code is judged, in m g: the slip onset if there is one under the wall.
+    pub fn judged_reference(&self) -> Option<f64> {
+        let limit = &self.study.limit;
+        limit
+            .yield_force
+            .and(limit.slip_onset.or(limit.yield_force))
+    }
+
+    /// (slip onset − exact onset)/(exact onset + 3), or the same of the peak where that is judged; `None` where
+    /// nothing is.
+    pub fn error(&self) -> Option<f64> {
+        self.grounds.deviation().map(|(error, _)| error)
+    }
+
+    /// Largest error that agrees; `None` where nothing is judged.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.grounds.deviation().map(|(_, tolerance)| tolerance)
+    }
+
+    /// The summary of each run, in the order of the cases; none if one of them is missing.
+    pub fn runs(&self) -> &[RunSummary] {
+        self.finding.as_ref().map_or(&[], |finding| &finding.runs)
+    }
+
+    /// The slip onset at vanishing wall speed.
+    pub fn slip(&self) -> Option<&Extrapolation> {
+        self.finding.as_ref()?.slip.as_ref()
+    }
+
+    /// The peak at vanishing wall speed, with its uncertainty in m g.
+    pub fn peak(&self) -> Option<(f64, f64)> {
+        let finding = self.finding.as_ref()?;
+        Some((finding.peak?.force, finding.peak_uncertainty?))
+    }
+}

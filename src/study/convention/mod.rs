@@ -9,6 +9,7 @@ mod contact_frame;
 mod experiments;
 mod finding;
 mod growth;
+mod linear_form;
 mod measured;
 mod micro_tests;
 mod normal;
@@ -29,6 +30,7 @@ pub(crate) use measured::{
     arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
 pub(crate) use micro_tests::ask;
+pub(crate) use passport::PASSPORT;
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;

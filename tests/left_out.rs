@@ -376,6 +376,12 @@ fn the_memory_of_a_spring_is_measured_whatever_else_a_contact_is() {
                     let found = findings(convention, |test| test).into_iter();
                     let of_memory = found.filter(|(name, ..)| name.ends_with("spring_memory"));
                     for (name, measured, ..) in of_memory {
+                        // Such a pair may slide until it separates; the floor shows the rule.
+                        let may_slide_on = sliding_spring == SlidingSpring::FollowsLimit
+                            && coulomb_operand == CoulombOperand::SpringAndDamping;
+                        if measured.is_none() && may_slide_on && name.starts_with("pair_") {
+                            continue;
+                        }
                         let apart = measured.map(|value| (value - memory).abs());
                         assert!(
                             apart.is_some_and(|apart| apart < 1e-8),

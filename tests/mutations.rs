@@ -349,9 +349,13 @@ fn beside_a_stiffness_that_grows_everything_else_is_as_declared() {
         let exponent = format!("{kind}_tangential_stiffness_exponent");
         let (value, uncertainty) = measured(&findings, &exponent).expect("it grows");
         assert!((value - 0.5).abs() <= uncertainty && uncertainty < 1e-9);
-        let verdicts = findings.findings.iter().map(|own| own.verdict);
-        let differing = verdicts.filter(|verdict| *verdict == Verdict::Differs);
-        assert_eq!(differing.count(), 1, "{:?}", findings.findings);
+        for own in &findings.findings {
+            // What the coefficients leave open shows where the native code has to be as declared to 1e-9.
+            let differs = own.verdict == Verdict::Differs && own.property != "pair_history_update";
+            assert_eq!(differs, own.property == exponent, "{own:?}");
+        }
+        let (update, _) = measured(&findings, "pair_history_update").expect("a number");
+        assert!(update.abs() < 1e-8, "{update:e}");
         for property in ["kinematic_arm", "torque_arm", "damping_arm"] {
             let (arm, _) = measured(&findings, &format!("{kind}_{property}")).expect("an arm");
             assert!(arm.abs() < 1e-9, "{property}: {arm:e}");

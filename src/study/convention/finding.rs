@@ -60,6 +60,15 @@ impl Finding {
         ))
     }
 
+    /// Why it is unknown, where that is known.
+    pub fn unknown_because(&self) -> Option<&'static str> {
+        let of_memory = self.key == Some(ConventionKey::SlidingSpring) && self.measured.is_none();
+        of_memory.then_some(
+            "in its micro-test the contact slides to the end, or not at all, so that the spring behind is not seen; the yield force \
+             does not depend on it",
+        )
+    }
+
     /// How the motion of a surface depends on the time step, in words, if it is this that was found.
     pub fn time_step_effect(&self) -> Option<String> {
         let kind = self

@@ -85,7 +85,12 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
         let matters = key.matters();
         format!("{key} is left out and not known: {because}; {matters}")
     });
-    contradicting(findings).into_iter().chain(unknown).collect()
+    let unseen = findings.findings.iter().filter_map(|own| {
+        let because = own.unknown_because().filter(|_| own.declared.is_none())?;
+        Some(format!("{} is unknown: {because}", own.property))
+    });
+    let contradicting = contradicting(findings).into_iter();
+    contradicting.chain(unknown).chain(unseen).collect()
 }
 
 /// The passport of `code`, of which the probe has shown `findings`.

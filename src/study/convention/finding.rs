@@ -64,8 +64,8 @@ impl Finding {
     pub fn unknown_because(&self) -> Option<&'static str> {
         let of_memory = self.key == Some(ConventionKey::SlidingSpring) && self.measured.is_none();
         of_memory.then_some(
-            "in its micro-test the contact slides to the end, or not at all, so that the spring behind is not seen; the yield force \
-             does not depend on it",
+            "in its micro-test the contact slides to the end, or not at all, or what Coulomb's limit is compared with is not known; \
+             the yield force does not depend on it",
         )
     }
 

@@ -10,6 +10,7 @@ mod common;
 mod code_faults;
 mod disk;
 mod fault;
+mod folder_faults;
 mod process_faults;
 mod processes;
 mod report;
@@ -24,7 +25,7 @@ use std::sync::{Mutex, PoisonError};
 use workload::Workloads;
 
 /// Each fault once.
-const ROUNDS: usize = 50;
+const ROUNDS: usize = 57;
 const TRIES: u64 = 5;
 /// Number of rounds at once; a round mostly waits.
 const AT_ONCE: usize = 3;

@@ -137,7 +137,8 @@ fn summary(plan: &Plan, troubles: &[Option<FailureKind>], root: &Path) -> String
          to do: {} runs, {steps} steps; by the forecast of the manifest {:.0} s on one core, the longest run {longest:.1} s\n",
         runs - open.len(),
         open.len(),
-        seconds.sum::<f64>(),
+        // The sum of nothing is -0.
+        seconds.sum::<f64>() + 0.0,
     );
     if !open.is_empty() {
         text += &format!(

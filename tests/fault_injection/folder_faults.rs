@@ -26,8 +26,6 @@ const STACK: &str = "--mu 0.3 --stiffness 100";
 const FOR_EVER: Duration = Duration::from_secs(600);
 /// A code that hangs is given so many seconds.
 const PATIENCE: &str = "--time-limit 2";
-/// Column of the rows of a crosscheck in which a code may say what it likes.
-const VERSION: &str = "version";
 
 /// A way through which a folder comes in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -388,21 +386,23 @@ fn told(output: &Output) -> String {
     format!("{text}\n{message}")
 }
 
-/// What of the output must not depend on time or on what the code calls its version.
+/// What of the output depends neither on time nor on what the code calls its version.
 fn gist(door: Door, output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stdout);
     match door {
         Door::Check => {
             let report: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
-            let rows = report["rows"].as_array().into_iter().flatten();
-            let rows = rows.map(|row| format!("{}: {}", row["item"], row["outcome"]));
-            rows.collect::<Vec<_>>().join("\n")
+            let items = report["rows"].as_array().into_iter().flatten();
+            let items = items.filter(|item| item["item"] != "program");
+            let items = items.map(|item| format!("{}: {}", item["item"], item["outcome"]));
+            items.collect::<Vec<_>>().join("\n")
         }
-        _ => without_version(&text),
+        _ => without(&["version", "seconds"], &text),
     }
 }
 
-fn without_version(table: &str) -> String {
+/// The lines of a table in CSV without some columns.
+fn without(columns: &[&str], table: &str) -> String {
     let mut reader = csv::ReaderBuilder::new();
     let reader = reader.has_headers(false).flexible(true);
     let rows: Vec<csv::StringRecord> = reader
@@ -410,18 +410,15 @@ fn without_version(table: &str) -> String {
         .records()
         .flatten()
         .collect();
-    let header = rows.first().cloned().unwrap_or_default();
-    let place = header.iter().position(|name| name == VERSION);
+    let is_kept = |index: usize| {
+        let name = rows.first().and_then(|header| header.get(index));
+        !name.is_some_and(|name| columns.contains(&name))
+    };
     let lines = rows.iter().map(|row| {
         let cells = row.iter().enumerate();
-        let cells = cells.filter(|(index, _)| Some(*index) != place);
-        let is_version = row.get(0) == Some(VERSION);
+        let cells = cells.filter(|(index, _)| is_kept(*index));
         let cells: Vec<&str> = cells.map(|(_, cell)| cell).collect();
-        if is_version {
-            String::new()
-        } else {
-            cells.join(",")
-        }
+        cells.join(",")
     });
     lines.collect::<Vec<_>>().join("\n")
 }

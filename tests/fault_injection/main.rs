@@ -84,7 +84,7 @@ fn no_fault_loses_a_finished_run_or_lets_a_wrong_verdict_out() {
         }
     });
     let outcomes = outcomes.into_inner().expect("no round panics");
-    report::write(rounds, seed, &commit, &outcomes);
+    report::write(seed, &commit, &outcomes);
     assert_eq!(outcomes.len(), rounds);
     let complaints = outcomes.iter().filter(|(_, outcome)| outcome.is_err());
     assert_eq!(

@@ -321,9 +321,6 @@ fn every_parser_was_tried_a_million_times() {
         "logs",
         "records",
         "checkpoints",
-        "plans",
-        "manifests",
-        "columns",
     ];
     for name in parsers {
         let target = targets.iter().find(|one| one["target"] == name);

@@ -98,33 +98,37 @@ fn below(directory: &Path, name: &str) -> Vec<PathBuf> {
 
 #[test]
 fn every_code_works_in_directories_of_any_name() {
-    for code in common::installed(&live()) {
-        let bench = Bench::with_system_programs();
-        let case = bench.path("case.json");
-        fs::write(&case, short_case(code).to_json()).expect("a case");
-        let line = format!("simulate --code {code} --format json");
-        let plain = bench.path("plain");
+    common::installed(&live())
+        .into_par_iter()
+        .for_each(works_in_directories_of_any_name);
+}
+
+fn works_in_directories_of_any_name(code: Code) {
+    let bench = Bench::with_system_programs();
+    let case = bench.path("case.json");
+    fs::write(&case, short_case(code).to_json()).expect("a case");
+    let line = format!("simulate --code {code} --format json");
+    let plain = bench.path("plain");
+    succeed(
+        &bench,
+        bench
+            .process(&line)
+            .arg(flag("case", &case))
+            .arg(flag("out", &plain)),
+    );
+    let expected = fs::read(plain.join("series.csv")).expect("a series");
+    for name in names(code) {
+        // Relative, so that a leading dash stays one.
+        let out = Path::new(named(name));
         succeed(
             &bench,
             bench
                 .process(&line)
                 .arg(flag("case", &case))
-                .arg(flag("out", &plain)),
+                .arg(flag("out", out)),
         );
-        let expected = fs::read(plain.join("series.csv")).expect("a series");
-        for name in names(code) {
-            // Relative, so that a leading dash stays one.
-            let out = Path::new(named(name));
-            succeed(
-                &bench,
-                bench
-                    .process(&line)
-                    .arg(flag("case", &case))
-                    .arg(flag("out", out)),
-            );
-            let series = fs::read(bench.path("").join(out).join("series.csv")).expect("a series");
-            assert!(series == expected, "{code} in {out:?}");
-        }
+        let series = fs::read(bench.path("").join(out).join("series.csv")).expect("a series");
+        assert!(series == expected, "{code} in {out:?}");
     }
 }
 

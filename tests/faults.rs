@@ -418,6 +418,26 @@ fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     assert!(read() == right);
 }
 
+/// It went into the directory for temporary files of the machine.
+#[test]
+fn what_a_program_writes_beside_its_run_goes_with_it() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let program = bench.path("programs/yade");
+    let script = fs::read_to_string(&program).expect("a script");
+    let asked = "for directory in \"$@\"; do";
+    assert!(script.contains(asked));
+    let outside = format!(
+        "{asked}\n    for above in .. \"$directory/..\"; do echo x > \"$above/outside\"; done"
+    );
+    fs::write(&program, script.replace(asked, &outside)).expect("it can be written");
+    fs::write(bench.path("case.json"), replay::first_case().to_json()).expect("a case");
+    let line = "simulate --code yade --case case.json";
+    bench.tristack(line).assert().code(0);
+    let names = ["case.json", "programs", "replay"];
+    common::assert_only(&bench.path("."), &names);
+}
+
 #[test]
 fn a_case_that_the_code_cannot_run_touches_nothing() {
     let bench = Bench::with_system_programs();

@@ -466,6 +466,45 @@ fn a_program_is_looked_for_where_the_manifest_says() {
     assert_eq!(version(Some(&elsewhere)).as_deref(), Some("3"));
 }
 
+/// A compiled program needs no file, and a list of planned runs names it where a shell would not find it.
+#[test]
+fn a_program_in_its_folder_runs_without_files_here_and_from_a_plan() {
+    let bench = Bench::with_system_programs();
+    let case = short_case();
+    let series = compress_stack(&case, || true).expect("a finite series");
+    let folder = folder_with(
+        bench.path("").as_path(),
+        "mydem",
+        "schema = 1\nname = \"mydem\"\n[program]\ncommand = [\"mydem\"]\nsearch = [\"{folder}/bin\"]\n[tasks.stack]\n",
+    );
+    let data = folder.join("series.txt");
+    fs::write(&data, series.to_csv()).expect("a series");
+    install(&folder, "1");
+    let script = format!("#!/bin/sh\ncp {} result.csv\n", data.display());
+    fs::write(folder.join("bin/mydem"), script).expect("a script");
+    let (message, out) = simulated(&bench, &folder, &case, "");
+    let written = fs::read(out.join("series.csv")).expect(&message);
+    assert!(written == series.to_csv(), "the series of native");
+
+    let line = "plan --code ./mydem --mu 0.3 --stiffness 100 --out away";
+    bench.tristack(line).assert().code(0);
+    let list = fs::read_to_string(bench.path("away/start.txt")).expect("a list");
+    let program = folder.join("bin/mydem");
+    let program = program.to_str().expect("plain text");
+    assert!(
+        list.lines()
+            .all(|line| line.contains(&format!("&& {program} >"))),
+        "{list}"
+    );
+
+    change_manifest(&folder, "[\"mydem\"]", "[\"mydem\", \"{deck}\"]");
+    let (message, _) = simulated(&bench, &folder, &case, "");
+    assert!(
+        message.contains("the deck that `{deck}` in program.command stands for"),
+        "{message}"
+    );
+}
+
 /// Another program of that name would run under a wrong name.
 #[test]
 fn the_search_path_is_searched_if_the_manifest_names_it_or_nothing() {

@@ -275,7 +275,7 @@ fn planning_again_adds_and_changes_nothing_that_is_there() {
     let line = format!("plan --code ./standin --out away {ONE_STACK}");
     let said = standard_output(&mut bench.tristack(&line));
     assert!(
-        said.contains("to do: 0 runs, 0 steps; by the forecast of the manifest 0 s"),
+        said.contains("to do: 0 runs, 0 steps; every run has a result"),
         "{said}"
     );
     let before = contents(&bench.path("away"));
@@ -327,8 +327,17 @@ fn a_convention_that_is_left_out_is_measured_before_runs_are_planned() {
 fn what_comes_in_is_judged_and_the_rest_is_missing() {
     let bench = bench();
     let plan = plan(&bench, ONE_STACK);
+    let complaint = bench
+        .path("away")
+        .join(&plan.runs[1].directory)
+        .join("stderr.txt");
+    fs::write(&complaint, "sh: 1: standin: not found\n").expect("it can be written");
     let (status, rows, message) = judge(&bench, "--format csv");
     assert_eq!(status, Some(3), "{message}");
+    assert!(
+        message.contains("stderr.txt: sh: 1: standin: not found"),
+        "{message}"
+    );
     assert!(
         rows.contains(",files,") && rows.trim_end().ends_with(",missing"),
         "{rows}"

@@ -25,16 +25,22 @@ impl TypedValueParser for CodeParser {
             Some(found) => found.map_err(|error| {
                 clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
             }),
-            // No code has this name: the error lists the names.
+            None if Path::new(value).is_dir() => {
+                let message = format!("{}\n", unknown(&value.to_string_lossy()));
+                Err(clap::Error::raw(ErrorKind::InvalidValue, message).with_cmd(command))
+            }
+            // The error lists the names.
             None => {
-                let names = PossibleValuesParser::new(names()).parse_ref(command, argument, value);
-                names.map(|_| Code::NATIVE)
+                let names = PossibleValuesParser::new(shown_names());
+                names
+                    .parse_ref(command, argument, value)
+                    .map(|_| Code::NATIVE)
             }
         }
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(names().into_iter().map(PossibleValue::new)))
+        Some(Box::new(shown_names().into_iter().map(PossibleValue::new)))
     }
 }
 
@@ -47,8 +53,27 @@ pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
     })
 }
 
+/// What to say of `text`, which is the name of no code.
+pub(super) fn unknown(text: &str) -> String {
+    let hint = match Path::new(text).is_dir() {
+        true => format!("; did you mean the folder `./{text}`?"),
+        false => String::new(),
+    };
+    format!(
+        "`{text}` is no code{hint}; accepted are {}",
+        shown_names().join(", ")
+    )
+}
+
+/// The names, and the form of a folder.
+fn shown_names() -> Vec<String> {
+    let mut names = names();
+    names.push("./FOLDER".to_owned());
+    names
+}
+
 /// The names of the codes that are known, and of the user's folders.
-pub(super) fn names() -> Vec<String> {
+fn names() -> Vec<String> {
     let known = Code::all().into_iter().map(|code| code.as_str().to_owned());
     let folders = user_folders().into_iter().filter_map(|folder| {
         let name = folder.file_name()?.to_str()?;

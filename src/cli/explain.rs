@@ -1,6 +1,6 @@
 //! `tristack crosscheck --explain ROW`.
 
-use super::code_names::{code_named, names};
+use super::code_names::{code_named, unknown};
 use super::convention::settle;
 use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
@@ -27,7 +27,7 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
         return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
     };
     let code = code_named(code)
-        .ok_or_else(|| format!("`{code}` is no code; accepted are {}", names().join(", ")))?
+        .ok_or_else(|| unknown(code))?
         .map_err(|error| error.to_string())?;
     let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
     let stiffness: f64 = stiffness

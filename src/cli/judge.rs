@@ -136,6 +136,9 @@ fn tell_results(plan: &Plan, code: Code, root: &Path) {
     for trouble in others {
         tell!("{trouble}");
     }
+    if let Some(line) = plan.first_complaint(&troubles, root) {
+        tell!("{line}");
+    }
     if plan.continues {
         tell!(
             "further runs follow from results, and are not planned yet: plan again once the planned ones are there"

@@ -20,13 +20,13 @@ const SLURM: &str = "array.slurm";
 ///
 /// Writes a directory for every run of a crosscheck with all that the code is given, and lists of what to start where:
 /// start.txt for a shell, parallel.txt for GNU parallel, array.slurm for Slurm. Needs the folder of the code, not its
-/// program. The same command again adds what can be planned only now: the second round of micro-tests follows from
-/// the results of the first. A run that has a result is left as it is.
+/// program. Runs come in up to three rounds: micro-tests, further ones that follow from their results, and the stacks
+/// if the manifest leaves out parts of the convention. The same command again adds the next round. A run that has a result is left as it is.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: tristack plan --code ./mydem --out away\n         \
     (cd away && sh start.txt) or (cd away && parallel < parallel.txt) or (cd away && sbatch array.slurm)\n         \
-    tristack plan --code ./mydem --out away      # the second round of micro-tests\n         \
+    tristack plan --code ./mydem --out away      # the next round, as long as it says that there is one\n         \
     tristack judge away"
 )]
 pub(super) struct Arguments {
@@ -59,6 +59,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let earlier = Plan::read(root)?;
     let rows = rows(arguments, earlier.as_ref())?;
     let installed = code.find().filter(|found| found.broken().is_none());
+    let is_here = installed.is_some();
     let version = installed.map(|found| found.identity().version.clone());
     let (plan, prepared) = Plan::new(code, rows, root, command, version)?;
     let out = Out::claimed(root, PLAN);
@@ -72,7 +73,16 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let troubles = plan.troubles(code, root);
     let listed = out.write(|| lists(code, &open_runs(&plan, &troubles)));
     let table = [planned_runs(&plan.runs, &troubles)];
-    let people = || summary(&plan, &troubles, root);
+    let people = || {
+        let expected = match is_here {
+            true => String::new(),
+            false => format!(
+                "its program was not found here, {}; the lists expect it in the search path\n",
+                code.places()
+            ),
+        };
+        expected + &summary(&plan, &troubles, root)
+    };
     let printed = arguments.format.print(&table, command, people);
     Ok(listed.max(printed))
 }
@@ -132,13 +142,19 @@ fn summary(plan: &Plan, troubles: &[Option<FailureKind>], root: &Path) -> String
     let steps: u64 = open.iter().map(|run| run.steps).sum();
     let seconds = open.iter().map(|run| run.seconds);
     let longest = seconds.clone().fold(0.0, f64::max);
+    let all: f64 = seconds.sum();
+    let forecast = match all > 0.0 {
+        _ if open.is_empty() => "every run has a result".to_owned(),
+        true => format!(
+            "by the forecast of the manifest {all:.0} s on one core, the longest run {longest:.1} s"
+        ),
+        false => "how long they take, `seconds` of a manifest would say".to_owned(),
+    };
     let mut text = format!(
         "{runs} runs for {rows} rows, {} of which have results\n\
-         to do: {} runs, {steps} steps; by the forecast of the manifest {:.0} s on one core, the longest run {longest:.1} s\n",
+         to do: {} runs, {steps} steps; {forecast}\n",
         runs - open.len(),
         open.len(),
-        // The sum of nothing is -0.
-        seconds.sum::<f64>() + 0.0,
     );
     if !open.is_empty() {
         text += &format!(

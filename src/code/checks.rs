@@ -49,8 +49,12 @@ impl Definition {
         }
         for (kind, task) in &self.tasks {
             let key = kind.key("files");
-            if task.files.is_empty() {
-                return Err(refused(&key, "[]", "the deck and what it needs"));
+            let command = self.program.iter().flat_map(|program| &program.command);
+            let names_deck = command.into_iter().any(|word| word.contains(DECK));
+            if task.files.is_empty() && names_deck {
+                let accepted =
+                    "the deck that `{deck}` in program.command stands for, and what it needs";
+                return Err(refused(&key, "[]", accepted));
             }
             if let Some(name) = task.files.iter().find(|name| !stays_inside(name)) {
                 return Err(refused(&key, name, "a path inside the folder"));

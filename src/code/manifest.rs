@@ -261,7 +261,8 @@ impl Default for ResultFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TaskFiles {
-    /// The first one is the deck.
+    /// The first one is the deck; none if the program needs nothing but its parameters.
+    #[serde(default)]
     pub(super) files: Vec<String>,
     /// Its result file, if not the common one.
     pub(super) result: Option<String>,

@@ -3,10 +3,12 @@
 
 use super::checks::stays_inside;
 use super::failure::FailureKind;
-use super::manifest::Environment;
+use super::manifest::{Environment, Program};
 use super::manifest_error::refused;
 use super::registry::Code;
+use super::search_path::{SEARCH_PATH, find_program};
 use super::task::Task;
+use super::written::complaint;
 use crate::files::{FileError, Links, read_bounded, read_end, write_atomically};
 use crate::model::{Case, ContactTest, InvalidValue, readable, sha256_hex, shown};
 use crate::series::SeriesError;
@@ -85,7 +87,10 @@ impl Code {
         let (definition, kind) = (self.definition(), task.kind());
         self.check_convention_of(task)?;
         self.check_task(kind)?;
-        let command = definition.command(kind, &[".".to_owned()]);
+        let mut command = definition.command(kind, &[".".to_owned()]);
+        if let Some(path) = definition.program.as_ref().and_then(named_path) {
+            command[0] = path;
+        }
         let environment = definition.program.as_ref();
         let environment = environment.map_or_else(Environment::new, |own| own.environment.clone());
         if let Some(word) = not_in_one_line(&command, &environment) {
@@ -113,6 +118,15 @@ impl Code {
         };
         Ok(PreparedRun { run, contents })
     }
+}
+
+/// The program in one of the directories that its manifest names, which a shell would not look through.
+fn named_path(program: &Program) -> Option<String> {
+    let directories = program.search.iter().map(|place| place.get_ref().as_str());
+    let mut directories = directories.filter(|place| *place != SEARCH_PATH).peekable();
+    directories.peek()?;
+    let path = find_program(directories, program.command.first()?)?;
+    Some(path.to_str()?.to_owned())
 }
 
 /// A word that would not stay in the line of its command.
@@ -187,6 +201,11 @@ impl PlannedRun {
                 )),
                 false => FailureKind::UnusableFile(FileError::series(&path)(error)),
             })
+    }
+
+    /// What its program has written last to standard error, below `root`.
+    pub(crate) fn complaint(&self, root: &Path) -> Option<String> {
+        complaint(&root.join(&self.directory))
     }
 
     /// The same for the task that the plan holds; `None` if its outcome is there and usable.

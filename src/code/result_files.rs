@@ -45,7 +45,7 @@ impl ResultFiles {
         let Some(run) = self.runs.get(&self.name.deck_hash(task)) else {
             let root = shown(&self.root);
             let message = format!(
-                "{root} has no run of {task} with the files of today; plan again in the same directory"
+                "{root} has no run of {task} with the files of today: the same tristack plan again adds it"
             );
             let kind = FailureKind::NoResult(message);
             return Err(Failure::new(self.name, task, kind).into());

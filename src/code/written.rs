@@ -1,7 +1,7 @@
 //! Files that a program wrote into its run directory: reading results, keeping the files of failed runs.
 
 use crate::files::{Links, open_regular, read_bounded, read_end};
-use crate::model::readable;
+use crate::model::{readable, shown};
 use crate::series::SeriesError;
 use std::fs::{self, File};
 use std::os::unix::fs::MetadataExt;
@@ -35,6 +35,13 @@ pub(super) fn last_lines(directory: &Path, logs: &[String]) -> Vec<String> {
             lines.into_iter().map(move |line| format!("{name}: {line}"))
         })
         .collect()
+}
+
+/// The last line of its standard error in `directory`, with the path; `None` if there is none.
+pub(super) fn complaint(directory: &Path) -> Option<String> {
+    let path = directory.join(STANDARD_ERROR);
+    let line = tail(&path).pop()?;
+    Some(format!("{}: {line}", shown(&path)))
 }
 
 /// The last lines of a file that are not blank; bytes that are not text are replaced.

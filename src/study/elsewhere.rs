@@ -141,6 +141,19 @@ impl Plan {
         runs.map(|run| run.trouble(code, root)).collect()
     }
 
+    /// What the program of the first run without a result says on standard error, if it says anything.
+    pub(crate) fn first_complaint(
+        &self,
+        troubles: &[Option<FailureKind>],
+        root: &Path,
+    ) -> Option<String> {
+        let mut runs = self.runs.iter().zip(troubles);
+        runs.find_map(|(run, trouble)| match trouble {
+            Some(FailureKind::Awaited(_)) => run.complaint(root),
+            _ => None,
+        })
+    }
+
     /// Indented JSON with a final newline.
     pub(crate) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"

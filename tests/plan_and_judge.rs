@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::away::{native_result, result_of};
 use common::{Bench, installed, json, standard_error, standard_output};
 use nix::sys::stat::Mode;
 use nix::unistd::mkfifo;
@@ -11,7 +12,6 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tristack::code::{Code, PlannedRun, PlannedTask};
-use tristack::dem::{compress_stack, run_contact_test};
 use tristack::study::Plan;
 
 /// A code that is nowhere installed, with the convention of the native one, whose series stand in for its own.
@@ -65,24 +65,6 @@ fn plan(bench: &Bench, options: &str) -> Plan {
 fn planned(bench: &Bench) -> Plan {
     let plan = Plan::read(&bench.path("away")).expect("it is readable");
     plan.expect("it is there")
-}
-
-/// What the native code gives for a planned run, as CSV.
-fn native_result(run: &PlannedRun) -> Vec<u8> {
-    match &run.task {
-        PlannedTask::Stack(case) => compress_stack(case, || true).expect("finite").to_csv(),
-        PlannedTask::Motion(test) => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            for row in run_contact_test(test).expect("finite").rows() {
-                writer.serialize(row).expect("a row");
-            }
-            writer.into_inner().expect("memory")
-        }
-    }
-}
-
-fn result_of(bench: &Bench, run: &PlannedRun) -> PathBuf {
-    bench.path("away").join(&run.directory).join(&run.result)
 }
 
 /// Puts results where there are none.

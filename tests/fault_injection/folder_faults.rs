@@ -3,20 +3,19 @@
 //! The folder is the Python example behind a shell script, which answers from a cache where it can: so a round takes
 //! no longer than its misbehaviour.
 
+use super::common::away::{native_result, result_of};
 use super::common::{Bench, code_folder};
 use super::fault::FolderFault as F;
+use super::misbehaviour::{command, leave, may_pass};
 use super::processes;
 use super::round::{Story, finished_runs, is_running, is_whole};
-use nix::sys::stat::Mode;
-use nix::unistd::mkfifo;
 use std::collections::BTreeMap;
 use std::fs;
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 use std::time::{Duration, Instant};
 use tristack::code::{PlannedRun, PlannedTask};
-use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::sha256_hex;
 use tristack::study::Plan;
 
@@ -197,7 +196,7 @@ impl FolderRound<'_> {
     fn start(&self, fault: F, random: &mut fastrand::Rng) -> Result<Story, String> {
         let hook = self.bench.path("hooks").join(self.stage);
         let struck = self.bench.path("hooks/struck");
-        let command = misbehaviour(fault, random);
+        let command = command(fault, random);
         fs::write(
             &hook,
             format!("echo >> '{}'\n{command}\n", struck.display()),
@@ -272,8 +271,10 @@ impl FolderRound<'_> {
             return Err(format!("{:?}\n{told}", output.status));
         }
         let same = gist == self.folders.honest(self.door);
+        // What was left in a plan stays there until it is judged.
+        let is_allowed = self.door != Door::PlanAndJudge && may_pass(fault, self.stage);
         match output.status.code() {
-            Some(0) if same && may_pass(fault, self.stage, self.door) => Ok(()),
+            Some(0) if same && is_allowed => Ok(()),
             Some(0) => Err(format!("nobody noticed\n{told}")),
             Some(1..=4) if told.contains("mydem") => Ok(()),
             status => Err(format!("{status:?}, and the folder is not named\n{told}")),
@@ -439,95 +440,4 @@ fi
 cp "$answer" result.csv
 "#
     )
-}
-
-/// What a planned run gives: the folder computes as the native code does.
-fn native_result(run: &PlannedRun) -> Vec<u8> {
-    match &run.task {
-        PlannedTask::Stack(case) => compress_stack(case, || true).expect("finite").to_csv(),
-        PlannedTask::Motion(test) => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            for row in run_contact_test(test).expect("finite").rows() {
-                writer.serialize(row).expect("a row");
-            }
-            writer.into_inner().expect("memory")
-        }
-    }
-}
-
-fn result_of(bench: &Bench, run: &PlannedRun) -> PathBuf {
-    bench.path("away").join(&run.directory).join(&run.result)
-}
-
-/// Commands of the shell that a folder executes before it answers.
-fn misbehaviour(fault: F, random: &mut fastrand::Rng) -> &'static str {
-    let choices: &[&'static str] = match fault {
-        F::Hangs => &["sleep 600", "while :; do :; done", "kill -STOP $$"],
-        F::WritesOutside => &[
-            "for place in .. \"$HOME\" \"$TMPDIR\"; do echo x > \"$place/outside\"; done",
-            "for other in ../*/; do echo x > \"$other/outside\"; done; echo x > \"$HOME/../outside\"",
-            "chmod -R 0 \"$HOME\" .. ; chmod 700 ..",
-        ],
-        F::FloodsOutput => &[
-            "head -c 2G /dev/zero; head -c 100M /dev/zero >&2",
-            "yes mydem | head -c 500M >&2",
-        ],
-        F::FloodsFiles => &[
-            "head -c 100M /dev/zero > junk; for i in $(seq 2000); do : > junk$i; done",
-            "truncate -s 2G junk || exit 1",
-            "truncate -s 900M result.csv; exit 0",
-            "mkdir -p $(seq -s / 500)",
-        ],
-        F::FloodsMemory => &["python3 -c 'bytes(12 << 30)' || exit 1"],
-        F::LeavesChildren => &[
-            "setsid sleep 600 & (setsid sh -c 'sleep 600 & sleep 600' &)",
-            "for i in $(seq 100); do sleep 600 & done",
-            "(trap '' TERM HUP INT; setsid sh -c \"trap '' TERM; sleep 600; sleep 600\" &)",
-        ],
-        F::LiesAboutItsVersion => &[
-            "echo \"mydem $(date +%N)\"; exit 0",
-            "yes mydem 1.0 | head -c 300M; exit 0",
-            "printf 'mydem 1\\033[2J\\342\\200\\256,agrees\\n'; exit 0",
-            "echo mydem; exit 0",
-        ],
-    };
-    choices[random.usize(..choices.len())]
-}
-
-/// Puts into a plan what a folder has left in the run at `result`, whose task is at `given`: another run's is at `other`.
-fn leave(fault: F, result: &Path, given: &Path, other: &Path) {
-    let _ = fs::remove_file(result);
-    let sparse = |length: u64| {
-        let file = fs::File::create(result).expect("a file");
-        file.set_len(length).expect("a length");
-    };
-    match fault {
-        F::Hangs => mkfifo(result, Mode::S_IRWXU).expect("a named pipe"),
-        F::WritesOutside => {
-            fs::copy(other, result).expect("a result");
-            fs::write(given, "{}").expect("a task");
-        }
-        F::FloodsOutput => symlink("/dev/zero", result).expect("a link"),
-        F::FloodsFiles => sparse(2 << 30),
-        F::FloodsMemory => fs::write(result, "9".repeat(50_000_000)).expect("a file"),
-        F::LeavesChildren => symlink(other, result).expect("a link"),
-        F::LiesAboutItsVersion => {
-            let text = fs::read_to_string(other).expect("a result");
-            fs::write(result, text.replacen('1', "one", 3)).expect("a result");
-        }
-    }
-}
-
-/// Whether a command may succeed, with the honest result, although the folder does this.
-fn may_pass(fault: F, stage: &str, door: Door) -> bool {
-    match fault {
-        _ if door == Door::PlanAndJudge => false,
-        F::Hangs => false,
-        F::FloodsMemory => stage == "version",
-        F::WritesOutside
-        | F::FloodsOutput
-        | F::FloodsFiles
-        | F::LeavesChildren
-        | F::LiesAboutItsVersion => true,
-    }
 }

@@ -11,6 +11,7 @@ mod code_faults;
 mod disk;
 mod fault;
 mod folder_faults;
+mod misbehaviour;
 mod process_faults;
 mod processes;
 mod report;

@@ -300,3 +300,112 @@ fn what_is_wrong_with_files_and_options_is_said() {
     fs::write(bench.path("v2.csv"), "step,time\n").expect("a file");
     refused(&bench, &all, &["v2.csv: the columns are `step,time`"]);
 }
+
+/// Arms out of a passport: the same row as with the arms on the command line, with what is open of them in the budget.
+#[test]
+fn arms_are_taken_from_a_passport_with_their_uncertainty() {
+    let convention = ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5));
+    let (bench, speeds) = bench_with(convention);
+    bench.tristack("probe --out passports").assert().code(0);
+    let line = format!("{THREE} {speeds} {STACK} {FURTHER}");
+    let given = "--pair-arm -0.5 --floor-arm -0.5";
+    let (_, by_hand, _) = judged(&bench, &format!("{line} {given}"));
+    let passport = "--passport passports/yade.json";
+    let (status, tables, message) = judged(&bench, &format!("{line} {passport} --out judged"));
+    assert_eq!(status, Some(0), "{message}");
+    assert!(message.contains("measured arms -0.5, -0.5"), "{message}");
+    for name in [
+        "reference_force",
+        "slip_onset",
+        "error",
+        "floor_kinematic_arm",
+    ] {
+        assert_eq!(tables[0][0][name], by_hand[0][0][name], "{name}");
+    }
+    let open = |tables: &[Vec<Value>]| {
+        let mut parts = tables[2].iter();
+        let part = parts.find(|part| part["part"] == "convention")?;
+        part["value"].as_f64()
+    };
+    assert_eq!(open(&by_hand), None);
+    let own = open(&tables).expect("a part of the budget");
+    assert!(own > 0.0 && own < 1e-8, "{own:e}");
+    let file = |name: &str| fs::read_to_string(bench.path("judged").join(name)).expect(name);
+    let written = json(&file("judged_series.json"));
+    assert_eq!(
+        written["tables"][0]["rows"],
+        Value::Array(tables[0].clone())
+    );
+    for name in ["judged_series.csv", "series_runs.csv", "series_budget.csv"] {
+        assert!(file(name).lines().count() > 1, "{name}");
+    }
+
+    // Ten thousand times less certain: more than can be judged by.
+    let less = change_passport(&bench, |row| {
+        if row["key"] == "convention.floor.torque_arm" {
+            row["uncertainty"] = 1e-3.into();
+        }
+    });
+    let (status, tables, message) = judged(&bench, &format!("{line} --passport {less}"));
+    assert_eq!(status, Some(4), "{message}");
+    assert!(open(&tables).is_some_and(|open| open > 1e-3));
+    assert!(
+        message.contains("its arms are measured as -0.5, -0.5"),
+        "{message}"
+    );
+}
+
+/// The name of a copy of the passport of YADE with what `change` makes of its keys and properties.
+fn change_passport(bench: &Bench, change: impl Fn(&mut Value)) -> &'static str {
+    let text = fs::read_to_string(bench.path("passports/yade.json")).expect("a passport");
+    let mut passport = json(&text);
+    for table in ["convention", "properties"] {
+        let rows = passport[table]["rows"].as_array_mut().expect("rows");
+        rows.iter_mut().for_each(&change);
+    }
+    fs::write(bench.path("changed.json"), passport.to_string()).expect("a file");
+    "changed.json"
+}
+
+#[test]
+fn a_passport_that_does_not_say_the_arms_is_refused() {
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    bench.tristack("probe --out passports").assert().code(0);
+    let line = format!("{THREE} {speeds} {STACK}");
+    let torque = "convention.pair.torque_arm";
+    let with = |change: &dyn Fn(&mut Value)| {
+        format!("{line} --passport {}", change_passport(&bench, change))
+    };
+    let of_torque = |name: &'static str, value: Value| {
+        move |row: &mut Value| {
+            if row["key"] == torque {
+                row[name] = value.clone();
+            }
+        }
+    };
+    let unknown = with(&of_torque("measured", Value::Null));
+    refused(
+        &bench,
+        &unknown,
+        &["changed.json", torque, "is not measured"],
+    );
+    let beyond = with(&of_torque("measured", "-2".into()));
+    refused(&bench, &beyond, &["changed.json", torque, "-2"]);
+    let negative = with(&of_torque("uncertainty", (-1.0).into()));
+    refused(&bench, &negative, &["the uncertainty of", torque, "-1"]);
+    let differs = with(&|row| {
+        if row["property"] == "floor_friction" {
+            row["verdict"] = "differs".into();
+        }
+    });
+    refused(&bench, &differs, &["floor_friction differs"]);
+    let other = format!("{line} --passport passports/all_codes.json");
+    refused(&bench, &other, &["all_codes.json"]);
+    refused(
+        &bench,
+        &format!("{line} --passport nowhere.json"),
+        &["nowhere.json"],
+    );
+    let both = format!("{line} --passport passports/yade.json --pair-arm -0.5");
+    refused(&bench, &both, &["--passport", "--pair-arm"]);
+}

@@ -3,13 +3,18 @@
 mod common;
 
 use common::replay::{self, Disturbance};
-use common::{Bench, code_folder, json, json_rows, standard_error};
+use common::{Bench, code_folder, json, json_rows, standard_error, wait_for};
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 use serde_json::Value;
 use std::fmt::Display;
 use std::fs;
+use std::process::Stdio;
 use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
 use tristack::dem::run_contact_test;
-use tristack::model::{Arms, ContactConvention, ContactTest, HistoryUpdate, Stack};
+use tristack::model::{
+    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, Stack,
+};
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::series::Motion;
 use tristack::study::convention::{probe, probe_all, settle_by};
@@ -128,6 +133,34 @@ fn a_folder_without_micro_tests_is_not_judged_and_the_reason_names_the_keys() {
         assert_eq!(row["verdict"], "inconclusive", "{row}");
         assert_ne!(row["yield_force"], Value::Null, "{row}");
     }
+}
+
+#[test]
+fn an_interrupt_of_the_measurement_is_no_failure_of_it() {
+    let bench = Bench::without_codes();
+    let started = bench.path("started");
+    let version = "[ \"$1\" = --version ] && { echo 'Yade version: 1'; exit; }";
+    let hang = format!("{version}\necho > '{}'; sleep 600", started.display());
+    bench.install("yade", &format!("PATH=/usr/bin:/bin\n{hang}"));
+    let folder = yade_without(&bench, without_convention);
+    let child = bench
+        .process(&format!("crosscheck --codes {folder}"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    wait_for(|| fs::exists(&started).unwrap_or(false).then_some(()));
+    let interrupt = Pid::from_raw(child.id().cast_signed());
+    kill(interrupt, Signal::SIGINT).expect("it is there");
+    let output = child.wait_with_output().expect("it ends");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{message}");
+    assert!(
+        message.contains("interrupted while conventions"),
+        "{message}"
+    );
+    assert!(!message.contains("could not be measured"), "{message}");
+    assert!(output.stdout.is_empty());
 }
 
 struct Silent;
@@ -317,6 +350,48 @@ fn a_parameter_is_never_taken_for_convention() {
         .iter()
         .find(|(.., verdict)| *verdict == Verdict::Differs);
     assert_eq!(wrong, None);
+}
+
+/// A spring that keeps its length while the contact slides is still carried on as the contact turns.
+#[test]
+fn the_memory_of_a_spring_is_measured_whatever_else_a_contact_is() {
+    for (sliding_spring, memory) in [
+        (SlidingSpring::Frozen, 1.0),
+        (SlidingSpring::FollowsLimit, 0.0),
+    ] {
+        for history_update in [
+            HistoryUpdate::Rotated,
+            HistoryUpdate::Projected,
+            HistoryUpdate::Linearised,
+        ] {
+            for coulomb_operand in [CoulombOperand::Spring, CoulombOperand::SpringAndDamping] {
+                for arm in [-1.0, -0.5, 0.0, 1.0] {
+                    let convention = ContactConvention {
+                        arms: Arms::reciprocal(arm, arm),
+                        coulomb_operand,
+                        sliding_spring,
+                        history_update,
+                        ..ContactConvention::PAPER
+                    };
+                    let found = findings(convention, |test| test).into_iter();
+                    let of_memory = found.filter(|(name, ..)| name.ends_with("spring_memory"));
+                    for (name, measured, ..) in of_memory {
+                        // Such a pair may slide until it separates; the floor shows the rule.
+                        let may_slide_on = sliding_spring == SlidingSpring::FollowsLimit
+                            && coulomb_operand == CoulombOperand::SpringAndDamping;
+                        if measured.is_none() && may_slide_on && name.starts_with("pair_") {
+                            continue;
+                        }
+                        let apart = measured.map(|value| (value - memory).abs());
+                        assert!(
+                            apart.is_some_and(|apart| apart < 1e-8),
+                            "{name}: {measured:?}, {convention:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use super::options::RunOptions;
 use super::progress::Reporter;
-use super::{CliError, tell};
-use crate::code::{Code, ConventionKey};
+use super::{CliError, INTERRUPT, tell};
+use crate::code::Code;
 use crate::runs::{Progress, SelectedCode, Settings};
 use crate::study::convention;
 
@@ -14,7 +14,10 @@ pub(super) fn settle(codes: &[SelectedCode], options: &RunOptions) -> Result<(),
         return Ok(());
     }
     settle_with(codes, &options.settings()?, &Reporter::new());
-    Ok(())
+    match INTERRUPT.requested() {
+        true => Err(CliError::Interrupted),
+        false => Ok(()),
+    }
 }
 
 /// The same with these settings.
@@ -22,6 +25,7 @@ pub(super) fn settle_with(codes: &[SelectedCode], settings: &Settings, progress:
     for (code, probed) in convention::settle(codes, settings, progress) {
         match probed {
             Ok(_) => tell_settled(code),
+            Err(_) if INTERRUPT.requested() => {}
             Err(error) => tell!("{code}: its contact convention could not be measured: {error}"),
         }
     }
@@ -51,10 +55,7 @@ fn tell_settled(code: Code) {
         );
     }
     for (key, because) in &settled.unknown {
-        let matters = match ConventionKey::moves_limit(*key) {
-            true => "the yield force depends on it",
-            false => "the yield force does not depend on it",
-        };
+        let matters = key.matters();
         tell!("{code}: {key} is left out of its manifest and not known ({because}); {matters}");
     }
 }

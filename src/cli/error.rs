@@ -96,6 +96,12 @@ pub enum CliError {
     /// The register of claims is wrong.
     #[error(transparent)]
     Register(#[from] RegisterError),
+    /// The user did not want to wait for the micro-tests on which everything else depends.
+    #[error(
+        "interrupted while conventions that manifests leave out were being measured; what is finished is kept, and the same \
+         command goes on from here"
+    )]
+    Interrupted,
     /// A code failed.
     #[error(transparent)]
     CodeFailed(#[from] Box<Failure>),
@@ -130,6 +136,7 @@ impl CliError {
                 FailureKind::RunDirectory(ref error) if error.is_full() => ExitStatus::NotWritten,
                 _ => ExitStatus::CodeFailed,
             },
+            Self::Interrupted => ExitStatus::Interrupted,
             Self::Files(error) if error.is_full() => ExitStatus::NotWritten,
             Self::Reproduction(_) | Self::MissingCode(_) => ExitStatus::CodeFailed,
             _ => ExitStatus::WrongInput,

@@ -24,7 +24,7 @@ const UNKNOWN_VERSION: &str = "unknown";
 /// program, and keeps nothing in the store.
 ///
 /// With --series, three or more series of one stack are judged without a plan: slip onset and peak, extrapolated to
-/// vanishing wall speed, against the exact limit under the arms that are given (the paper's, if none). What the
+/// vanishing wall speed, against the exact limit under the arms that are given or that a passport has (the paper's, if none). What the
 /// uncertainty lacks is said, with the run that would make it known; until then nothing agrees.
 #[derive(Debug, Args)]
 #[command(
@@ -43,8 +43,9 @@ pub(super) struct Arguments {
     /// Version of the program that made the results
     #[arg(long, value_name = "TEXT", value_parser = one_line, default_value = UNKNOWN_VERSION, conflicts_with = "series")]
     code_version: String,
-    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
-    #[arg(long, value_name = "DIR", conflicts_with = "series")]
+    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv; of series for judged_series.json,
+    /// judged_series.csv, series_runs.csv and series_budget.csv
+    #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Format of the rows
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -54,7 +55,12 @@ pub(super) struct Arguments {
 /// Judges what is there, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let Some(root) = arguments.plan.as_deref() else {
-        return judge_series::run(&arguments.series, arguments.format, command);
+        return judge_series::run(
+            &arguments.series,
+            arguments.out.as_deref(),
+            arguments.format,
+            command,
+        );
     };
     let path = root.join(PLAN);
     let plan = Plan::read(root)?.ok_or_else(|| {

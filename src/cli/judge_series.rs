@@ -1,12 +1,14 @@
 //! `tristack judge --series`.
 
-use super::options::{ConventionOptions, Format, StackOptions, friction};
+use super::options::{ConventionOptions, Format, OneStackOptions, options_of};
+use super::out::Out;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
-use crate::files::{FileError, Links, read_bounded};
-use crate::model::{InvalidValue, shown};
-use crate::output::{judged_series, judged_series_text};
+use crate::files::{FileError, Layout, Links, read_bounded};
+use crate::model::{ContactConvention, InvalidValue, shown};
+use crate::output::{DataTable, json, judged_series, judged_series_text};
 use crate::series::Series;
+use crate::study::convention::MeasuredArms;
 use crate::study::yield_force::{JudgedSeries, SPEEDS, SeriesInput, judge_series, no_yield};
 use crate::theory::quasistatic_limit;
 use clap::Args;
@@ -14,6 +16,8 @@ use std::path::{Path, PathBuf};
 
 /// Largest series that is read, in bytes; that of a code.
 const LARGEST_SERIES: u64 = 256 << 20;
+/// Largest passport that is read, in bytes; a probe writes some 20 kB.
+const LARGEST_PASSPORT: u64 = 1 << 20;
 /// Largest relative distance of two numbers that are the same but for their rounding, as in the times of a series.
 const ROUNDING: f64 = 1e-9;
 
@@ -32,21 +36,14 @@ pub(super) struct SeriesArguments {
         allow_negative_numbers = true
     )]
     speeds: Vec<f64>,
-    /// Floor friction; a number or the word `critical`
-    #[arg(long, value_parser = friction, requires = "series", allow_negative_numbers = true)]
-    mu: Option<f64>,
-    /// Stiffness k_n r/(m g)
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "series",
-        allow_negative_numbers = true
-    )]
-    stiffness: Option<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: OneStackOptions,
     #[command(flatten)]
     convention: ConventionOptions,
+    /// Passport of the code, CODE.json of tristack probe --out: its measured arms take the place of --pair-arm and the rest,
+    /// and their uncertainties are part of the budget
+    #[arg(long, value_name = "FILE", requires = "series", conflicts_with_all = options_of::<ConventionOptions>())]
+    passport: Option<PathBuf>,
     /// Time step in sqrt(m/k_n), which the times of the series must show
     #[arg(
         long,
@@ -63,15 +60,25 @@ pub(super) struct SeriesArguments {
     short_ramp: Option<PathBuf>,
 }
 
-/// Judges the series and prints what was found.
+/// The files with the three tables, and the one with all of them.
+const TABLES: [&str; 3] = ["judged_series.csv", "series_runs.csv", "series_budget.csv"];
+const JSON: &str = "judged_series.json";
+
+/// Judges the series, prints and writes what was found.
 pub(super) fn run(
     arguments: &SeriesArguments,
+    out: Option<&Path>,
     format: Format,
     command: &str,
 ) -> Result<ExitStatus, CliError> {
+    let out = Out::claim(out, &Layout::tables(JSON, &TABLES))?;
     let judged = judge(arguments)?;
     let tables = judged_series(Some(&judged));
     let printed = format.print(&tables, command, || judged_series_text(&judged));
+    let written = out.write(|| {
+        let files = TABLES.into_iter().zip(tables.iter().map(DataTable::csv));
+        files.chain([(JSON, json(&tables, command))]).collect()
+    });
     let verdict = judged.grounds.verdict();
     for note in judged.grounds.notes() {
         tell!("{verdict}: {note}");
@@ -84,20 +91,26 @@ pub(super) fn run(
         );
     }
     let arms = judged.measurement.convention.arms;
+    let measured = match arguments.passport {
+        Some(_) => "measured ",
+        None => "",
+    };
     tell!(
-        "assumed: the stack was prepared by a gravity ramp, and its contacts have the arms {}, {}; others move the \
+        "assumed: the stack was prepared by a gravity ramp, and its contacts have the {measured}arms {}, {}; others move the \
          limit (docs/theory.md, 2.3 and 8.4), and other arms the balance of forces as well",
         arms.pair,
         arms.floor
     );
-    Ok(ExitStatus::of_verdict(verdict).max(printed))
+    Ok(ExitStatus::of_verdict(verdict).max(printed).max(written))
 }
 
 fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
-    let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
-    let stack = arguments.stack.stack(mu, stiffness)?;
-    let convention = arguments.convention.of(Code::NATIVE)?;
+    let stack = arguments.stack.stack()?;
+    let measured = arguments.passport.as_deref().map(passport).transpose()?;
+    let convention = match measured {
+        Some(measured) => ContactConvention::with_arms(measured.arms),
+        None => arguments.convention.of(Code::NATIVE)?,
+    };
     let limit = quasistatic_limit(&stack, &convention);
     if limit.yield_force.is_none() {
         return Err(Box::new(no_yield(&stack, &convention, &limit)).into());
@@ -122,8 +135,22 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         .transpose()
     });
     let (coarse, hastened) = (coarse?, hastened?);
-    let judged = judge_series(&stack, convention, series, coarse, hastened);
+    let judged = judge_series(
+        &stack,
+        convention,
+        measured.map(|measured| measured.uncertainty),
+        series,
+        coarse,
+        hastened,
+    );
     judged.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)).into())
+}
+
+/// The arms in the passport at `path`.
+fn passport(path: &Path) -> Result<MeasuredArms, FileError> {
+    let text = read_bounded(path, LARGEST_PASSPORT, Links::Followed);
+    let text = text.map_err(FileError::reading(path))?;
+    MeasuredArms::of_passport(&text).map_err(|error| FileError::content(path, error))
 }
 
 /// The series at their speeds, which differ, and with one time step.

@@ -82,6 +82,27 @@ impl StackOptions {
     }
 }
 
+/// The parameters of one stack.
+#[derive(Debug, Clone, Args)]
+pub(super) struct OneStackOptions {
+    /// Floor friction; a number or the word `critical`
+    #[arg(long, value_parser = friction, requires = "stiffness", allow_negative_numbers = true)]
+    mu: Option<f64>,
+    /// Stiffness k_n r/(m g)
+    #[arg(long, value_name = "S", requires = "mu", allow_negative_numbers = true)]
+    stiffness: Option<f64>,
+    #[command(flatten)]
+    others: StackOptions,
+}
+
+impl OneStackOptions {
+    /// The checked stack.
+    pub fn stack(&self) -> Result<Stack, InvalidValue> {
+        let [mu, stiffness] = [self.mu, self.stiffness].map(|value| value.unwrap_or(f64::NAN));
+        self.others.stack(mu, stiffness)
+    }
+}
+
 /// The parameters of several stacks other than floor friction.
 #[derive(Debug, Clone, Args)]
 pub(super) struct StackListOptions {

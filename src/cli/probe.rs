@@ -96,8 +96,12 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         }
     }
     for finding in findings {
-        if let Some(growth) = finding.growth() {
-            tell!("{}: {growth}", finding.code);
+        for remark in finding
+            .growth()
+            .into_iter()
+            .chain(finding.time_step_effect())
+        {
+            tell!("{}: {remark}", finding.code);
         }
     }
     let count = |verdict| findings.iter().filter(|own| own.verdict == verdict).count();

@@ -2,7 +2,7 @@
 
 use super::convention::settle_one;
 use super::options::{
-    CodeParser, ConventionOptions, Format, RunOptions, StackOptions, as_flag, friction, options_of,
+    CodeParser, ConventionOptions, Format, OneStackOptions, RunOptions, as_flag, options_of,
     time_limit,
 };
 use super::out::{Out, write};
@@ -26,7 +26,7 @@ use crate::study::yield_force::{
     NoYield, max_touch_speed, no_yield, planned_protocol, protocol_at_speed,
 };
 use crate::theory::{Limit, quasistatic_limit};
-use clap::{Args, Id, ValueEnum};
+use clap::{ArgGroup, Args, Id, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -52,6 +52,7 @@ enum PreparationKind {
     after_help = "Examples: tristack simulate --code native --mu 0.3 --stiffness 1e3 --out run\n          \
     tristack simulate --code native --mu 0.2 --stiffness 1e2 --preparation side-walls --push 0.005"
 )]
+#[command(group(ArgGroup::new("input").required(true).args(["case", "mu", "example"])))]
 pub(super) struct Arguments {
     /// Code that runs the case
     #[arg(long, required_unless_present = "example", value_parser = CodeParser, value_name = "CODE")]
@@ -62,19 +63,8 @@ pub(super) struct Arguments {
     /// A case file, .toml or .json, instead of --mu, --stiffness and the rest; needs only what differs from the defaults
     #[arg(long, value_name = "FILE", conflicts_with_all = replaced_by_case())]
     case: Option<PathBuf>,
-    /// Floor friction; a number or the word `critical`
-    #[arg(long, required_unless_present_any = ["case", "example"], value_parser = friction, allow_negative_numbers = true)]
-    mu: Option<f64>,
-    /// Stiffness k_n r/(m g)
-    #[arg(
-        long,
-        required_unless_present_any = ["case", "example"],
-        value_name = "S",
-        allow_negative_numbers = true
-    )]
-    stiffness: Option<f64>,
     #[command(flatten)]
-    stack: StackOptions,
+    stack: OneStackOptions,
     #[command(flatten)]
     convention: ConventionOptions,
     /// Preparation of the stack; a code without a deck for side walls refuses them
@@ -113,8 +103,7 @@ pub(super) struct Arguments {
 fn replaced_by_case() -> Vec<Id> {
     let run = ["preparation", "push", "speed", "dt", "shortcuts"];
     let mut options: Vec<Id> = run.map(Id::from).into();
-    options.extend(["mu", "stiffness"].map(Id::from));
-    options.extend(options_of::<StackOptions>());
+    options.extend(options_of::<OneStackOptions>());
     options.extend(options_of::<ConventionOptions>());
     options
 }
@@ -264,9 +253,7 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
-    let required = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (mu, stiffness) = (required(arguments.mu), required(arguments.stiffness));
-    let stack = arguments.stack.stack(mu, stiffness)?;
+    let stack = arguments.stack.stack()?;
     let convention = arguments.convention.of(arguments.code())?;
     let limit = quasistatic_limit(&stack, &convention);
     let mut protocol = planned(&limit, &stack, &convention, arguments.speed, arguments.dt)?;

@@ -72,6 +72,14 @@ impl ConventionKey {
         Self::ARMS.contains(&self)
     }
 
+    /// The same in words.
+    pub fn matters(self) -> &'static str {
+        match self.moves_limit() {
+            true => "the yield force depends on it",
+            false => "the yield force does not depend on it",
+        }
+    }
+
     /// Puts `value` into the coefficient of `arms` that it names, if it names one.
     pub fn set_arm(self, arms: &mut Arms, value: f64) {
         match self {

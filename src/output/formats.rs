@@ -141,9 +141,14 @@ fn file<R: 'static>(
 ) -> DataTable<'static> {
     let mut columns = Columns::<R>::new(name, row, written_by);
     for column in declared {
+        let meaning = match column.is_optional {
+            // A page is made once.
+            true => format!("{}; a code may leave it out", column.meaning).leak(),
+            false => column.meaning,
+        };
         columns = columns
             .number(column.name, column.unit, column.value)
-            .means(column.meaning)
+            .means(meaning)
             .missing_where(column.is_optional);
     }
     columns.rows([])

@@ -5,14 +5,12 @@ use super::probe::probe;
 use super::table::{Columns, DataTable, markdown_code, markdown_text};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
-use crate::study::convention::{ArmEffects, MeasuredKey, Passport, TOLERANCE, reservations};
+use crate::study::convention::reservations;
+use crate::study::convention::{ArmEffects, MeasuredKey, PASSPORT, Passport, TOLERANCE};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde_json::Value;
-
-/// Name and version of the format.
-pub(crate) const PASSPORT: &str = "tristack/passport/1";
 
 /// The keys of a convention, as measured.
 pub(crate) fn measured_convention(keys: &[MeasuredKey]) -> DataTable<'_> {
@@ -93,6 +91,7 @@ pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
         date: &provenance.date,
         machine: &provenance.machine,
         reservations: reservations(passport.findings),
+        time_step_effects: passport.time_step_effects(),
         convention: convention.part(),
         arm_effects: effects.part(),
         properties: properties.part(),
@@ -147,6 +146,8 @@ struct Document<'a, T> {
     machine: &'a str,
     /// What it leaves open.
     reservations: Vec<String>,
+    /// What its contacts do otherwise in long steps than in short ones; arms are those of short steps.
+    time_step_effects: Vec<String>,
     convention: T,
     arm_effects: T,
     properties: T,
@@ -176,6 +177,12 @@ pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
         twins(passport),
         measured_convention(&passport.convention).shown().markdown()
     );
+    for effect in passport.time_step_effects() {
+        page += &format!(
+            "\nIts steps: {}. Arms are those of short steps.\n",
+            markdown_text(&effect)
+        );
+    }
     page += &format!(
         "\n## What its arms change\n\nThe exact yield force F = f/(m g) with the paper's arms, its change by each arm of the code alone, and F with \
          all of them.\n\n{}",
@@ -204,14 +211,18 @@ fn program(identity: &Identity) -> String {
 /// The verdict in words.
 fn sentence(passport: &Passport) -> String {
     let keys = passport.convention.iter();
-    let open = keys.filter(|own| own.measured.is_none() && own.key.moves_limit());
+    let unknown: Vec<_> = keys.filter(|own| own.measured.is_none()).collect();
     match passport.verdict() {
         Verdict::Agrees => "Every property is as declared, or measured where nothing is declared.",
         Verdict::Differs => {
             "It is not the code that its manifest declares: no yield force is judged."
         }
-        _ if open.count() > 0 => {
+        _ if unknown.iter().any(|own| own.key.moves_limit()) => {
             "An arm is not known, on which the yield force depends: no yield force is judged."
+        }
+        _ if !unknown.is_empty() => {
+            "Nothing contradicts its manifest. It has a rule that is none of those that tristack knows, or that its motions do \
+             not show; the yield force does not depend on it."
         }
         _ => "Nothing contradicts its manifest, but not everything could be measured well enough.",
     }

@@ -14,7 +14,7 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
         "judged_series",
         "A row is the yield force of one stack at vanishing wall speed, from the series of a few runs, and the verdict \
          on it.",
-        "`tristack judge --series`",
+        "`tristack judge --series` (judged_series.csv)",
     )
     .stack(|row| row.measurement.stack)
     .convention(|row| row.measurement.convention)
@@ -33,7 +33,7 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .number("reference_onset", "m g", |row| {
         row.measurement.limit.slip_onset
     })
-    .means("the exact limit of the slip onset under the given arms")
+    .means("the exact limit of the slip onset under these arms")
     .number("reference_force", "m g", |row| {
         row.measurement.limit.yield_force
     })
@@ -61,7 +61,7 @@ fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     Columns::<&FoundSeries>::new(
         "series_runs",
         "A row is one of the series behind a row of `judged_series`.",
-        "`tristack judge --series`",
+        "`tristack judge --series` (series_runs.csv)",
     )
     .text("file", |run| run.name.as_str())
     .means("its file")
@@ -95,7 +95,7 @@ fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
 fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     let parts = judged.and_then(JudgedSeries::budget).into_iter();
     let parts = parts.flat_map(|budget| Budget::PARTS.map(|part| (part, (part.value)(budget))));
-    // Nobody's series take shortcuts, and arms that are given are not measured.
+    // Nobody's series take shortcuts, and arms of the command line are not measured.
     let concerns = |(part, value): &(BudgetPart, Option<f64>)| {
         part.name != "shortcuts" && (value.is_some() || !part.known_by.is_empty())
     };
@@ -112,7 +112,7 @@ fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     Columns::<(BudgetPart, Option<f64>)>::new(
         "series_budget",
         "A row is one part of the uncertainty (ASME V&V 20) of a row of `judged_series`.",
-        "`tristack judge --series`",
+        "`tristack judge --series` (series_budget.csv)",
     )
     .text("part", |(part, _)| part.name)
     .means("its name, as in `budget`")

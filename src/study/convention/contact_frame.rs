@@ -15,8 +15,8 @@ pub struct ContactRow {
     pub separation_speed: f64,
     /// Tangential velocity of the centres.
     pub tangential_speed: f64,
-    /// Sum of the angular velocities.
-    pub spin: f64,
+    /// Angular velocities of both sides; 0 for the floor and the wall.
+    pub spins: [f64; 2],
     pub normal_force: f64,
     /// Tangential force on cylinder 1.
     pub tangential_force: f64,
@@ -28,6 +28,18 @@ pub struct ContactRow {
     pub wall_force: f64,
     pub time_step: f64,
     pub friction: f64,
+}
+
+impl ContactRow {
+    /// Sum of the angular velocities.
+    pub fn spin(&self) -> f64 {
+        self.spins[0] + self.spins[1]
+    }
+
+    /// The larger of the angles by which the two sides turn in a step.
+    pub fn turn(&self) -> f64 {
+        self.spins[0].abs().max(self.spins[1].abs()) * self.time_step
+    }
 }
 
 /// The rows of `motion` from step 1 on, as long as the contact is closed.
@@ -53,20 +65,20 @@ fn contact_row(
     let [one, two] = row.bodies();
     let [(velocity, spin), (other_velocity, other_spin)] =
         [&one, &two].map(|body| clock.half_step_earlier(body, dt));
-    let (normal, overlap, relative, spin) = match kind {
-        ContactKind::Floor => ([0.0, 1.0], 1.0 - one.position[1], velocity, spin),
+    let (normal, overlap, relative, spins) = match kind {
+        ContactKind::Floor => ([0.0, 1.0], 1.0 - one.position[1], velocity, [spin, 0.0]),
         ContactKind::Wall => {
             let height = test.wall_height_at(row.step);
             let relative = [velocity[0], velocity[1] + test.wall_speed];
             let overlap = 1.0 - (height - one.position[1]);
-            ([0.0, -1.0], overlap, relative, spin)
+            ([0.0, -1.0], overlap, relative, [spin, 0.0])
         }
         ContactKind::Pair => {
             let apart = [0, 1].map(|axis| one.position[axis] - two.position[axis]);
             let distance = apart[0].hypot(apart[1]);
             let relative = [0, 1].map(|axis| velocity[axis] - other_velocity[axis]);
             let normal = apart.map(|component| component / distance);
-            (normal, 2.0 - distance, relative, spin + other_spin)
+            (normal, 2.0 - distance, relative, [spin, other_spin])
         }
     };
     let along = |vector: [f64; 2]| normal[0] * vector[0] + normal[1] * vector[1];
@@ -76,7 +88,7 @@ fn contact_row(
         overlap,
         separation_speed: along(relative),
         tangential_speed: across(relative),
-        spin,
+        spins,
         normal_force: along(one.force),
         tangential_force: across(one.force),
         torque: one.torque,

@@ -7,8 +7,8 @@ const RANGE: (f64, f64) = (-1.5, 2.0);
 const GRID: usize = 14;
 /// Smallest exponent that is named: a stiffness that changes by a fortieth over the overlaps of the micro-tests.
 const SMALLEST: f64 = 0.01;
-/// Part of the squared deviations that the exponent must leave at most.
-const EXPLAINED: f64 = 1e-2;
+/// Part of the squared deviations that a further term of a law must leave at most.
+pub const EXPLAINED: f64 = 1e-2;
 /// Width of the interval to which the search narrows the exponent.
 const RESOLUTION: f64 = 1e-6;
 /// Step for the curvature of the squared deviations.

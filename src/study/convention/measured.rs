@@ -234,7 +234,9 @@ fn contradiction(finding: &Finding) -> String {
     let measured = measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
     let declared = finding.declared.unwrap_or(f64::NAN);
     let property = &finding.property;
-    format!("its probe {says}: {property} is {measured}, declared {declared}")
+    let because = finding.unknown_because();
+    let because = because.map_or_else(String::new, |because| format!(" ({because})"));
+    format!("its probe {says}: {property} is {measured}, declared {declared}{because}")
 }
 
 #[cfg(test)]

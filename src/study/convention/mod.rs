@@ -9,7 +9,9 @@ mod contact_frame;
 mod experiments;
 mod finding;
 mod growth;
+mod linear_form;
 mod measured;
+mod measured_arms;
 mod micro_tests;
 mod normal;
 mod passport;
@@ -28,7 +30,9 @@ pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};
 pub(crate) use measured::{
     arms_are_measured, contradictions, is_contradicted, other_program, probe_records,
 };
+pub use measured_arms::{MeasuredArms, UnusablePassport};
 pub(crate) use micro_tests::ask;
+pub(crate) use passport::PASSPORT;
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;

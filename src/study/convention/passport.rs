@@ -1,11 +1,14 @@
 //! The passport of a code: its convention as measured, what that changes in the yield force, and who shares it.
 
-use super::finding::TOLERANCE;
+use super::finding::{Finding, TOLERANCE};
 use super::measured::{Findings, contradicting};
 use crate::code::{Code, ConventionKey, Settled};
 use crate::model::{Arms, ContactConvention, Stack};
 use crate::study::Verdict;
 use crate::theory::{limit_uncertainty, quasistatic_limit};
+
+/// Name and version of the format.
+pub const PASSPORT: &str = "tristack/passport/1";
 
 /// Frictions and stiffnesses of the stacks of a passport: below and above the critical friction, and stiff.
 const STACKS: [(f64, f64); 3] = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e4)];
@@ -58,6 +61,12 @@ pub struct ArmEffects {
 }
 
 impl Passport<'_> {
+    /// What its contacts do otherwise in long steps than in short ones.
+    pub fn time_step_effects(&self) -> Vec<String> {
+        let findings = self.findings.findings.iter();
+        findings.filter_map(Finding::time_step_effect).collect()
+    }
+
     /// The worst verdict on what was measured.
     pub fn verdict(&self) -> Verdict {
         let properties = self.findings.findings.iter().map(|own| own.verdict);
@@ -72,9 +81,16 @@ impl Passport<'_> {
 /// What of `findings` is no agreement: properties that are not as declared, and keys that are left out and not known.
 pub fn reservations(findings: &Findings) -> Vec<String> {
     let unknown = findings.settled.unknown.iter();
-    let unknown =
-        unknown.map(|(key, because)| format!("{key} is left out and not known: {because}"));
-    contradicting(findings).into_iter().chain(unknown).collect()
+    let unknown = unknown.map(|(key, because)| {
+        let matters = key.matters();
+        format!("{key} is left out and not known: {because}; {matters}")
+    });
+    let unseen = findings.findings.iter().filter_map(|own| {
+        let because = own.unknown_because().filter(|_| own.declared.is_none())?;
+        Some(format!("{} is unknown: {because}", own.property))
+    });
+    let contradicting = contradicting(findings).into_iter();
+    contradicting.chain(unknown).chain(unseen).collect()
 }
 
 /// The passport of `code`, of which the probe has shown `findings`.

@@ -8,7 +8,7 @@ use super::normal::{self, NormalLaw, pull};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
 use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
-use super::tangential::{self, TangentialLaw};
+use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 
@@ -63,9 +63,12 @@ impl Plan {
         let (coarse, fine) = (rows[STICKING].concat(), rows[REFINED].concat());
         let normal = NormalLaw::read(&coarse, &fine, clock.mass.value);
         let turning = (self.kind == ContactKind::Pair).then_some(turning);
+        let test = &self.tests[0];
+        let declared = test.convention.law(test.stiffness_ratio);
+        let stiffness = declared.tangential_stiffness;
         Laws {
             pull: pull(&rows[SEPARATING], &normal),
-            tangential: TangentialLaw::read(&rows[STICKING], turning),
+            tangential: TangentialLaw::read(&rows[STICKING], &rows[REFINED], turning, stiffness),
             normal,
             rows,
             plan: self,
@@ -146,10 +149,7 @@ impl Laws {
         }
         let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
-        let tangential = tangential_properties(kind, &self.tangential, test);
-        let growing = || tangential::growth(&self.rows[STICKING], &self.tangential);
-        properties.extend(growth(&tangential[0], growing));
-        properties.extend(tangential);
+        properties.extend(tangential_properties(kind, &self.tangential, test));
         let test = &self.plan.tests[SLIDING];
         properties.extend(sliding_properties(kind, &sliding, share, test));
         properties

@@ -1,7 +1,7 @@
 //! Every measured property beside the declared one.
 
 use super::experiments::ContactKind;
-use super::finding::{EXPONENT, Property, TOLERANCE};
+use super::finding::{CUBED_TURN, EXPONENT, Property, TANGENTIAL_EXPONENT, TOLERANCE};
 use super::normal::NormalLaw;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
@@ -100,7 +100,13 @@ pub fn tangential_properties(
         ("kinematic_arm", law.kinematic_arm, arms.kinematic),
         ("damping_arm", law.damping_arm, arms.kinematic),
     ];
-    at(kind, rows.into_iter().chain(turns))
+    let power = law.exponent.map(|power| (TANGENTIAL_EXPONENT, power, 0.0));
+    let rows = power.into_iter().chain(rows).chain(turns);
+    let third_order = law.third_order.map(|own| Property {
+        declared: None,
+        ..Property::at(kind, CUBED_TURN, own, 0.0)
+    });
+    at(kind, rows).into_iter().chain(third_order).collect()
 }
 
 /// Properties of a sliding contact at `kind`; `operand_damping` is the share of the damping in the Coulomb operand.

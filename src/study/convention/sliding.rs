@@ -1,13 +1,17 @@
 //! The contact at Coulomb's limit: friction, operand, damping, and the length of the spring.
 
 use super::contact_frame::ContactRow;
+use super::linear_form::carried;
 use super::regression::{Measured, fit};
-use super::tangential::{TangentialLaw, carried};
+use super::tangential::TangentialLaw;
 
 /// Largest relative difference between |f_t|/f_n of rows that slide: rounding, and the contribution of a linearised
 /// history update to the normal force (3e-8). Where the contact sticks, the ratio changes a thousand times as much from
 /// row to row.
 const SAME_RATIO: f64 = 1e-7;
+
+/// Fewest rows with the same ratio that show a contact which slides: friction and damping follow from them.
+const FEWEST: usize = 3;
 
 /// Relative distance below and above the limit at which the contact is observed to stick or slide.
 pub const MARGIN: f64 = 1e-10;
@@ -51,7 +55,11 @@ fn slides(rows: &[ContactRow]) -> Vec<bool> {
     let ratios: Vec<f64> = ratios.collect();
     let same = |left: f64, right: f64| (left - right).abs() < SAME_RATIO * right;
     let like = |ratio: f64| ratios.iter().filter(|&&other| same(other, ratio)).count();
-    let most = ratios.iter().copied().max_by_key(|&ratio| like(ratio));
+    let often = ratios
+        .iter()
+        .copied()
+        .filter(|&ratio| like(ratio) >= FEWEST);
+    let most = often.max_by_key(|&ratio| like(ratio));
     let slides = |&ratio: &f64| most.is_some_and(|most| same(ratio, most));
     ratios.iter().map(slides).collect()
 }
@@ -80,17 +88,19 @@ fn memory(
 }
 
 /// Length of the spring at the end of a stretch of sliding between two rows that stick: as measured, as it would be if
-/// it followed the limit, and as it was before.
+/// it followed the limit, and as it was before, carried on as the contact turned.
 fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> [f64; 3] {
-    let stiffness = law.stiffness.value;
     let [before, last, next] = [0, stretch.len() - 2, stretch.len() - 1].map(|at| &stretch[at]);
-    let growth = law.surface_speed(next) * next.time_step;
     let factor = carried(last, next, law.transport.value);
+    let sliding = stretch[..=stretch.len() - 2].windows(2);
+    let turned: f64 = sliding
+        .map(|two| carried(&two[0], &two[1], law.transport.value))
+        .product();
     let counted = operand_damping * law.damping.value * law.surface_speed(last);
     [
-        (-law.spring_force(next) / stiffness - growth) / factor,
-        -(last.tangential_force + counted) / stiffness,
-        -law.spring_force(before) / stiffness,
+        (-law.spring_force(next) / law.stiffness_at(next) - law.spring_growth(next)) / factor,
+        -(last.tangential_force + counted) / law.stiffness_at(last),
+        -law.spring_force(before) / law.stiffness_at(before) * turned,
     ]
 }
 

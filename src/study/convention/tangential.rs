@@ -1,75 +1,118 @@
 //! The tangential law of a contact that sticks: stiffness, damping, arms, history update.
 
 use super::contact_frame::ContactRow;
-use super::growth::exponent;
-use super::regression::{Measured, deviations, fit, fit_rows};
+use super::finding::TOLERANCE;
+use super::growth::{EXPLAINED, exponent};
+use super::linear_form::{DAMPING, DAMPING_SPIN_OVERLAP, Form, SPRING, SPRING_SPIN};
+use super::linear_form::{SPRING_SPIN_CUBED, SPRING_SPIN_OVERLAP};
+use super::linear_form::{as_long_as, carried, cubed_turns, sticking, versine};
+use super::regression::{Measured, fit};
 
-/// Fraction of Coulomb's limit up to which rows count as sticking.
-const CERTAINLY_STICKING: f64 = 0.5;
 /// Rounds in which the transport and the other coefficients are fitted in turn; each gains some two digits.
 const ROUNDS: usize = 8;
 
 /// f_t = −k_t u − η_t w, where the spring u grows by w dt a step and w = v_t − R ω, R = r + r₁ δ.
+///
+/// Codes differ from it in two ways that are looked for: k_t may grow with a power of the overlap, and a surface that
+/// turns by d in a step may move by R (d + c d³).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialLaw {
-    /// k_t.
+    /// k_t; if it grows, at an overlap of 1.
     pub stiffness: Measured,
+    /// The power of the overlap with which k_t grows, if it does.
+    pub exponent: Option<Measured>,
     /// η_t.
     pub damping: Measured,
     /// R at vanishing overlap, from the torque.
     pub radius: Measured,
     /// r₁ from the torque.
     pub torque_arm: Measured,
-    /// r₁ from the growth of the spring.
+    /// r₁ from the growth of the spring, in the limit of small steps.
     pub kinematic_arm: Measured,
+    /// c, if it is not 0.
+    pub third_order: Option<Measured>,
     /// r₁ from the damping.
     pub damping_arm: Measured,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: Measured,
 }
 
-/// Coefficients of the linear form in which the law is fitted.
-const SPRING: usize = 0;
-const SPRING_SPIN: usize = 1;
-const SPRING_SPIN_OVERLAP: usize = 2;
-const DAMPING: usize = 3;
-const DAMPING_SPIN_OVERLAP: usize = 4;
-const COEFFICIENTS: usize = 5;
-
 impl TangentialLaw {
-    /// Fits several gentle motions and, for a pair, one in which the contact turns.
-    pub fn read(gentle: &[Vec<ContactRow>], turning: Option<&[ContactRow]>) -> Self {
-        let gentle: Vec<&[ContactRow]> = gentle.iter().map(|rows| sticking(rows)).collect();
-        let (radius, torque_arm) = arms_of_torque(&gentle);
-        let mut law = Self::fitted(&gentle, 0.0, radius, torque_arm);
-        if let Some(turning) = turning {
-            for _ in 0..ROUNDS {
-                let transport = law.fit_transport(sticking(turning));
-                law = Self {
-                    transport,
-                    ..Self::fitted(&gentle, transport.value, radius, torque_arm)
-                };
-            }
+    /// Fits several gentle motions and, for a pair, one in which the contact `turns`. In the `refined` ones the time step
+    /// is half as long; k_t is meant to be `stiffness`.
+    pub fn read(
+        gentle: &[Vec<ContactRow>],
+        refined: &[Vec<ContactRow>],
+        turning: Option<&[ContactRow]>,
+        stiffness: f64,
+    ) -> Self {
+        let [gentle, refined] = [gentle, refined].map(sticking_rows);
+        let arms = arms_of_torque(&gentle);
+        let small = small_turns(&gentle, &refined);
+        let third_order = has_third_order(&small, arms.0.value);
+        let motions = if third_order { small } else { gentle };
+        let form = Form {
+            third_order,
+            ..Form::PLAIN
+        };
+        let mut law = Self::fitted(&motions, form, None, arms);
+        if let Some(power) = law.growth(&motions, form, stiffness) {
+            law = Self::fitted(&motions, form, Some(power), arms);
+        }
+        let Some(turning) = turning else {
+            return law;
+        };
+        if third_order {
+            // Where a contact turns far in a step, another term of third order may hold.
+            let transport = form.fit_transport(&motions, arms.0.value);
+            return law.with_transport(transport, &motions, form, arms);
+        }
+        for _ in 0..ROUNDS {
+            let transport = law.fit_transport(sticking(turning));
+            law = law.with_transport(transport, &motions, form, arms);
         }
         law
     }
 
-    fn fitted(
-        gentle: &[&[ContactRow]],
-        transport: f64,
-        radius: Measured,
-        torque_arm: Measured,
+    /// The law of the same form that fits with `transport`.
+    fn with_transport(
+        &self,
+        transport: Measured,
+        motions: &[&[ContactRow]],
+        form: Form,
+        arms: (Measured, Measured),
     ) -> Self {
-        let found = fit_rows(
-            &terms(gentle, transport, radius.value, 0.0),
-            COEFFICIENTS + gentle.len(),
-        );
+        let form = Form {
+            transport: transport.value,
+            ..form
+        };
+        Self {
+            transport,
+            ..Self::fitted(motions, form, self.exponent, arms)
+        }
+    }
+
+    /// Fits a law of the given form to `motions`; `exponent` takes the place of that in the form.
+    fn fitted(
+        motions: &[&[ContactRow]],
+        form: Form,
+        exponent: Option<Measured>,
+        (radius, torque_arm): (Measured, Measured),
+    ) -> Self {
+        let form = Form {
+            exponent: exponent.map_or(0.0, |power| power.value),
+            ..form
+        };
+        let found = form.fit(motions, radius.value);
+        let third_order = || found[SPRING_SPIN_CUBED].over(found[SPRING_SPIN]);
         Self {
             stiffness: found[SPRING],
+            exponent,
             damping: found[DAMPING],
             radius,
             torque_arm,
             kinematic_arm: found[SPRING_SPIN_OVERLAP].over(found[SPRING]),
+            third_order: form.third_order.then(third_order),
             damping_arm: found[DAMPING_SPIN_OVERLAP].over(found[DAMPING]),
             transport: Measured::new(0.0, 0.0),
         }
@@ -84,10 +127,41 @@ impl TangentialLaw {
         self
     }
 
+    /// The exponent with which k_t grows with the overlap, if it does and is not as it is meant.
+    fn growth(&self, motions: &[&[ContactRow]], form: Form, stiffness: f64) -> Option<Measured> {
+        let Measured { value, uncertainty } = self.stiffness;
+        if (value - stiffness).abs().max(uncertainty) <= TOLERANCE * stiffness {
+            return None;
+        }
+        let radius = self.radius.value;
+        let with = |exponent| Form { exponent, ..form };
+        let found = exponent(|exponent| with(exponent).deviations(motions, radius))?;
+        Some(with(found.value).fit_exponent(motions, radius))
+    }
+
+    fn radius_at(&self, row: &ContactRow) -> f64 {
+        self.radius.value + self.kinematic_arm.value * row.overlap
+    }
+
     /// w of a row.
     pub fn surface_speed(&self, row: &ContactRow) -> f64 {
-        let radius = self.radius.value + self.kinematic_arm.value * row.overlap;
-        row.tangential_speed - radius * row.spin
+        row.tangential_speed - self.radius_at(row) * row.spin()
+    }
+
+    /// The growth of the spring in the step that leads to a row.
+    pub fn spring_growth(&self, row: &ContactRow) -> f64 {
+        let third_order = self.third_order.map_or(0.0, |own| own.value);
+        let further = third_order * self.radius_at(row) * cubed_turns(row);
+        self.surface_speed(row) * row.time_step - further
+    }
+
+    /// k_t at the overlap of a row.
+    pub fn stiffness_at(&self, row: &ContactRow) -> f64 {
+        self.stiffness.value * self.stiffer(row)
+    }
+
+    fn stiffer(&self, row: &ContactRow) -> f64 {
+        libm::pow(row.overlap, self.exponent.map_or(0.0, |power| power.value))
     }
 
     /// Force of the spring, −k_t u, in a row that sticks.
@@ -101,7 +175,10 @@ impl TangentialLaw {
         let Some(first) = rows.first() else {
             return Measured::UNKNOWN;
         };
-        let (mut initial, mut transport) = (self.spring_force(first), self.transport.value);
+        let (mut initial, mut transport) = (
+            self.spring_force(first) / self.stiffer(first),
+            self.transport.value,
+        );
         let mut found = Measured::UNKNOWN;
         for _ in 0..ROUNDS {
             let (mut spring, mut by_initial, mut by_transport) = (initial, 1.0, 0.0);
@@ -111,9 +188,10 @@ impl TangentialLaw {
                 let factor = carried(before, row, transport);
                 by_transport = by_transport * factor + versine(before, row) * spring;
                 by_initial *= factor;
-                let growth = self.surface_speed(row) * row.time_step;
-                spring = spring * factor - self.stiffness.value * growth;
-                terms.push(([by_initial, by_transport], self.spring_force(row) - spring));
+                spring = spring * factor - self.stiffness.value * self.spring_growth(row);
+                let stiffer = self.stiffer(row);
+                let by = [by_initial, by_transport].map(|by| by * stiffer);
+                terms.push((by, self.spring_force(row) - spring * stiffer));
             }
             let [start, change] = fit(&terms);
             initial += start.value;
@@ -124,76 +202,38 @@ impl TangentialLaw {
     }
 }
 
-/// The exponent with which the stiffness grows with the overlap, if it does.
-pub fn growth(gentle: &[Vec<ContactRow>], law: &TangentialLaw) -> Option<Measured> {
-    let gentle: Vec<&[ContactRow]> = gentle.iter().map(|rows| sticking(rows)).collect();
-    exponent(|p| {
-        let rows = terms(&gentle, 0.0, law.radius.value, p);
-        deviations(&rows, COEFFICIENTS + gentle.len())
-    })
+fn sticking_rows(motions: &[Vec<ContactRow>]) -> Vec<&[ContactRow]> {
+    motions.iter().map(|rows| sticking(rows)).collect()
 }
 
-/// The linear form of the law: terms and force of every row, the spring of a row being stiffer by the power `exponent` of
-/// its overlap.
-fn terms(
-    gentle: &[&[ContactRow]],
-    transport: f64,
-    radius: f64,
-    exponent: f64,
-) -> Vec<(Vec<f64>, f64)> {
-    let columns = COEFFICIENTS + gentle.len();
-    let mut rows = Vec::new();
-    for (index, motion) in gentle.iter().enumerate() {
-        let mut growth = [0.0; 3];
-        let mut initial = 1.0;
-        let mut before: Option<&ContactRow> = None;
-        for row in *motion {
-            let factor = before.map_or(1.0, |before| carried(before, row, transport));
-            let speeds = speeds(row);
-            for (sum, speed) in growth.iter_mut().zip(speeds) {
-                *sum = *sum * factor - speed * row.time_step;
-            }
-            initial *= factor;
-            let stiffer = libm::pow(row.overlap, exponent);
-            let mut terms: Vec<f64> = growth.iter().map(|spring| spring * stiffer).collect();
-            // Translation and spin are coupled by the contact force itself; the damping of each cannot
-            // be told apart, and belongs to the radius of the torque.
-            let [translation, spin, spin_overlap] = speeds;
-            terms.push(-(translation + radius * spin));
-            terms.push(-spin_overlap);
-            terms.resize(columns, 0.0);
-            terms[COEFFICIENTS + index] = initial * stiffer;
-            rows.push((terms, row.tangential_force));
-            before = Some(row);
-        }
-    }
-    rows
+/// The `refined` motions, and the `gentle` ones as long as nothing turns by more in a step than in those: codes may
+/// compute large turns otherwise than small ones, and the arm is that of small ones.
+fn small_turns<'a>(
+    gentle: &[&'a [ContactRow]],
+    refined: &[&'a [ContactRow]],
+) -> Vec<&'a [ContactRow]> {
+    let turns = refined.iter().copied().flatten().map(ContactRow::turn);
+    let largest = turns.fold(0.0, f64::max);
+    let small = gentle
+        .iter()
+        .map(|rows| as_long_as(rows, |row| row.turn() <= largest));
+    let small = small.filter(|rows| !rows.is_empty());
+    small.chain(refined.iter().copied()).collect()
 }
 
-/// The first rows, as long as the contact certainly sticks.
-fn sticking(rows: &[ContactRow]) -> &[ContactRow] {
-    let sticks = |row: &ContactRow| {
-        let limit = row.friction * row.normal_force;
-        row.tangential_force.abs() < CERTAINLY_STICKING * limit
+/// Whether a term of third order in the turn of a step explains what a law without leaves of the forces, in motions with
+/// two time steps: it fades with the square of the step, other than a term of third order in the spin.
+fn has_third_order(motions: &[&[ContactRow]], radius: f64) -> bool {
+    let left = |third_order| {
+        let form = Form {
+            third_order,
+            ..Form::PLAIN
+        };
+        Some(form.deviations(motions, radius)?.0)
     };
-    let end = rows.iter().position(|row| !sticks(row));
-    &rows[..end.unwrap_or(rows.len())]
-}
-
-/// v_t, −ω and −ω δ, whose combination with 1, R(0) and r₁ is w.
-fn speeds(row: &ContactRow) -> [f64; 3] {
-    [row.tangential_speed, -row.spin, -row.spin * row.overlap]
-}
-
-/// 1 − cos dψ between two rows.
-fn versine(before: &ContactRow, row: &ContactRow) -> f64 {
-    let apart = [0, 1].map(|axis| row.normal[axis] - before.normal[axis]);
-    0.5 * (apart[0] * apart[0] + apart[1] * apart[1])
-}
-
-/// The factor by which the spring changes its length between two rows.
-pub fn carried(before: &ContactRow, row: &ContactRow, transport: f64) -> f64 {
-    1.0 + transport * versine(before, row)
+    let (with, without) = (left(true), left(false));
+    with.zip(without)
+        .is_some_and(|(with, without)| with < EXPLAINED * without)
 }
 
 /// R at vanishing overlap and r₁ from −M = (R(0) + r₁ δ) f_t, of both bodies where both feel it.

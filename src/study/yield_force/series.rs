@@ -6,10 +6,11 @@ use super::plan::{Measurement, RAMP_TIME, REST_TIME, plan, speed_scale};
 use super::runs::{RunRoles, SPEEDS};
 use super::touch::is_gentle;
 use crate::code::{Code, Identity, Provenance, Run};
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
+use crate::model::{Arms, Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
 use crate::runs::RunSummary;
 use crate::series::{Law, Sample, Series};
 use crate::study::{Grounds, Study};
+use crate::theory::limit_uncertainty;
 
 /// Time in which the touch of a wall has died away: overshoots come within 20.
 const TOUCH: f64 = 20.0;
@@ -62,11 +63,12 @@ impl JudgedSeries {
 }
 
 /// Judges series of `stack` at three or more wall speeds, fastest first, under `convention`. `coarse` is a run at the middle
-/// one of the three slowest speeds with twice the time step, `hastened` one with half the gravity ramp. `None` where
-/// nothing yields.
+/// one of the three slowest speeds with twice the time step, `hastened` one with half the gravity ramp. Arms that were
+/// measured have an `arm_uncertainty`. `None` where nothing yields.
 pub(crate) fn judge_series(
     stack: &Stack,
     convention: ContactConvention,
+    arm_uncertainty: Option<Arms>,
     series: Vec<SeriesInput>,
     coarse: Option<SeriesInput>,
     hastened: Option<SeriesInput>,
@@ -89,7 +91,9 @@ pub(crate) fn judge_series(
         position
     };
     let positions = [further(coarse_time_step), further(short_ramp)];
-    let measurement = measurement(stack, convention, &used, positions)?;
+    let mut measurement = measurement(stack, convention, &used, positions)?;
+    measurement.convention_uncertainty =
+        arm_uncertainty.and_then(|arms| limit_uncertainty(stack, &convention, &arms));
     let runs = used.iter().map(|found| found.summary.clone()).collect();
     let evaluation = measurement.evaluate(vec![runs]);
     Some(JudgedSeries {

@@ -1,0 +1,180 @@
+//! The linear form in which the law of a sticking contact is fitted to its rows.
+
+use super::contact_frame::ContactRow;
+use super::regression::{Measured, deviations, fit_rows};
+
+/// Fraction of Coulomb's limit up to which rows count as sticking.
+const CERTAINLY_STICKING: f64 = 0.5;
+
+/// Coefficients of the linear form: those of every law, and those of a law with a term of third order.
+pub const SPRING: usize = 0;
+pub const SPRING_SPIN: usize = 1;
+pub const SPRING_SPIN_OVERLAP: usize = 2;
+pub const DAMPING: usize = 3;
+pub const DAMPING_SPIN_OVERLAP: usize = 4;
+const COEFFICIENTS: usize = 5;
+pub const SPRING_SPIN_CUBED: usize = 5;
+const COEFFICIENTS_OF_THIRD_ORDER: usize = 7;
+/// Change of an exponent over which the slope of the forces is taken.
+const EXPONENT_STEP: f64 = 1e-3;
+/// Steps of Gauss–Newton, in models that are almost linear.
+const ROUNDS: usize = 3;
+
+/// What a law has beyond its coefficients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Form {
+    /// The stiffness grows with this power of the overlap.
+    pub exponent: f64,
+    /// Whether the motion of a surface has a term of third order in the angle by which it turns in a step.
+    pub third_order: bool,
+    /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
+    pub transport: f64,
+}
+
+impl Form {
+    /// A constant stiffness, a surface that moves by R ω dt, a spring that keeps its length.
+    pub const PLAIN: Self = Self {
+        exponent: 0.0,
+        third_order: false,
+        transport: 0.0,
+    };
+
+    fn coefficients(self) -> usize {
+        match self.third_order {
+            true => COEFFICIENTS_OF_THIRD_ORDER,
+            false => COEFFICIENTS,
+        }
+    }
+
+    /// The coefficients that fit `motions`, and the initial forces of their springs; `radius` is R at vanishing overlap.
+    pub fn fit(self, motions: &[&[ContactRow]], radius: f64) -> Vec<Measured> {
+        let columns = self.coefficients() + motions.len();
+        fit_rows(&self.terms(motions, radius), columns)
+    }
+
+    /// What the best fit leaves of the forces ([`deviations`]).
+    pub fn deviations(self, motions: &[&[ContactRow]], radius: f64) -> Option<(f64, f64)> {
+        let columns = self.coefficients() + motions.len();
+        deviations(&self.terms(motions, radius), columns)
+    }
+
+    /// The transport that fits best beside all coefficients. What rounding leaves adds up in a spring, so that a whole motion
+    /// counts as one number in its uncertainty.
+    pub fn fit_transport(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
+        let with = |transport| Self { transport, ..self };
+        let found = fit_beside(self.transport, 1.0, with, motions, radius);
+        let rows: usize = motions.iter().map(|rows| rows.len()).sum();
+        let alike = (rows as f64 / motions.len() as f64).sqrt();
+        Measured::new(found.value, found.uncertainty * alike)
+    }
+
+    /// The exponent that fits best beside all coefficients, near that of the form.
+    pub fn fit_exponent(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
+        let with = |exponent| Self { exponent, ..self };
+        fit_beside(self.exponent, EXPONENT_STEP, with, motions, radius)
+    }
+
+    /// Terms and force of every row.
+    fn terms(self, motions: &[&[ContactRow]], radius: f64) -> Vec<(Vec<f64>, f64)> {
+        let coefficients = self.coefficients();
+        let mut rows = Vec::new();
+        for (index, motion) in motions.iter().enumerate() {
+            let mut growth = [0.0; 5];
+            let mut initial = 1.0;
+            let mut before: Option<&ContactRow> = None;
+            for row in *motion {
+                let factor = before.map_or(1.0, |before| carried(before, row, self.transport));
+                let speeds = speeds(row);
+                for (sum, speed) in growth.iter_mut().zip(speeds) {
+                    *sum = *sum * factor - speed * row.time_step;
+                }
+                initial *= factor;
+                let stiffer = libm::pow(row.overlap, self.exponent);
+                let [across, spin, spin_overlap, cubed, cubed_overlap] =
+                    growth.map(|spring| spring * stiffer);
+                // Translation and spin are coupled by the contact force itself; the damping of each cannot
+                // be told apart, and belongs to the radius of the torque.
+                let damping = -(speeds[0] + radius * speeds[1]);
+                let mut terms = vec![across, spin, spin_overlap, damping, -speeds[2]];
+                terms.extend([cubed, cubed_overlap]);
+                terms.truncate(coefficients);
+                terms.resize(coefficients + motions.len(), 0.0);
+                terms[coefficients + index] = initial * stiffer;
+                rows.push((terms, row.tangential_force));
+                before = Some(row);
+            }
+        }
+        rows
+    }
+}
+
+/// The number that fits best beside all coefficients of the form `with` it, by Gauss–Newton from `start`; the slope is that
+/// over one `step`.
+fn fit_beside(
+    start: f64,
+    step: f64,
+    with: impl Fn(f64) -> Form,
+    motions: &[&[ContactRow]],
+    radius: f64,
+) -> Measured {
+    let columns = with(start).coefficients() + motions.len();
+    let mut found = Measured::new(start, f64::INFINITY);
+    for _ in 0..ROUNDS {
+        let mut rows = with(found.value).terms(motions, radius);
+        let coefficients = fit_rows(&rows, columns);
+        let moved = with(found.value + step).terms(motions, radius);
+        for ((terms, _), (moved, _)) in rows.iter_mut().zip(moved) {
+            let changes = moved.iter().zip(&*terms).zip(&coefficients);
+            let change: f64 = changes
+                .map(|((moved, own), found)| (moved - own) * found.value)
+                .sum();
+            terms.push(change / step);
+        }
+        let change = fit_rows(&rows, columns + 1)[columns];
+        found = Measured::new(found.value + change.value, change.uncertainty);
+    }
+    found
+}
+
+/// v_t, −ω and −ω δ, whose combination with 1, R(0) and r₁ is w; −ω³ dt² and −ω³ dt² δ.
+fn speeds(row: &ContactRow) -> [f64; 5] {
+    let (spin, cubed) = (row.spin(), cubed_turns(row) / row.time_step);
+    [
+        row.tangential_speed,
+        -spin,
+        -spin * row.overlap,
+        -cubed,
+        -cubed * row.overlap,
+    ]
+}
+
+/// Sum of the third powers of the angles by which the two sides turn in a step.
+pub fn cubed_turns(row: &ContactRow) -> f64 {
+    let [one, other] = row.spins.map(|spin| spin * row.time_step);
+    one * one * one + other * other * other
+}
+
+/// The first rows, as long as the contact certainly sticks.
+pub fn sticking(rows: &[ContactRow]) -> &[ContactRow] {
+    as_long_as(rows, |row| {
+        let limit = row.friction * row.normal_force;
+        row.tangential_force.abs() < CERTAINLY_STICKING * limit
+    })
+}
+
+/// The first rows, as long as they are as wanted.
+pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> &[ContactRow] {
+    let end = rows.iter().position(|row| !wanted(row));
+    &rows[..end.unwrap_or(rows.len())]
+}
+
+/// 1 − cos dψ between two rows.
+pub fn versine(before: &ContactRow, row: &ContactRow) -> f64 {
+    let apart = [0, 1].map(|axis| row.normal[axis] - before.normal[axis]);
+    0.5 * (apart[0] * apart[0] + apart[1] * apart[1])
+}
+
+/// The factor by which the spring changes its length between two rows.
+pub fn carried(before: &ContactRow, row: &ContactRow, transport: f64) -> f64 {
+    1.0 + transport * versine(before, row)
+}

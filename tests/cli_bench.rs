@@ -2,7 +2,10 @@
 
 mod common;
 
-use common::{Bench, json_rows, standard_error, standard_output};
+use common::{
+    Bench, assert_only, code_folder, installed, json_rows, standard_error, standard_output,
+};
+use tristack::code::Code;
 
 #[test]
 fn rows_have_what_others_rely_on_and_files_tell_how_lanes_scale() {
@@ -34,6 +37,31 @@ fn assert_rows(rows: &[serde_json::Value]) {
         assert!(number("largest_error") < 1e-5);
     }
     assert_eq!(rows[1]["ratio"], 1.0);
+}
+
+#[test]
+fn a_code_in_a_folder_is_timed_beside_native() {
+    let lammps = Code::named("lammps").expect("it is built in");
+    if installed(&[lammps]).is_empty() {
+        return;
+    }
+    let bench = Bench::with_system_programs();
+    code_folder("lammps_inputs", &bench.path("mydem"), |manifest| {
+        manifest.replace("name = \"lammps\"", "name = \"mydem\"")
+    });
+    let line = "bench --codes native,./mydem --repeats 1 --format json";
+    let rows = json_rows(&standard_output(&mut bench.tristack(line)));
+    let codes: Vec<_> = rows.iter().map(|row| row["code"].as_str()).collect();
+    let expected = ["native-scalar", "native-lanes", "mydem"].map(Some);
+    assert_eq!(codes, expected);
+    assert!(rows[2]["ns_per_step"].as_f64() > Some(0.0), "{}", rows[2]);
+    assert!(
+        rows[2]["largest_error"].as_f64() < Some(1e-5),
+        "{}",
+        rows[2]
+    );
+    // Nothing temporary is left, and nothing is kept.
+    assert_only(&bench.path("."), &["mydem", "programs"]);
 }
 
 #[test]

@@ -418,6 +418,26 @@ fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     assert!(read() == right);
 }
 
+/// It went into the directory for temporary files of the machine.
+#[test]
+fn what_a_program_writes_beside_its_run_goes_with_it() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let program = bench.path("programs/yade");
+    let script = fs::read_to_string(&program).expect("a script");
+    let asked = "for directory in \"$@\"; do";
+    assert!(script.contains(asked));
+    let outside = format!(
+        "{asked}\n    for above in .. \"$directory/..\"; do echo x > \"$above/outside\"; done"
+    );
+    fs::write(&program, script.replace(asked, &outside)).expect("it can be written");
+    fs::write(bench.path("case.json"), replay::first_case().to_json()).expect("a case");
+    let line = "simulate --code yade --case case.json";
+    bench.tristack(line).assert().code(0);
+    let names = ["case.json", "programs", "replay"];
+    common::assert_only(&bench.path("."), &names);
+}
+
 #[test]
 fn a_case_that_the_code_cannot_run_touches_nothing() {
     let bench = Bench::with_system_programs();
@@ -541,21 +561,29 @@ fn version_of_yade(bench: &Bench) -> String {
 fn assert_broken(script: &str, reason: &str) {
     let bench = Bench::with_system_programs();
     bench.install("yade", script);
-    for line in [
+    let lines = [
         "codes",
         "crosscheck --codes yade",
         "simulate --code yade --mu 0.3 --stiffness 100",
         "probe --codes yade",
-    ] {
-        let output = bench.tristack(line).output().expect("it runs");
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(3), "{line}: {message}");
-        for part in ["programs/yade is installed, but broken: ", reason] {
-            assert!(message.contains(part), "{line}: {message} lacks {part}");
+    ];
+    // Together: each may wait for the time limit of a question.
+    std::thread::scope(|threads| {
+        for line in lines {
+            threads.spawn(|| assert_told(&bench, line, reason));
         }
-        assert!(!message.contains("not installed"), "{line}: {message}");
+        assert_eq!(version_of_yade(&bench), "broken");
+    });
+}
+
+fn assert_told(bench: &Bench, line: &str, reason: &str) {
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{line}: {message}");
+    for part in ["programs/yade is installed, but broken: ", reason] {
+        assert!(message.contains(part), "{line}: {message} lacks {part}");
     }
-    assert_eq!(version_of_yade(&bench), "broken");
+    assert!(!message.contains("not installed"), "{line}: {message}");
 }
 
 #[test]

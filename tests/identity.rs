@@ -5,6 +5,7 @@ mod common;
 
 use common::replay::{self, Disturbance};
 use common::{Bench, json_rows, standard_output};
+use rayon::prelude::*;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -145,7 +146,8 @@ fn the_explanation_says_how_mechanics_hold_and_what_the_identity_covers() {
 #[test]
 fn installed_codes_are_covered_with_their_libraries() {
     let external = Code::all().into_iter().filter(|code| *code != Code::NATIVE);
-    for code in common::installed(&external.collect::<Vec<_>>()) {
+    let installed = common::installed(&external.collect::<Vec<_>>());
+    installed.into_par_iter().for_each(|code| {
         let found = code.find().expect("it is installed");
         let coverage = found.coverage();
         let libraries = coverage
@@ -165,5 +167,5 @@ fn installed_codes_are_covered_with_their_libraries() {
             found.identity(),
             code.find().expect("still there").identity()
         );
-    }
+    });
 }

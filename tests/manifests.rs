@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Bench, installed, json, json_rows, standard_error, standard_output};
+use rayon::prelude::*;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -97,14 +98,15 @@ fn a_folder_given_by_path_is_the_built_in_code_under_another_name() {
         String::from_utf8(output.stdout).expect("text")
     };
     let folder = folder.display();
-    for (own, copy) in [
+    let pairs = [
         ("yade", folder.to_string()),
         ("yade-wall", format!("{folder}:mydem-wall")),
-    ] {
+    ];
+    pairs.into_par_iter().for_each(|(own, copy)| {
         let copied = rows(&copy);
         assert!(copied.contains("mydem"), "{copied}");
         assert_eq!(copied.replace("mydem", "yade"), rows(own));
-    }
+    });
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod common;
 
 use common::replay::{self, Disturbance};
 use common::{Bench, json_rows};
+use rayon::prelude::*;
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
@@ -97,65 +98,73 @@ fn below(directory: &Path, name: &str) -> Vec<PathBuf> {
 
 #[test]
 fn every_code_works_in_directories_of_any_name() {
-    for code in common::installed(&live()) {
-        let bench = Bench::with_system_programs();
-        let case = bench.path("case.json");
-        fs::write(&case, short_case(code).to_json()).expect("a case");
-        let line = format!("simulate --code {code} --format json");
-        let plain = bench.path("plain");
+    common::installed(&live())
+        .into_par_iter()
+        .for_each(works_in_directories_of_any_name);
+}
+
+fn works_in_directories_of_any_name(code: Code) {
+    let bench = Bench::with_system_programs();
+    let case = bench.path("case.json");
+    fs::write(&case, short_case(code).to_json()).expect("a case");
+    let line = format!("simulate --code {code} --format json");
+    let plain = bench.path("plain");
+    succeed(
+        &bench,
+        bench
+            .process(&line)
+            .arg(flag("case", &case))
+            .arg(flag("out", &plain)),
+    );
+    let expected = fs::read(plain.join("series.csv")).expect("a series");
+    for name in names(code) {
+        // Relative, so that a leading dash stays one.
+        let out = Path::new(named(name));
         succeed(
             &bench,
             bench
                 .process(&line)
                 .arg(flag("case", &case))
-                .arg(flag("out", &plain)),
+                .arg(flag("out", out)),
         );
-        let expected = fs::read(plain.join("series.csv")).expect("a series");
-        for name in names(code) {
-            // Relative, so that a leading dash stays one.
-            let out = Path::new(named(name));
-            succeed(
-                &bench,
-                bench
-                    .process(&line)
-                    .arg(flag("case", &case))
-                    .arg(flag("out", out)),
-            );
-            let series = fs::read(bench.path("").join(out).join("series.csv")).expect("a series");
-            assert!(series == expected, "{code} in {out:?}");
-        }
+        let series = fs::read(bench.path("").join(out).join("series.csv")).expect("a series");
+        assert!(series == expected, "{code} in {out:?}");
     }
 }
 
 #[test]
 fn every_code_finds_its_way_from_and_through_names_of_any_kind() {
-    for code in common::installed(&live()) {
-        let bench = Bench::with_system_programs();
-        let here = nested(&bench.path("here"), code);
-        let temporary = nested(&bench.path("temporary"), code);
-        for directory in [&here, &temporary] {
-            fs::create_dir_all(directory).expect("a directory");
-        }
-        let case = here.join("-$(touch touched)\n'case\".json");
-        fs::write(&case, short_case(code).to_json()).expect("a case");
-        let file = Path::new(case.file_name().expect("a name"));
-        let line = format!("simulate --code {code} --format json");
-        let run = |out: Option<&Path>| {
-            let mut command = bench.process(&line);
-            command
-                .current_dir(&here)
-                .env("TMPDIR", &temporary)
-                .arg(flag("case", file));
-            succeed(&bench, command.args(out.map(|out| flag("out", out))))
-        };
-        // In a temporary directory, and in one of its own.
-        let force =
-            |output: &[u8]| json_rows(&String::from_utf8_lossy(output))[0]["peak_force"].clone();
-        assert_eq!(force(&run(None)), force(&run(Some(Path::new("-out")))));
-        assert!(here.join("-out/series.csv").is_file());
-        let left = fs::read_dir(&temporary).expect("a directory").count();
-        assert_eq!(left, 0, "{code} leaves something in TMPDIR");
+    common::installed(&live())
+        .into_par_iter()
+        .for_each(finds_its_way);
+}
+
+fn finds_its_way(code: Code) {
+    let bench = Bench::with_system_programs();
+    let here = nested(&bench.path("here"), code);
+    let temporary = nested(&bench.path("temporary"), code);
+    for directory in [&here, &temporary] {
+        fs::create_dir_all(directory).expect("a directory");
     }
+    let case = here.join("-$(touch touched)\n'case\".json");
+    fs::write(&case, short_case(code).to_json()).expect("a case");
+    let file = Path::new(case.file_name().expect("a name"));
+    let line = format!("simulate --code {code} --format json");
+    let run = |out: Option<&Path>| {
+        let mut command = bench.process(&line);
+        command
+            .current_dir(&here)
+            .env("TMPDIR", &temporary)
+            .arg(flag("case", file));
+        succeed(&bench, command.args(out.map(|out| flag("out", out))))
+    };
+    // In a temporary directory, and in one of its own.
+    let force =
+        |output: &[u8]| json_rows(&String::from_utf8_lossy(output))[0]["peak_force"].clone();
+    assert_eq!(force(&run(None)), force(&run(Some(Path::new("-out")))));
+    assert!(here.join("-out/series.csv").is_file());
+    let left = fs::read_dir(&temporary).expect("a directory").count();
+    assert_eq!(left, 0, "{code} leaves something in TMPDIR");
 }
 
 #[test]

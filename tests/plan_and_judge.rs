@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Bench, installed, json, standard_error};
+use common::away::{native_result, result_of};
+use common::{Bench, installed, json, standard_error, standard_output};
 use nix::sys::stat::Mode;
 use nix::unistd::mkfifo;
 use std::collections::BTreeMap;
@@ -11,7 +12,6 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tristack::code::{Code, PlannedRun, PlannedTask};
-use tristack::dem::{compress_stack, run_contact_test};
 use tristack::study::Plan;
 
 /// A code that is nowhere installed, with the convention of the native one, whose series stand in for its own.
@@ -65,24 +65,6 @@ fn plan(bench: &Bench, options: &str) -> Plan {
 fn planned(bench: &Bench) -> Plan {
     let plan = Plan::read(&bench.path("away")).expect("it is readable");
     plan.expect("it is there")
-}
-
-/// What the native code gives for a planned run, as CSV.
-fn native_result(run: &PlannedRun) -> Vec<u8> {
-    match &run.task {
-        PlannedTask::Stack(case) => compress_stack(case, || true).expect("finite").to_csv(),
-        PlannedTask::Motion(test) => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            for row in run_contact_test(test).expect("finite").rows() {
-                writer.serialize(row).expect("a row");
-            }
-            writer.into_inner().expect("memory")
-        }
-    }
-}
-
-fn result_of(bench: &Bench, run: &PlannedRun) -> PathBuf {
-    bench.path("away").join(&run.directory).join(&run.result)
 }
 
 /// Puts results where there are none.
@@ -259,11 +241,25 @@ fn lists_start_what_has_no_result_and_shells_understand_them() {
     assert_eq!(read("start.txt").lines().count(), left);
 }
 
+/// Slurm makes no directory for what a task prints: without one, no task would start.
+fn assert_slurm_can_write(bench: &Bench) {
+    let array = fs::read_to_string(bench.path("away/array.slurm")).expect("a script");
+    let path = array.split("#SBATCH --output=").nth(1).expect("an option");
+    let path = path.lines().next().expect("a path");
+    let directory = bench.path("away").join(path);
+    assert!(directory.parent().is_some_and(Path::is_dir), "{path}");
+}
+
 #[test]
 fn planning_again_adds_and_changes_nothing_that_is_there() {
     let bench = bench();
     complete(&bench);
-    plan(&bench, ONE_STACK);
+    let line = format!("plan --code ./standin --out away {ONE_STACK}");
+    let said = standard_output(&mut bench.tristack(&line));
+    assert!(
+        said.contains("to do: 0 runs, 0 steps; every run has a result"),
+        "{said}"
+    );
     let before = contents(&bench.path("away"));
     plan(&bench, ONE_STACK);
     assert!(contents(&bench.path("away")) == before);
@@ -291,6 +287,7 @@ fn a_convention_that_is_left_out_is_measured_before_runs_are_planned() {
     for _ in 0..2 {
         let plan = plan(&bench, ONE_STACK);
         assert!(plan.continues && stacks(&plan) == 0);
+        assert_slurm_can_write(&bench);
         let (status, _, message) = judge(&bench, "");
         assert_eq!(status, Some(3), "{message}");
         assert!(message.contains("not planned yet: plan again"), "{message}");

@@ -51,8 +51,9 @@ it, `bash .ci/reliability faults`, `fuzz` or `mutants`, does so for one section.
 mutant may survive, is written by hand.
 
 Known to be left lying about: a YADE that is killed leaves an empty directory `/tmp/yade-…`, whose place is fixed in its
-program; a `simulate` without `--out`, a `bench`, or a program with a store that can only be read leaves, if it is killed, its
-directory for temporary files, `/tmp/tristack-…`.
+program; a `simulate` without `--out`, or a program with a store that can only be read, leaves, if it is killed, its directory
+for temporary files, `/tmp/tristack-…`. What `bench`, `check`, `judge` and questions to programs leave is removed by the next
+program that needs such a directory.
 ";
 
 fn faults_section(page: &mut String, faults: &Value) {
@@ -65,7 +66,7 @@ fn faults_section(page: &mut String, faults: &Value) {
         "
 ## Faults
 
-{rounds} rounds with {} faults at random moments (seed {}; {}), complaints: {complaints}. Each round sets up a sweep of ten
+{rounds} rounds with {} faults at random moments (seed {}), complaints: {complaints}. Each round sets up a sweep of ten
 runs, by a code that replays recorded runs or, in {live} of them, by native, LIGGGHTS, YADE or LAMMPS, lets the fault
 strike, and then looks
 
@@ -79,18 +80,25 @@ strike, and then looks
 code must get no agreement, and what is harmless (a daemon, ten gigabytes of output, a jump of the clock, a second
 program) must change nothing.
 
-| what goes wrong | fault | rounds | not replayed | struck in time | finished in spite of it | made after it | complaints |
-|---|---|---|---|---|---|---|---|
+The rounds with a *folder* are others: the folder of a code, as somebody writes it for `--codes ./mydem`, hangs, writes beside its
+run directory and into its home, floods, leaves processes behind, or calls itself by another version at each question, while
+its version, a micro-test or a stack is asked for by a `crosscheck`, `check`, `probe` or `simulate`; or what it left in a plan
+is a named pipe, a link, the result of another run, or far too long, when `judge` reads it. Then no row may agree but the undisturbed one;
+what cannot be overlooked is told with the name of the folder; no process is left; nothing outside of the store is touched or
+new, but the directory of a run that failed; and the same command gives the undisturbed result once the folder behaves. Not
+prevented, and not tried: a program may write wherever its user may, by a path from the root of the file system.
+
+| what goes wrong | fault | rounds | not replayed | struck in time | finished in spite of it | made after it | complaints | measured |
+|---|---|---|---|---|---|---|---|---|
 ",
         rows.len(),
         count(faults, "seed"),
-        made(faults),
     )
     .expect("text");
     for row in rows {
         writeln!(
             page,
-            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             text(row, "kind"),
             text(row, "fault"),
             count(row, "rounds"),
@@ -98,7 +106,8 @@ program) must change nothing.
             count(row, "struck"),
             count(row, "finished_before"),
             count(row, "made_after"),
-            count(row, "complaints")
+            count(row, "complaints"),
+            made(row)
         )
         .expect("text");
     }

@@ -7,7 +7,7 @@ use super::options::{CodeParser, Format, options_of};
 use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Failure, FailureKind};
-use crate::files::FileError;
+use crate::files::{FileError, Scratch};
 use crate::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use crate::study::{Campaign, PLAN, Plan};
 use clap::Args;
@@ -75,8 +75,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         name: code,
         code: Some(Box::new(results)),
     }];
-    let scratch = tempfile::Builder::new().prefix("tristack-").tempdir();
-    let scratch = scratch.map_err(FileError::writing(&std::env::temp_dir()))?;
+    let scratch = Scratch::new().map_err(FileError::writing(&std::env::temp_dir()))?;
     let settings = settings(scratch.path())?;
     settle_with(&codes, &settings, &Quiet);
     let measurements = plan.measurements(code);

@@ -144,6 +144,7 @@ fn summary(plan: &Plan, troubles: &[Option<FailureKind>], root: &Path) -> String
     let longest = seconds.clone().fold(0.0, f64::max);
     let all: f64 = seconds.sum();
     let forecast = match all > 0.0 {
+        _ if open.is_empty() => "every run has a result".to_owned(),
         true => format!(
             "by the forecast of the manifest {all:.0} s on one core, the longest run {longest:.1} s"
         ),

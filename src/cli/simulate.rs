@@ -164,7 +164,8 @@ fn execute_in_scratch(
 ) -> Result<Run, CliError> {
     let scratch = tempfile::Builder::new().prefix("tristack-").tempdir();
     let scratch = scratch.map_err(FileError::writing(&std::env::temp_dir()))?;
-    let outcome = execute(code, case, limit, scratch.path());
+    // What a program writes beside its run directory goes with it.
+    let outcome = execute(code, case, limit, &scratch.path().join("run"));
     if let Err(failure) = &outcome
         && failure.left_evidence()
     {

@@ -65,11 +65,18 @@ pub(crate) fn slurm_array(
          #SBATCH --ntasks=1\n\
          #SBATCH --cpus-per-task=1\n\
          #SBATCH --time={minutes}\n\
-         #SBATCH --output=runs/slurm-%A-%a.txt\n\
+         #SBATCH --output={}/slurm-%A-%a.txt\n\
          case \"$SLURM_ARRAY_TASK_ID\" in\n{}esac\n",
         tasks.len(),
+        top_directory(tasks[0][0]),
         cases.collect::<String>()
     )
+}
+
+/// The directory of the plan that a run is in, which is there: Slurm makes none for its output.
+fn top_directory(run: &PlannedRun) -> &str {
+    let (top, _) = run.directory.split_once('/').unwrap_or((".", ""));
+    top
 }
 
 /// The runs as tasks of an array, in their order.

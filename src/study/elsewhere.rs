@@ -136,7 +136,7 @@ impl Plan {
     }
 
     /// What is wrong with the result of each run; nothing where it is there and usable.
-    pub(crate) fn troubles(&self, code: Code, root: &Path) -> Vec<Option<FailureKind>> {
+    pub fn troubles(&self, code: Code, root: &Path) -> Vec<Option<FailureKind>> {
         let runs = self.runs.iter();
         runs.map(|run| run.trouble(code, root)).collect()
     }

@@ -1,6 +1,7 @@
 //! Shared parts of the tests of the command line.
 #![allow(dead_code)] // Every test binary uses a part of it.
 
+pub mod away;
 pub mod mounts;
 pub mod network;
 pub mod replay;

@@ -10,6 +10,7 @@ pub enum Fault {
     Code(CodeFault),
     Store(StoreFault),
     Disk(DiskFault),
+    Folder(FolderFault),
 }
 
 /// A fault of a running tristack or of the processes it has started, at a random moment.
@@ -82,10 +83,24 @@ pub enum DiskFault {
     RunsReadOnly,
 }
 
+/// What a folder does that somebody else has written, at a random command and a random question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FolderFault {
+    Hangs,
+    WritesOutside,
+    FloodsOutput,
+    FloodsFiles,
+    FloodsMemory,
+    LeavesChildren,
+    LiesAboutItsVersion,
+}
+
 impl Fault {
     /// Every fault, the kinds taking turns.
     pub fn all() -> impl Iterator<Item = Self> {
-        use {CodeFault as E, DiskFault as D, ProcessFault as P, StoreFault as S};
+        use {
+            CodeFault as E, DiskFault as D, FolderFault as F, ProcessFault as P, StoreFault as S,
+        };
         let process = [
             P::Killed,
             P::Interrupted,
@@ -140,6 +155,15 @@ impl Fault {
             S::ForeignFiles,
         ];
         let disk = [D::Full, D::ReadOnly, D::RunsReadOnly];
+        let folder = [
+            F::Hangs,
+            F::WritesOutside,
+            F::FloodsOutput,
+            F::FloodsFiles,
+            F::FloodsMemory,
+            F::LeavesChildren,
+            F::LiesAboutItsVersion,
+        ];
         let process = process.into_iter().map(Self::Process);
         let code = code.into_iter().map(Self::Code);
         let store = store.into_iter().map(Self::Store);
@@ -147,6 +171,7 @@ impl Fault {
             .chain(code)
             .chain(store)
             .chain(disk.into_iter().map(Self::Disk))
+            .chain(folder.into_iter().map(Self::Folder))
     }
 
     /// Whether this machine can do it; otherwise it is said, and left out.

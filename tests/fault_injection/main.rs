@@ -10,6 +10,8 @@ mod common;
 mod code_faults;
 mod disk;
 mod fault;
+mod folder_faults;
+mod misbehaviour;
 mod process_faults;
 mod processes;
 mod report;
@@ -24,7 +26,7 @@ use std::sync::{Mutex, PoisonError};
 use workload::Workloads;
 
 /// Each fault once.
-const ROUNDS: usize = 50;
+const ROUNDS: usize = 57;
 const TRIES: u64 = 5;
 /// Number of rounds at once; a round mostly waits.
 const AT_ONCE: usize = 3;
@@ -83,7 +85,7 @@ fn no_fault_loses_a_finished_run_or_lets_a_wrong_verdict_out() {
         }
     });
     let outcomes = outcomes.into_inner().expect("no round panics");
-    report::write(rounds, seed, &commit, &outcomes);
+    report::write(seed, &commit, &outcomes);
     assert_eq!(outcomes.len(), rounds);
     let complaints = outcomes.iter().filter(|(_, outcome)| outcome.is_err());
     assert_eq!(

@@ -72,6 +72,9 @@ impl<'a> Round<'a> {
     /// # Errors
     /// A complaint about what went wrong.
     pub fn play(fault: Fault, workloads: &'a Workloads, seed: u64) -> Result<Story, String> {
+        if let Fault::Folder(fault) = fault {
+            return workloads.folders.play(fault, seed);
+        }
         let mut random = fastrand::Rng::with_seed(seed);
         let workload = choose(fault, workloads, &mut random);
         let mut round = Self {
@@ -91,6 +94,7 @@ impl<'a> Round<'a> {
             Fault::Code(fault) => code_faults::strike(fault, &mut round),
             Fault::Store(fault) => store_faults::strike(fault, &mut round),
             Fault::Disk(fault) => disk::strike(fault, &mut round),
+            Fault::Folder(_) => unreachable!("it was played above"),
         };
         // Whatever is wrong, nothing may go on running in a place that is about to be removed.
         let ended = processes::all_ended(&round.root());

@@ -2,6 +2,7 @@
 
 use super::common::Bench;
 use super::common::replay::{self, Disturbance};
+use super::folder_faults::Folders;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tristack::code::{Code, ParameterFormat, Task};
@@ -29,6 +30,8 @@ pub struct Workloads {
     pub wrapped: Workload,
     /// Native, and the real codes that are installed.
     pub real: Vec<Workload>,
+    /// A folder that is going to misbehave.
+    pub folders: Folders,
 }
 
 impl Workloads {
@@ -60,6 +63,7 @@ impl Workloads {
             shared,
             replayed,
             wrapped,
+            folders: Folders::prepare(),
         }
     }
 

@@ -181,3 +181,18 @@ fn no_accepted_stack_makes_a_theory_panic() {
 fn no_accepted_experiment_makes_a_forecast_panic() {
     hold("forecasts", 100);
 }
+
+#[test]
+fn plans_are_refused_or_name_runs_inside_of_their_directory() {
+    hold("plans", 500);
+}
+
+#[test]
+fn manifests_are_refused_or_read_the_same_twice() {
+    hold("manifests", 1000);
+}
+
+#[test]
+fn renamed_columns_are_refused_or_finite_and_as_planned() {
+    hold("columns", 1000);
+}

@@ -6,9 +6,12 @@
 pub mod case;
 pub mod checkpoints;
 pub mod claims;
+pub mod columns;
 pub mod forecasts;
 pub mod logs;
+pub mod manifests;
 pub mod options;
+pub mod plans;
 pub mod probes;
 pub mod records;
 pub mod scenes;
@@ -29,7 +32,7 @@ pub type Check = fn(&[u8]);
 pub type Seeds = fn() -> Vec<Seed>;
 
 /// Name, check and seeds of every target.
-pub const TARGETS: [(&str, Check, Seeds); 10] = [
+pub const TARGETS: [(&str, Check, Seeds); 13] = [
     ("case", case::check, case::seeds),
     ("options", options::check, options::seeds),
     ("claims", claims::check, claims::seeds),
@@ -40,6 +43,9 @@ pub const TARGETS: [(&str, Check, Seeds); 10] = [
     ("checkpoints", checkpoints::check, checkpoints::seeds),
     ("stacks", stacks::check, stacks::seeds),
     ("forecasts", forecasts::check, forecasts::seeds),
+    ("plans", plans::check, plans::seeds),
+    ("manifests", manifests::check, manifests::seeds),
+    ("columns", columns::check, columns::seeds),
 ];
 
 /// `check` of `data`, which must not take more than `seconds` of a processor, however busy the machine is.

@@ -1,0 +1,6 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(
+    init: tristack_fuzz::write_seeds("plans"),
+    |data: &[u8]| tristack_fuzz::check_within(1.0, tristack_fuzz::plans::check, data)
+);

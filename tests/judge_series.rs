@@ -11,7 +11,8 @@ use tristack::model::{Arms, Case, ContactConvention, Stack};
 use tristack::study::yield_force::{Measurement, plan};
 
 const THREE: &str = "judge --series v4.csv v2.csv v1.csv";
-const STACK: &str = "--mu 0.3 --stiffness 100";
+const BARE: &str = "--mu 0.3 --stiffness 100";
+const STACK: &str = "--mu 0.3 --stiffness 100 --pair-arm 0 --floor-arm 0";
 const FURTHER: &str = "--coarse-step coarse.csv --short-ramp short.csv";
 /// The runs of a measurement, in its order.
 const FILES: [&str; 5] = ["v4.csv", "v2.csv", "v1.csv", "coarse.csv", "short.csv"];
@@ -200,9 +201,16 @@ fn speeds_need_not_be_halves() {
 fn another_arm_is_named_on_the_command_line_and_a_wrong_one_differs_once_the_budget_is_known() {
     let arms = ContactConvention::with_arms(Arms::reciprocal(-0.5, -1.0));
     let (bench, speeds) = bench_with(arms);
-    let line = format!("{THREE} {speeds} {STACK}");
-    let own = format!("{line} {FURTHER} --pair-arm -0.5 --floor-arm -1");
+    let bare = format!("{THREE} {speeds} {BARE}");
+    let own = format!("{bare} {FURTHER} --pair-arm -0.5 --floor-arm -1");
     assert_eq!(judged(&bench, &own).0, Some(0));
+    refused(&bench, &bare, &["`--pair-arm` is left out", "--passport"]);
+    refused(
+        &bench,
+        &format!("{bare} --pair-arm 0"),
+        &["`--floor-arm` is left out"],
+    );
+    let line = format!("{THREE} {speeds} {STACK}");
     let (status, tables, message) = judged(&bench, &format!("{line} {FURTHER}"));
     assert_eq!(status, Some(2), "{message}");
     assert!(tables[0][0]["error"].as_f64().expect("a distance") < -0.1);
@@ -248,7 +256,7 @@ fn what_is_wrong_with_files_and_options_is_said() {
     let with = |from: &str, to: &str| all.replace(from, to);
     let cases: [(String, &[&str]); 9] = [
         (with(" v1.csv", ""), &["3", "--series"]),
-        (with(STACK, "--mu 0.3"), &["--stiffness"]),
+        (with(BARE, "--mu 0.3"), &["--stiffness"]),
         (with("v2.csv", "none.csv"), &["cannot read none.csv"]),
         (
             with(&speeds, "--speeds 4e-4,2e-4"),
@@ -307,7 +315,7 @@ fn arms_are_taken_from_a_passport_with_their_uncertainty() {
     let convention = ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5));
     let (bench, speeds) = bench_with(convention);
     bench.tristack("probe --out passports").assert().code(0);
-    let line = format!("{THREE} {speeds} {STACK} {FURTHER}");
+    let line = format!("{THREE} {speeds} {BARE} {FURTHER}");
     let given = "--pair-arm -0.5 --floor-arm -0.5";
     let (_, by_hand, _) = judged(&bench, &format!("{line} {given}"));
     let passport = "--passport passports/yade.json";
@@ -371,7 +379,7 @@ fn change_passport(bench: &Bench, change: impl Fn(&mut Value)) -> &'static str {
 fn a_passport_that_does_not_say_the_arms_is_refused() {
     let (bench, speeds) = bench_with(ContactConvention::PAPER);
     bench.tristack("probe --out passports").assert().code(0);
-    let line = format!("{THREE} {speeds} {STACK}");
+    let line = format!("{THREE} {speeds} {BARE}");
     let torque = "convention.pair.torque_arm";
     let with = |change: &dyn Fn(&mut Value)| {
         format!("{line} --passport {}", change_passport(&bench, change))

@@ -29,7 +29,7 @@ const UNKNOWN_VERSION: &str = "unknown";
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples: tristack judge away --code-version 7.2 --out verdict\n          \
-    tristack judge --series v4.csv v2.csv v1.csv --speeds 4e-4,2e-4,1e-4 --mu 0.3 --stiffness 100 --pair-arm -0.5"
+    tristack judge --series v4.csv v2.csv v1.csv --speeds 4e-4,2e-4,1e-4 --mu 0.3 --stiffness 100 --pair-arm 0 --floor-arm 0"
 )]
 pub(super) struct Arguments {
     /// Directory of a plan

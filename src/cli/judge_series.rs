@@ -109,7 +109,10 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     let measured = arguments.passport.as_deref().map(passport).transpose()?;
     let convention = match measured {
         Some(measured) => ContactConvention::with_arms(measured.arms),
-        None => arguments.convention.of(Code::NATIVE)?,
+        None => {
+            arguments.convention.check_named_arms()?;
+            arguments.convention.of(Code::NATIVE)?
+        }
     };
     let limit = quasistatic_limit(&stack, &convention);
     if limit.yield_force.is_none() {

@@ -156,6 +156,24 @@ pub(super) struct ConventionOptions {
 }
 
 impl ConventionOptions {
+    /// Refuses options that leave an arm to be guessed.
+    pub fn check_named_arms(&self) -> Result<(), InvalidValue> {
+        let arms = [
+            ("--pair-arm", self.pair_arm),
+            ("--floor-arm", self.floor_arm),
+        ];
+        let missing = arms.into_iter().find(|(_, arm)| arm.is_none());
+        missing.map_or(Ok(()), |(flag, _)| {
+            Err(InvalidValue {
+                key: flag.to_owned(),
+                value: "left out".to_owned(),
+                accepted:
+                    "the arm of the code, which moves the limit, or --passport FILE of a probe"
+                        .to_owned(),
+            })
+        })
+    }
+
     /// The convention of `code` with the given parts in place of its own.
     pub fn of(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();

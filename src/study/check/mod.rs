@@ -3,17 +3,16 @@
 //! A failure is explained by computing: the native DEM makes a mistake, or its series is written wrongly, and the result
 //! is compared with what the code has written.
 
-mod beside;
-mod computed;
+mod diagnosis;
+mod evidence;
 mod factor;
 mod information;
 mod micro;
-mod mistake;
-mod parameter;
 mod reaction;
 mod report;
-mod rows;
+mod search;
 mod stack;
+mod twin;
 mod unreadable;
 mod written;
 
@@ -110,22 +109,14 @@ impl Check<'_> {
         self.manifest();
         let installed = self.program()?;
         let case = case(self.code.convention());
-        let run = self.stack(installed.as_ref(), &case)?;
+        let Some(run) = self.stack(installed.as_ref(), &case) else {
+            self.explain_explosion(installed.as_ref());
+            return None;
+        };
         let micro = self.micro_tests(installed.as_ref())?;
-        let convention = micro
-            .as_ref()
-            .map_or_else(|| self.code.convention(), Micro::convention);
         self.report
             .items
-            .extend(stack::items(&run.series, &case, convention));
-        match &micro {
-            Some(micro) => self.report.items.extend(micro.items()),
-            None => self.add(Item::not_tested(
-                Grade::Consistency,
-                "micro-tests",
-                "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured",
-            )),
-        }
+            .extend(diagnosis::items(&run.series, &case, micro.as_ref()));
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,
@@ -253,6 +244,28 @@ impl Check<'_> {
         outcome.map_or(Err(None), |result| {
             result.map_err(|failure| Some(Box::new(failure)))
         })
+    }
+
+    /// Where the stack explodes, the micro-tests may still say why.
+    fn explain_explosion(&mut self, installed: &dyn InstalledCode) {
+        let unstable = |item: &Item| item.found.contains("finite number");
+        if !self.report.items.last().is_some_and(unstable)
+            || self.code.check_task(TaskKind::Motion).is_err()
+        {
+            return;
+        }
+        let directory = self.directory.join("motion");
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        let micro = ask(installed, &context)
+            .ok()
+            .and_then(|record| Micro::of(self.code, record));
+        let causes = micro.map_or_else(Vec::new, |micro| diagnosis::of_motions(&micro));
+        if let Some(item) = self.report.items.last_mut().filter(|_| !causes.is_empty()) {
+            item.causes = causes;
+        }
     }
 
     fn run(&self, installed: &dyn InstalledCode, case: &Case, name: &str) -> Option<Run> {

@@ -4,6 +4,7 @@ use super::evidence::{Evidence, ROUNDING};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, at_first_sight};
+use super::table::usual;
 use super::{search, written};
 use crate::model::{Case, ContactConvention};
 use crate::series::Series;
@@ -35,10 +36,13 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
     if !items.iter().any(|item| item.outcome == Outcome::Failed) {
         return items;
     }
-    let found = conventions.into_iter().enumerate().find_map(|(place, convention)| {
-        let causes = Known::of(Some(series), case, micro, convention).causes();
-        (!causes.is_empty()).then_some((place, causes))
-    });
+    let found = conventions
+        .into_iter()
+        .enumerate()
+        .find_map(|(place, convention)| {
+            let causes = Known::of(Some(series), case, micro, convention).causes();
+            (!causes.is_empty()).then_some((place, causes))
+        });
     let (place, causes) = found.unwrap_or_default();
     let plain = at_first_sight(series);
     for item in items
@@ -52,11 +56,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
             item.causes = vec![plain.clone()];
         } else if item.causes.is_empty() {
-            item.causes = vec![
-                micro::usual(item.name)
-                    .unwrap_or_else(|| stack::usual(item.name))
-                    .to_owned(),
-            ];
+            item.causes = vec![usual(item.name)];
         }
     }
     items

@@ -136,6 +136,20 @@ impl Evidence {
         own
     }
 
+    /// The same where the code is a twin with a fault.
+    #[cfg(test)]
+    pub fn written_by(mut self, fault: impl Fn(&mut Twin)) -> Self {
+        let mut wrong = self.twin.clone();
+        fault(&mut wrong);
+        let (columns, found) = (&self.columns, &mut self.found);
+        wrong.run(|step, row| {
+            found[step as usize] = (step, columns.iter().map(|column| column.of(row)).collect());
+            step as usize + 1 < found.len()
+        });
+        self.before = self.distance(|_| (), f64::INFINITY);
+        self
+    }
+
     /// The rows of the twin without a fault, in every step.
     pub fn dense(&self) -> Vec<Row> {
         let mut rows = Vec::new();

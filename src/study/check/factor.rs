@@ -1,6 +1,6 @@
 //! Numbers by which quantities are often off, with what is behind them.
 
-use super::search::meanings;
+use super::table::meanings;
 
 /// Relative distance at which two numbers count as the same.
 const SAME_NUMBER: f64 = 2e-3;

@@ -4,7 +4,7 @@
 use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item};
-use super::search;
+use super::table::{meanings, of_property};
 use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
@@ -206,99 +206,18 @@ fn is_convention(own: &Finding) -> bool {
         && !parameters.any(|other| *other == ending)
 }
 
-/// Meanings of a radius, by the torque of a force.
-const RADII: [(f64, &str); 3] = [
-    (0.5, "1/2: a diameter of 1; the radius is 1"),
-    (2.0, "2: the diameter in place of the radius"),
-    (
-        -1.0,
-        "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
-    ),
-];
-/// Meanings of the reported force of the top wall, in units of that which it exerts.
-const WALL_FORCES: [(f64, &str); 2] = [
-    (-1.0, "its sign: it counts positive in compression"),
-    (2.0, "it counts twice"),
-];
-/// Meanings of the steps by which the overlap in a force is ahead of the positions of its row.
-const LEADS: [(f64, &str); 2] = [
-    (
-        -1.0,
-        "the force of a row is that of the step before: it is written before it is computed anew, or positions have \
-            moved on before they are written",
-    ),
-    (
-        1.0,
-        "the force of a row is that of the step after: positions are written before they move, forces after",
-    ),
-];
-
 /// What fits a parameter of that `name` that is not as asked.
 fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
-    let named = |candidates: &[(f64, &str)]| -> Vec<String> {
-        let fitting = candidates
-            .iter()
-            .filter(|(value, _)| is_about(found, *value));
-        fitting.map(|(_, meaning)| (*meaning).to_owned()).collect()
-    };
-    let none = |meaning: &str| vec![meaning.to_owned()];
-    let is_none = found.abs() < 1e-9;
     let texts = match (name, ending(name)) {
-        (_, "radius") if is_none => {
-            none("there is no torque: the tangential force acts at the centre")
-        }
-        (_, "radius") => named(&RADII),
-        (_, "reported_force") if is_none => {
-            none("it is 0: never computed, or written before it is")
-        }
-        (_, "reported_force") => named(&WALL_FORCES),
-        (_, "overlap_lead") => named(&LEADS),
         ("wall_friction", _) => vec![format!(
             "the top wall has a friction of {found:.6}, and must have none"
         )],
         (_, "friction") => of_friction(found, asked, asked),
-        (
-            _,
-            "mass"
-            | "normal_stiffness"
-            | "tangential_stiffness"
-            | "normal_damping"
-            | "tangential_damping",
-        ) => search::meanings(name, found, asked, asked, |_| f64::NAN),
-        _ => Vec::new(),
+        (_, own) if own == "mass" || own.ends_with("_stiffness") || own.ends_with("_damping") => {
+            meanings(name, found, asked, asked, |_| f64::NAN)
+        }
+        (_, own) => of_property(own, found),
     };
-    texts
-        .into_iter()
-        .map(|text| format!("{name}: {text}"))
-        .collect()
-}
-
-/// Usual causes of an item that failed.
-pub(super) fn usual(name: &str) -> Option<&'static str> {
-    let text = match name {
-        "mass" => {
-            "usual causes: density times volume in place of mass 1; a force that is written, but not applied"
-        }
-        "normal stiffness" => {
-            "usual causes: a modulus in place of a stiffness; two materials in series; Hertz in place of Hooke"
-        }
-        "tangential stiffness" => {
-            "usual causes: the ratio k_n/k_t turned round; two materials in series"
-        }
-        "damping" => {
-            "usual causes: a damping ratio or a restitution in place of the coefficient; global damping besides"
-        }
-        "radius and torque" => {
-            "usual causes: a diameter in place of the radius; a torque with the wrong sign"
-        }
-        "friction" => "usual causes: an angle in place of the coefficient; a mean of two materials",
-        "force of the top wall" => {
-            "usual causes: its sign; the sum of several walls; a force of another step"
-        }
-        MOMENTS_NAME => {
-            "usual causes: rows written after the positions moved, with the forces of before"
-        }
-        _ => return None,
-    };
-    Some(text)
+    let named = texts.into_iter().map(|text| format!("{name}: {text}"));
+    named.collect()
 }

@@ -12,6 +12,7 @@ mod reaction;
 mod report;
 mod search;
 mod stack;
+mod table;
 mod twin;
 mod unreadable;
 mod written;
@@ -21,13 +22,13 @@ pub use report::{Grade, Item, Outcome, Report};
 use super::convention::ask;
 use super::yield_force::planned_protocol;
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
+use crate::files::{Scratch, temporary};
 use crate::model::{Case, ContactConvention, Stack};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
 use std::io;
 use std::path::Path;
-use tempfile::TempDir;
 use unreadable::explained;
 
 /// The stack that is compressed: soft, so that every convention shows, and above the critical friction.
@@ -36,6 +37,8 @@ const STIFFNESS: f64 = 100.0;
 /// Wall speed in units of the displacement by which the speeds of measurements are measured: twice their fastest.
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
+/// The beginning of the name of the directory of a run that failed.
+const EVIDENCE: &str = "tristack-check-";
 
 /// The case by which a code with this `convention` is checked.
 ///
@@ -60,9 +63,7 @@ pub fn case(convention: ContactConvention) -> Case {
 /// # Errors
 /// If there is no place for the runs.
 pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Report> {
-    let place = tempfile::Builder::new()
-        .prefix("tristack-check-")
-        .tempdir()?;
+    let place = Scratch::new()?;
     let mut check = Check {
         code,
         context,
@@ -75,17 +76,22 @@ pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Repor
         completed.is_some() && report.failed_grade().is_none(),
         folder,
     );
-    if completed.is_none() {
-        keep(place, context);
+    if completed.is_none() && !context.interrupt.requested() {
+        keep(&place, &mut report)?;
     }
     Ok(report)
 }
 
-/// Keeps the directory of a run that failed, with its output.
-fn keep(place: TempDir, context: &RunContext) {
-    if !context.interrupt.requested() {
-        keep_evidence(place);
+/// Keeps the directory of a run that failed, with its output, and says where.
+fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
+    let kept = temporary(EVIDENCE.as_ref()).tempdir()?;
+    std::fs::rename(place.path(), kept.path())?;
+    let [from, to] = [place.path(), kept.path()].map(|path| path.display().to_string());
+    for item in &mut report.items {
+        item.found = item.found.replace(&from, &to);
     }
+    keep_evidence(kept);
+    Ok(())
 }
 
 fn next(is_green: bool, folder: &str) -> String {
@@ -299,4 +305,33 @@ impl Check<'_> {
             }
         }
     }
+}
+
+/// The answers of the native DEM with this `convention`.
+#[cfg(test)]
+fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
+    let mut answers = Vec::new();
+    let declared = crate::code::Declaration {
+        convention,
+        ..Code::NATIVE.declaration()
+    };
+    let run = |tests: &[crate::model::ContactTest]| {
+        let motions: Vec<_> = tests
+            .iter()
+            .map(|test| crate::dem::run_contact_test(test).expect("it is finite"))
+            .collect();
+        answers.extend(
+            tests
+                .iter()
+                .zip(&motions)
+                .map(|(test, motion)| crate::runs::Answer {
+                    test: *test,
+                    input_hash: String::new(),
+                    motion: motion.clone(),
+                }),
+        );
+        Ok::<_, ()>(motions)
+    };
+    super::convention::probe(&declared, run).expect("the native DEM answers");
+    answers
 }

@@ -2,11 +2,10 @@
 //! the code has written.
 
 use super::evidence::{Evidence, ROUNDING};
+use super::table::{Flags, Quantity, Size, TABLE, Value};
 use super::twin::{FLOOR, OfContact, OfRun, PAIRS, Twin, WALL};
 use rayon::prelude::*;
-use serde::Deserialize;
 use std::ops::Range;
-use std::sync::LazyLock;
 
 /// Mistakes that fit as well as the best one are named too, but not more than these.
 const AS_WELL: f64 = 3.0;
@@ -15,77 +14,6 @@ pub(super) const MOST_CAUSES: usize = 3;
 const REFINEMENTS: usize = 32;
 const FIRST_TRIES: i32 = 8;
 const LARGEST_FACTOR: f64 = 30.0;
-
-/// The entries of mistakes.toml.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Table {
-    value: Vec<Value>,
-    contact: Vec<Quantity>,
-    run: Vec<Quantity>,
-    law: Vec<Flags>,
-    loading: Vec<Flags>,
-    size: Vec<Size>,
-}
-
-/// What stands in place of a number.
-#[derive(Debug, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Value {
-    says: String,
-    factor: f64,
-    power: f64,
-    times: String,
-    exponent: f64,
-    function: String,
-    only: String,
-}
-
-impl Default for Value {
-    fn default() -> Self {
-        let [says, times, function, only] = std::array::from_fn(|_| String::new());
-        Self {
-            says,
-            factor: 1.0,
-            power: 1.0,
-            times,
-            exponent: 1.0,
-            function,
-            only,
-        }
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Quantity {
-    is: String,
-    fields: Vec<String>,
-    #[serde(default)]
-    parameter: bool,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Flags {
-    says: String,
-    set: Vec<(String, f64)>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Size {
-    is: String,
-    field: String,
-    from: f64,
-    to: f64,
-    #[serde(default)]
-    contact: bool,
-}
-
-static TABLE: LazyLock<Table> = LazyLock::new(|| {
-    toml::from_str(include_str!("mistakes.toml")).expect("mistakes.toml is tested")
-});
 
 /// Numbers of the task that may stand in place of one another.
 const PARAMETERS: [&str; 12] = [
@@ -131,60 +59,6 @@ impl Task {
             "floor_friction"
         })
     }
-}
-
-impl Value {
-    /// The value in place of `asked`, where a friction beside it is `other` and a number of the task `number`.
-    fn of(&self, asked: f64, other: f64, number: impl Fn(&str) -> f64) -> f64 {
-        let based = match self.function.as_str() {
-            "tan" => libm::tan(asked),
-            "atan" => libm::atan(asked),
-            "tan-of-degrees" => libm::tan(asked.to_radians()),
-            "degrees" => libm::atan(asked).to_degrees(),
-            "sin-of-angle" => libm::sin(libm::atan(asked)),
-            "other" => other,
-            "mean" => 0.5 * (asked + other),
-            "geometric-mean" => (asked * other).sqrt(),
-            "harmonic-mean" => 2.0 * asked * other / (asked + other),
-            "product" => asked * other,
-            "sum" => asked + other,
-            "least" => asked.min(other),
-            "largest" => asked.max(other),
-            _ => asked,
-        };
-        let times = match self.times.as_str() {
-            "" => 1.0,
-            name => libm::pow(number(name), self.exponent),
-        };
-        let powered = if self.power == 1.0 {
-            based
-        } else {
-            libm::pow(based, self.power)
-        };
-        self.factor * powered * times
-    }
-}
-
-/// The meanings of those values that `found` is in place of `asked`, a number of that `name`.
-pub(super) fn meanings(
-    name: &str,
-    found: f64,
-    asked: f64,
-    other: f64,
-    number: impl Fn(&str) -> f64,
-) -> Vec<String> {
-    const DIGITS: f64 = 1e-4;
-    let own = TABLE
-        .value
-        .iter()
-        .filter(|value| name.contains(&value.only));
-    let fitting = own.filter(|value| {
-        let told = value.of(asked, other, &number);
-        (found - told).abs() <= DIGITS * told.abs().max(1e-5 * asked.abs())
-    });
-    let mut texts: Vec<String> = fitting.map(|value| value.says.clone()).collect();
-    texts.truncate(MOST_CAUSES);
-    texts
 }
 
 /// What a fault does with its fields.
@@ -515,4 +389,62 @@ fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
         }
     }
     0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ask_native, case};
+    use super::*;
+    use crate::model::ContactConvention;
+
+    #[test]
+    fn every_field_in_the_table_is_a_number_of_the_twin() {
+        let mut twin = Twin::of_stack(&case(ContactConvention::PAPER));
+        let fitted = sizes();
+        let fields = fitted
+            .iter()
+            .flat_map(|own| own.fields.iter().map(|field| (*field, &own.contacts)));
+        let faults = faults();
+        let acts = faults.iter().flat_map(|fault| {
+            fault
+                .acts
+                .iter()
+                .map(|(field, _)| (*field, &fault.contacts))
+        });
+        for (field, contacts) in fields.chain(acts) {
+            let known = match contacts.is_empty() {
+                true => twin.run.by_name(field),
+                false => twin.contacts[contacts.start].by_name(field),
+            };
+            assert!(known.is_some(), "{field}");
+        }
+    }
+
+    /// A mistake that a twin makes is the one that is found.
+    #[test]
+    fn a_mistake_in_the_law_is_found_among_all() {
+        let answers = ask_native(ContactConvention::PAPER);
+        let told = |says: &str| {
+            let faults = faults();
+            let fault = faults
+                .iter()
+                .find(|fault| fault.text.starts_with(says))
+                .expect("it is in the table");
+            let motions = answers
+                .iter()
+                .map(|answer| Evidence::of_motion(answer, ContactConvention::PAPER));
+            let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin)));
+            explanations(&wrong.collect::<Vec<_>>())
+        };
+        for says in [
+            "damping_normal between cylinders: its sign is wrong",
+            "Coulomb's limit has the spring's part",
+            "the tangential spring is cleared",
+            "the growth of the tangential spring in a step (relative tangential velocity times time step) at the floor: it is divided",
+            "explicit Euler",
+        ] {
+            let causes = told(says);
+            assert!(causes[0].starts_with(says), "{says}: {causes:?}");
+        }
+    }
 }

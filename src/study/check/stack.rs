@@ -234,39 +234,3 @@ pub(super) fn at_first_sight(series: &Series) -> Option<String> {
             .to_owned()
     })
 }
-
-pub(super) fn usual(item: &str) -> &'static str {
-    match item {
-        WEIGHT => {
-            "usual causes: the mass is not 1; gravity is not the parameter `gravity`; the stack is still falling or \
-                   ringing, because ramp or rest are left out; forces in another unit"
-        }
-        START => {
-            "usual causes: the wall does not start at y1 + 1 of the present cylinder 1; the weight is added; a force of \
-                  another step"
-        }
-        BALANCE => {
-            "usual causes: a force of another step, sign or unit; the damping is left out of what is written; a force \
-                    that acts on one body alone; the floor under cylinder 1 counts too"
-        }
-        SYMMETRY => {
-            "usual causes: a force that acts on one body alone; cylinders 2 and 3 exchanged in one column; a stack \
-                     that is not placed symmetrically; contacts that are updated with positions of different steps"
-        }
-        WALL_OVERLAP => {
-            "usual causes: k_n is not 1 at the wall; wall_speed is not downwards or not as asked; a force of \
-                         another step; positions that are not those of the centres"
-        }
-        FLOOR_OVERLAP => {
-            "usual causes: k_n is not 1 at the floor; the floor is not y = 0; heights of another point than the \
-                          centre; a force of another step"
-        }
-        FRICTION => {
-            "usual causes: an angle in place of the coefficient; a mean of two materials; static and sliding friction"
-        }
-        _ => {
-            "usual causes: another stiffness or friction than asked; contacts that forget or keep their springs at the \
-              wrong time; a convention that the manifest does not declare"
-        }
-    }
-}

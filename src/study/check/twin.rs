@@ -657,3 +657,41 @@ impl Touching {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::evidence::Evidence;
+    use super::super::{ask_native, case};
+    use super::*;
+    use crate::dem::compress_stack;
+    use crate::model::{Arms, ContactArms};
+
+    /// The paper's convention, and one that differs from it in every way.
+    fn conventions() -> [ContactConvention; 2] {
+        let mut arms = Arms::PAPER;
+        (arms.pair, arms.floor) = (ContactArms::reciprocal(-0.5), ContactArms::reciprocal(-1.0));
+        let other = ContactConvention {
+            coulomb_operand: CoulombOperand::Spring,
+            sliding_spring: SlidingSpring::FollowsLimit,
+            history_update: HistoryUpdate::Projected,
+            tensile_force: TensileForce::NeverPulls,
+            moment_of_inertia: 0.4,
+            ..ContactConvention::with_arms(arms)
+        };
+        [ContactConvention::PAPER, other]
+    }
+
+    #[test]
+    fn without_a_fault_it_is_the_native_dem() {
+        for convention in conventions() {
+            let case = case(convention);
+            let series = compress_stack(&case, || true).unwrap();
+            let stack = Evidence::of_stack(&series, &case, convention);
+            assert!(stack.before < 1e-10, "{}", stack.before);
+            for answer in ask_native(convention) {
+                let motion = Evidence::of_motion(&answer, convention);
+                assert!(motion.before < 1e-10, "{}: {}", answer.test, motion.before);
+            }
+        }
+    }
+}

@@ -1,30 +1,10 @@
 //! Mistakes in what is written: the code computes rightly, and a column is something else that its twin knows.
 
 use super::evidence::{Column, Evidence, of_contact};
-use super::search::{MOST_CAUSES, meanings};
+use super::search::MOST_CAUSES;
+use super::table::{TABLE, meanings};
 use super::twin::{CONTACTS, FLOOR, OF_BODY, PER_CONTACT, Row, WALL, WIDTH};
 
-/// Columns that are likely to share a mistake, with their names in messages.
-const GROUPS: [(&str, &[&str]); 9] = [
-    ("the lengths", &["x1", "y1", "x2", "y2", "x3", "y3"]),
-    (
-        "the forces",
-        &["wall_force", "floor_n2", "floor_t2", "floor_n3", "floor_t3"],
-    ),
-    (
-        "the forces of the floor",
-        &["floor_n2", "floor_t2", "floor_n3", "floor_t3"],
-    ),
-    ("the normal forces of the floor", &["floor_n2", "floor_n3"]),
-    (
-        "the tangential forces of the floor",
-        &["floor_t2", "floor_t3"],
-    ),
-    ("the heights", &["y1", "y2", "y3"]),
-    ("the horizontal positions", &["x1", "x2", "x3"]),
-    ("the angles", &["theta1", "theta2", "theta3"]),
-    ("the wall force", &["wall_force"]),
-];
 /// The columns that change their sign in a mirror.
 const MIRRORED: [&str; 8] = [
     "x1", "theta1", "x2", "theta2", "x3", "theta3", "floor_t2", "floor_t3",
@@ -530,12 +510,12 @@ impl Written<'_> {
     /// The columns in words.
     fn subject(&self, names: &[&str]) -> String {
         let there = |name: &&str| self.own.columns.iter().any(|column| column.name == *name);
-        let moves = |name: &&&str| {
+        let moves = |name: &&str| {
             let place = self
                 .own
                 .columns
                 .iter()
-                .position(|column| column.name == **name);
+                .position(|column| column.name == *name);
             place.is_some_and(|column| {
                 self.own
                     .found
@@ -544,13 +524,9 @@ impl Written<'_> {
             })
         };
         // A column of zeros is right with every factor.
-        let group = GROUPS.iter().find(|(_, group)| {
-            let group: Vec<&str> = group
-                .iter()
-                .filter(|name| there(name))
-                .filter(moves)
-                .copied()
-                .collect();
+        let group = TABLE.group.iter().find(|group| {
+            let own = group.columns.iter().map(String::as_str);
+            let group: Vec<&str> = own.filter(|name| there(name) && moves(name)).collect();
             group == names
         });
         let list = || {
@@ -560,6 +536,6 @@ impl Written<'_> {
                 .collect::<Vec<_>>()
                 .join(", ")
         };
-        group.map_or_else(|| format!("{}:", list()), |(text, _)| format!("{text}:"))
+        group.map_or_else(|| format!("{}:", list()), |group| format!("{}:", group.is))
     }
 }

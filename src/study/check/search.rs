@@ -61,6 +61,13 @@ impl Task {
     }
 }
 
+/// Numbers that may be exchanged.
+const EXCHANGED: [(&str, &str); 3] = [
+    ("normal_stiffness", "tangential_stiffness"),
+    ("damping_normal", "damping_tangential"),
+    ("ramp_steps", "rest_steps"),
+];
+
 /// What a fault does with its fields.
 #[derive(Clone, Copy)]
 enum Act<'a> {
@@ -106,7 +113,11 @@ impl Act<'_> {
             asked
         };
         match self {
-            Self::Replace(value) => value.of(asked, other, |name| task.of(name)),
+            Self::Replace(value) => value.of(asked, other, |number| match number {
+                "own_stiffness" if name.contains("tangential") => task.of("tangential_stiffness"),
+                "own_stiffness" => task.of("normal_stiffness"),
+                number => task.of(number),
+            }),
             Self::Parameter(name) => task.of(name),
             Self::Factor(factor) => asked * factor,
             Self::Set(value) => *value,
@@ -156,6 +167,11 @@ fn faults() -> Vec<Fault<'static>> {
         of_quantity(quantity, "", &(0..0), table.value.len(), &mut faults);
     }
     faults.extend(table.loading.iter().map(|own| own.fault(None, 0..0)));
+    faults.extend(EXCHANGED.into_iter().map(|(one, two)| Fault {
+        text: format!("{one} and {two} are exchanged"),
+        contacts: 0..9,
+        acts: vec![(one, Act::Parameter(two)), (two, Act::Parameter(one))],
+    }));
     faults
 }
 

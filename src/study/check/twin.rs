@@ -75,6 +75,10 @@ numbers! {
     one_sided = 0.0, "Flag: the force at the limit has always the same sign.";
     uncapped_damping = 0.0, "Flag: the spring alone is capped, and the damping added.";
     caps_above = 0.0, "Flag: only positive forces are capped.";
+    limit_before = 0.0, "Flag: μ times the normal force of the step before.";
+    damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
+    damping_exponent = 0.0, "Power of the overlap in the normal damping.";
+    rolling = 0.0, "Rolling friction: torque over normal force.";
     pulls = 0.0, "Flag: a contact that opens goes on pulling.";
 }
 
@@ -90,6 +94,10 @@ numbers! {
     radius = 1.0, "Radius wherever it counts.";
     moment_of_inertia = 0.5, "I.";
     time_step = 0.0, "dt.";
+    mass_1 = 1.0, "Factor on m of cylinder 1.";
+    push_x = 1.0, "Factor on horizontal forces in the kick.";
+    push_y = 1.0, "The same of vertical ones.";
+    push_spin = 1.0, "The same of torques.";
     drift = 1.0, "Factor on the change of positions.";
     gravity = 0.0, "g.";
     gravity_in_compression = 1.0, "Factor on the weight in the compression.";
@@ -116,6 +124,7 @@ numbers! {
     damping_rate = 0.0, "Part of the velocities that is lost in a unit of time.";
     spin_damping_rate = 0.0, "The same of the spins.";
     local_damping = 0.0, "Part of the force that opposes the velocity (Cundall).";
+    twice_at_rows = 0.0, "Flag: the forces are computed twice at the steps of rows, and the springs grow twice.";
     fixed_top = 0.0, "Flag: cylinder 1 cannot move sideways.";
     no_spin = 0.0, "Flag: the cylinders do not turn.";
     one_spin = 0.0, "Flag: only cylinder 1 turns.";
@@ -123,6 +132,9 @@ numbers! {
     spread = 0.0, "Distance by which the bottom cylinders lie too far apart at first.";
     lift = 0.0, "Height by which cylinder 1 lies too high at first.";
 }
+
+/// Steps of a preparation that nobody waits for.
+const MOST_STEPS: f64 = 2e4;
 
 /// Bodies of each contact, in the order in which they are evaluated: pairs, then the floor, then the top wall.
 pub(super) const CONTACTS: [(usize, Option<usize>); 9] = [
@@ -258,10 +270,16 @@ impl Twin {
     pub fn run(&mut self, mut watch: impl FnMut(u64, &Row) -> bool) {
         match self.plan.clone() {
             Plan::Stack(schedule) => {
+                if self.run.ramp_steps + self.run.rest_steps > MOST_STEPS {
+                    return;
+                }
                 self.prepare();
                 self.start_wall();
                 for step in 0..=schedule.compression_steps {
                     self.forces();
+                    if self.run.twice_at_rows != 0.0 && schedule.row_from(step) == Some(step) {
+                        self.forces();
+                    }
                     if !watch(step, &self.row()) {
                         return;
                     }
@@ -304,7 +322,7 @@ impl Twin {
             })
             .to_vec();
         let asked = self.run.gravity;
-        let steps = (self.run.ramp_steps + self.run.rest_steps).clamp(0.0, 1e5) as u64;
+        let steps = (self.run.ramp_steps + self.run.rest_steps) as u64;
         for step in 0..steps {
             self.run.gravity = asked * self.ramp(step);
             self.forces();
@@ -452,10 +470,14 @@ impl Twin {
                 * pressed
                 * (pressing + (damped - 1.0) * damping + (sprung - 1.0) * state.elastic);
             let t = sign * sheared * law.tangent * tangential;
+            let rolls = self.bodies[body].speed[2];
             let load = &mut self.bodies[body].load;
             load[0] += n * normal[0] - t * normal[1];
             load[1] += n * normal[1] + t * normal[0];
             load[2] -= turned * arm * tangential;
+            if law.rolling != 0.0 && rolls != 0.0 {
+                load[2] -= law.rolling * pressing * rolls.signum();
+            }
         };
         let pressed = if WALL.contains(&index) {
             self.run.wall_presses
@@ -493,8 +515,14 @@ impl Twin {
         let dt = run.time_step;
         let kick = if run.half_kick != 0.0 { 0.5 * dt } else { dt };
         self.run.half_kick = 0.0;
-        let inertia = [run.mass, run.mass, run.moment_of_inertia];
+        let push = [run.push_x, run.push_y, run.push_spin];
         for index in 0..self.bodies.len() {
+            let mass = if index == 0 {
+                run.mass * run.mass_1
+            } else {
+                run.mass
+            };
+            let inertia = [mass, mass, run.moment_of_inertia];
             let body = &mut self.bodies[index];
             let turns = run.no_spin == 0.0 && (run.one_spin == 0.0 || index == 0);
             for axis in 0..3 {
@@ -504,6 +532,7 @@ impl Twin {
                 } else {
                     body.load[axis]
                 };
+                force *= push[axis];
                 if run.local_damping != 0.0 && old != 0.0 {
                     force -= run.local_damping * force.abs() * old.signum();
                 }
@@ -560,11 +589,20 @@ impl Touching {
             libm::pow(overlap.max(0.0), law.exponent)
         };
         let elastic = law.normal_stiffness * powered;
-        let mut pressing = elastic - law.damping_normal * self.separation;
+        let damped = match law.damping_exponent {
+            0.0 => law.damping_normal * self.separation,
+            power => law.damping_normal * self.separation * libm::pow(overlap.max(0.0), power),
+        };
+        let is_damped = law.damps_approach == 0.0 || self.separation < 0.0;
+        let mut pressing = if is_damped { elastic - damped } else { elastic };
         if convention.tensile_force == TensileForce::NeverPulls {
             pressing = pressing.max(0.0);
         }
-        let limit = law.friction * self.limited(law, elastic, pressing);
+        let limit = law.friction
+            * match law.limit_before {
+                0.0 => self.limited(law, elastic, pressing),
+                _ => state.force[0].abs(),
+            };
         let velocity = self.sliding - law.spin_in_damping * self.turning;
         let stretching = self.sliding - law.spin_in_spring * self.turning;
         let old = state.spring * law.spring_kept * self.transport(convention, state.normal);

@@ -198,7 +198,11 @@ impl Evidence {
             }
             worst <= limit && rows.peek().is_some()
         });
-        if worst.is_nan() { f64::INFINITY } else { worst }
+        let is_cut = worst <= limit && rows.peek().is_some();
+        match worst.is_nan() || is_cut {
+            true => f64::INFINITY,
+            false => worst,
+        }
     }
 
     /// The first row that is off, in its column that is furthest off: name, step, found, expected.
@@ -222,6 +226,21 @@ impl Evidence {
         worst
             .find(|(apart, _)| *apart >= self.same)
             .map_or(("", 0, 0.0, 0.0), |(_, told)| told)
+    }
+
+    /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.
+    pub fn is_symmetric(&self) -> bool {
+        let place = |name: &str| self.columns.iter().position(|column| column.name == name);
+        place("floor_n2")
+            .zip(place("floor_n3"))
+            .is_some_and(|(right, left)| {
+                let apart = |values: &Vec<f64>| {
+                    (values[right] - values[left]).abs() / self.columns[right].scale
+                };
+                self.found
+                    .iter()
+                    .all(|(_, values)| apart(values) < ROUNDING)
+            })
     }
 
     /// Whether the rows are not those of the twin without a fault.

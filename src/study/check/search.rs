@@ -139,6 +139,8 @@ const PLACES: [(&str, Range<usize>); 11] = [
     ("between floor and cylinder 3", 5..6),
     ("between top wall and cylinder 1", 6..7),
 ];
+/// Those on one side of the stack.
+const ONE_SIDED: [Range<usize>; 4] = [0..1, 1..2, 4..5, 5..6];
 /// Those of more than one contact, and the values that are tried at a single one.
 const KINDS: usize = 4;
 const AT_SINGLE: usize = 4;
@@ -225,7 +227,10 @@ fn of_quantity(
 
 /// The mistakes that explain all `evidence`, best first.
 pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
-    let faults = faults();
+    let mut faults = faults();
+    if evidence.iter().any(Evidence::is_symmetric) {
+        faults.retain(|fault| !ONE_SIDED.contains(&fault.contacts));
+    }
     let single = faults
         .par_iter()
         .filter_map(|fault| Some((score(evidence, fault)?, fault.text.clone())));

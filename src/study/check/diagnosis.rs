@@ -1,6 +1,6 @@
 //! The items on a stack and on micro-tests, and the one mistake that explains what failed among them.
 
-use super::evidence::{Evidence, ROUNDING};
+use super::evidence::{Evidence, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, at_first_sight};
@@ -11,6 +11,8 @@ use crate::series::Series;
 
 /// Largest distance of motions that have the same law and integrator: rounding, which single contacts do not amplify.
 const SAME_MOTION: f64 = 1e-9;
+/// So many micro-tests agree to the last digits only where the integrator is that of the twin.
+const MANY_EXACT: usize = 5;
 
 /// The items on the `series` of `case`, and on the micro-tests where there are any; what failed is explained by the
 /// mistake that gives all of it, else by itself, else by what is usual.
@@ -27,12 +29,10 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
     );
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
-    let known = Known::of(Some(series), case, micro, convention);
-    let mut items = match &known.stack {
-        Some(own) => stack::items(series, case, own),
-        None => Vec::new(),
-    };
+    let known = Known::of(series, case, micro, convention);
+    let mut items = stack::items(series, case, &known.stacks);
     items.extend(of_micro);
+    items.extend(known.item());
     if !items.iter().any(|item| item.outcome == Outcome::Failed) {
         return items;
     }
@@ -40,7 +40,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         .into_iter()
         .enumerate()
         .find_map(|(place, convention)| {
-            let causes = Known::of(Some(series), case, micro, convention).causes();
+            let causes = Known::of(series, case, micro, convention).causes();
             (!causes.is_empty()).then_some((place, causes))
         });
     let (place, causes) = found.unwrap_or_default();
@@ -82,59 +82,87 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
 
 /// What a code has written, beside its twins.
 struct Known {
-    stack: Option<Evidence>,
+    /// The stack up to its peak, and to its end where law and integrator are those of the twin.
+    stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
 }
 
 impl Known {
     fn of(
-        series: Option<&Series>,
+        series: &Series,
         case: &Case,
         micro: Option<&Micro>,
         convention: ContactConvention,
     ) -> Self {
         let answers = micro.map_or(&[][..], |micro| &micro.answers);
-        let mut motions: Vec<Evidence> = answers
-            .iter()
+        let motions = answers.iter();
+        let mut motions: Vec<Evidence> = motions
             .map(|answer| Evidence::of_motion(answer, convention))
             .collect();
         // In order of what they show, so that what does not fit is soon seen.
         motions.sort_by(|one, two| two.before.total_cmp(&one.before));
-        let is_exact = motions
-            .first()
-            .is_some_and(|worst| worst.before < SAME_MOTION);
-        let is_right = micro.is_some_and(|micro| {
-            !micro
-                .items()
-                .iter()
-                .any(|item| item.outcome == Outcome::Failed)
-        });
-        if !is_exact && is_right {
+        let exact = motions
+            .iter()
+            .filter(|own| own.before < SAME_MOTION)
+            .count();
+        let is_exact = exact >= MANY_EXACT;
+        let is_failed = |item: &Item| item.outcome == Outcome::Failed;
+        let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_failed));
+        let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
+        if is_exact {
+            stacks.push(Evidence::of_stack(series, case, convention, true));
+            stacks[0].same = ROUNDING;
+            motions.iter_mut().for_each(|own| own.same = ROUNDING);
+        } else if !is_wrong {
             // Another integrator.
             motions.clear();
         }
-        let mut stack = series.map(|series| Evidence::of_stack(series, case, convention));
-        if let Some(own) = stack.as_mut().filter(|_| is_exact) {
-            own.same = ROUNDING;
-        }
-        Self { stack, motions }
+        Self { stacks, motions }
     }
 
-    /// The mistakes that explain everything, or else the motions, or else the stack.
+    /// The item on micro-tests that are not those of the twin, although others are to the last digits.
+    fn item(&self) -> Option<Item> {
+        let off = self
+            .motions
+            .first()
+            .filter(|own| own.is_off() && own.same < SAME)?;
+        let (name, step, found, expected) = off.first_off();
+        Some(Item::failed(
+            Grade::Consistency,
+            "micro-tests step by step",
+            format!(
+                "{name} {expected:.9} at step {step} of a micro-test (native DEM, same convention)"
+            ),
+            format!(
+                "{name} {found:.9} at step {step}, while other micro-tests agree to the last digits"
+            ),
+            Vec::new(),
+        ))
+    }
+
+    /// The mistakes that explain everything, or else the motions.
     fn causes(self) -> Vec<String> {
-        let Self { stack, motions } = self;
+        let Self { stacks, motions } = self;
         let law = motions.iter().any(Evidence::is_off);
-        let off = stack.iter().any(Evidence::is_off);
-        let mut causes = match &stack {
-            Some(stack) if off && !law => written::explanations(stack),
-            _ => Vec::new(),
+        let off = stacks.iter().any(Evidence::is_off);
+        let mut causes = match off && !law {
+            true => written::explanations(&stacks[0]),
+            false => Vec::new(),
         };
-        if causes.is_empty() && (law || off) {
-            let all: Vec<Evidence> = motions.iter().cloned().chain(stack).collect();
-            causes = search::explanations(&all);
+        if !causes.is_empty() || !law && !off {
+            return causes;
         }
+        let all: Vec<Evidence> = motions.iter().cloned().chain(stacks).collect();
+        let only = |law| if law { &motions[..] } else { &all[..] };
+        causes = search::explanations(&all);
         if causes.is_empty() && law {
             causes = search::explanations(&motions);
+        }
+        if causes.is_empty() {
+            causes = search::fitted(only(law), &all);
+        }
+        if causes.is_empty() && law {
+            causes = search::fitted(&motions, &motions);
         }
         causes
     }

@@ -83,8 +83,13 @@ pub(super) struct Evidence {
 }
 
 impl Evidence {
-    /// A stack that a code with this `convention` has compressed, up to its peak.
-    pub fn of_stack(series: &Series, case: &Case, convention: ContactConvention) -> Self {
+    /// A stack that a code with this `convention` has compressed, to its end or up to its peak.
+    pub fn of_stack(
+        series: &Series,
+        case: &Case,
+        convention: ContactConvention,
+        is_whole: bool,
+    ) -> Self {
         let case = Case {
             convention,
             ..*case
@@ -93,6 +98,7 @@ impl Evidence {
         let highest = (0..samples.len())
             .max_by(|&one, &two| samples[one].wall_force.total_cmp(&samples[two].wall_force));
         let until = highest.map_or(0, |peak| peak + 1);
+        let until = if is_whole { samples.len() } else { until };
         Self::new(Twin::of_stack(&case), &samples[..until], false)
     }
 

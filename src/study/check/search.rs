@@ -234,13 +234,17 @@ pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
     let single = faults
         .par_iter()
         .filter_map(|fault| Some((score(evidence, fault)?, fault.text.clone())));
-    let mut fitting: Vec<(f64, String)> = single.collect();
-    if fitting.is_empty() {
-        fitting = sizes()
-            .into_par_iter()
-            .filter_map(|own| own.fit(evidence))
-            .collect();
-    }
+    best(single.collect())
+}
+
+/// The sizes that explain all of `whole`, fitted to `evidence`.
+pub(super) fn fitted(evidence: &[Evidence], whole: &[Evidence]) -> Vec<String> {
+    let sizes = sizes().into_par_iter();
+    best(sizes.filter_map(|own| own.fit(evidence, whole)).collect())
+}
+
+/// The best of some mistakes with their distances.
+fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
     fitting.sort_by(|left, right| left.0.total_cmp(&right.0));
     let best = fitting.first().map_or(0.0, |best| best.0);
     let as_good = fitting
@@ -347,7 +351,7 @@ impl Fitted {
     }
 
     /// The value with which the twin comes nearest to what was found, if that explains it.
-    fn fit(&self, evidence: &[Evidence]) -> Option<(f64, String)> {
+    fn fit(&self, evidence: &[Evidence], whole: &[Evidence]) -> Option<(f64, String)> {
         // What is as expected must stay so.
         let (off, right): (Vec<&Evidence>, Vec<&Evidence>) =
             evidence.iter().partition(|own| own.is_off());
@@ -383,7 +387,7 @@ impl Fitted {
             nearest.1 + spacing,
         );
         let fault = self.fault(place);
-        let rest = score(evidence, &fault)?;
+        let rest = score(whole, &fault)?;
         let told = match fault.acts.first()? {
             (_, Act::Set(value)) => format!("{} {value:.6}", self.text),
             (_, Act::Factor(factor)) => format!("{}: {factor:.6} times what it must be", self.text),

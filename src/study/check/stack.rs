@@ -11,14 +11,14 @@ const SAME_WEIGHT: f64 = 1e-3;
 /// Relative deviation of the friction of a sliding floor; codes cap the force at μ n itself.
 const SAME_FRICTION: f64 = 1e-6;
 
-/// The items on the `series` of `case`, which a code with this `convention` has written.
-pub(super) fn items(series: &Series, case: &Case, own: &Evidence) -> Vec<Item> {
+/// The items on the `series` of `case`, beside its twins.
+pub(super) fn items(series: &Series, case: &Case, own: &[Evidence]) -> Vec<Item> {
     let rows = series.samples();
     let mut items = vec![weight(rows, case), start_of_wall(rows, case)];
     items.extend(laws(
         series,
         &Case {
-            convention: own.twin.convention,
+            convention: own[0].twin.convention,
             ..*case
         },
     ));
@@ -159,14 +159,14 @@ fn digits_of(series: &Series, case: &Case) -> u32 {
 const PATH: &str = "loading path";
 
 /// The series beside that of the twin, the native DEM.
-fn path(own: &Evidence) -> Item {
-    let distance = own.before;
-    if !own.is_off() {
+fn path(own: &[Evidence]) -> Item {
+    let distance = own[0].before;
+    let Some(own) = own.iter().find(|own| own.is_off()) else {
         return passed(
             PATH,
             format!("to {distance:.1e} that of the native DEM with the same convention"),
         );
-    }
+    };
     let (name, step, found, expected) = own.first_off();
     failed(
         PATH,

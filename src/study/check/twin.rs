@@ -724,7 +724,7 @@ mod tests {
         for convention in conventions() {
             let case = case(convention);
             let series = compress_stack(&case, || true).unwrap();
-            let stack = Evidence::of_stack(&series, &case, convention);
+            let stack = Evidence::of_stack(&series, &case, convention, true);
             assert!(stack.before < 1e-10, "{}", stack.before);
             for answer in ask_native(convention) {
                 let motion = Evidence::of_motion(&answer, convention);

@@ -1,6 +1,6 @@
 //! Mistakes in what is written: the code computes rightly, and a column is something else that its twin knows.
 
-use super::evidence::{Column, Evidence, of_contact};
+use super::evidence::{Column, Evidence, ROUNDING, of_contact};
 use super::search::MOST_CAUSES;
 use super::table::{TABLE, meanings};
 use super::twin::{CONTACTS, FLOOR, OF_BODY, PER_CONTACT, Row, WALL, WIDTH};
@@ -206,7 +206,10 @@ impl Written<'_> {
             &|| self.late(column),
             &|| self.transformed(column),
             &|| self.another(column),
-            &|| self.with_another(column),
+            &|| {
+                self.with_another(column)
+                    .filter(|_| self.own.same <= ROUNDING)
+            },
         ];
         tests.iter().find_map(|test| test())
     }

@@ -120,7 +120,7 @@ impl Evidence {
         let known = R::columns()
             .iter()
             .filter_map(|own| Some((own.value, Column::named(own.name, is_motion)?)));
-        let (values, columns): (Vec<fn(&R) -> f64>, Vec<Column>) = known
+        let (values, columns): (Vec<_>, Vec<Column>) = known
             .filter(|(value, _)| rows.iter().all(|row| value(row).is_finite()))
             .unzip();
         let step = R::columns()[0].value;

@@ -2,7 +2,6 @@
 
 use super::micro::Micro;
 use super::report::{Grade, Item};
-use super::rows::{index, rows_of};
 use crate::code::Code;
 use crate::series::Series;
 use crate::study::convention::{ArmEffects, Passport, passport};
@@ -23,16 +22,19 @@ pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
     if first == second {
         return Item::passed(grade, BITS, "the same bits");
     }
-    let force = index("wall_force");
-    let (one, two) = (rows_of(first), rows_of(second));
+    let force = |series: &Series| {
+        series
+            .samples()
+            .iter()
+            .map(|row| row.wall_force)
+            .collect::<Vec<_>>()
+    };
+    let (one, two) = (force(first), force(second));
     let largest = one
         .iter()
-        .map(|row| row[force].abs())
+        .map(|force| force.abs())
         .fold(f64::MIN_POSITIVE, f64::max);
-    let apart = one
-        .iter()
-        .zip(&two)
-        .map(|(one, two)| (one[force] - two[force]).abs());
+    let apart = one.iter().zip(&two).map(|(one, two)| (one - two).abs());
     let scatter = apart.fold(0.0, f64::max) / largest;
     Item::remark(
         grade,

@@ -1,20 +1,19 @@
 //! The parameters of a code, measured by the micro-tests of the probe. A parameter is what the task asks for: another
 //! value is a mistake, whereas a convention may be any.
 
-use super::factor::{is_about, meanings, of_factor, of_friction};
+use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item};
+use super::table::{meanings, of_property};
 use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
-use crate::runs::ProbeRecord;
+use crate::runs::{Answer, ProbeRecord};
 use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
 
 /// Relative deviation from which on numbers with few digits are another number.
 const GROSS: f64 = 1e-2;
 /// Most causes of one item.
 const MOST_CAUSES: usize = 3;
-/// m g in the micro-tests, which have no gravity: no factor is mistaken for it.
-const NO_WEIGHT: f64 = f64::INFINITY;
 
 /// The properties that are parameters of the task, or follow from the way in which results are written, by the items
 /// under which they are reported.
@@ -30,9 +29,13 @@ const PARAMETERS: [(&str, &[&str]); 7] = [
 const MOMENTS: [&str; 2] = ["overlap_lead", "damping_velocity_lag"];
 const MOMENTS_NAME: &str = "forces and positions of one moment";
 
+/// The item on the declared convention.
+pub(super) const DECLARATION: &str = "declared convention";
+
 /// What the micro-tests say of a code.
 pub(super) struct Micro {
     pub findings: Findings,
+    pub answers: Vec<Answer>,
     reaction: Item,
 }
 
@@ -40,8 +43,13 @@ impl Micro {
     /// Reads the answers of `code`; `None` if they are not those to today's questions.
     pub fn of(code: Code, record: ProbeRecord) -> Option<Self> {
         let reaction = action_and_reaction(&record);
+        let answers = record.answers.clone();
         let findings = read_probe(code, record).ok()?;
-        Some(Self { findings, reaction })
+        Some(Self {
+            findings,
+            answers,
+            reaction,
+        })
     }
 
     /// Whether a property is another one than declared.
@@ -83,12 +91,9 @@ impl Micro {
         }
         let mut causes: Vec<String> = Vec::new();
         for cause in wrong.iter().flat_map(|own| self.causes_of(own)) {
-            if !causes.contains(&cause) {
+            if causes.len() < MOST_CAUSES && !causes.contains(&cause) {
                 causes.push(cause);
             }
-        }
-        if causes.is_empty() {
-            causes.push(usual(name).to_owned());
         }
         let (expected, found) = (
             list(&wrong, |own| own.declared),
@@ -113,12 +118,11 @@ impl Micro {
 
     /// The convention that the manifest declares, beside the measured one.
     fn declaration(&self) -> Item {
-        const NAME: &str = "declared convention";
         let own = self.findings.findings.iter();
         let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
         let wrong: Vec<&Finding> = wrong.collect();
         if wrong.is_empty() {
-            return Item::passed(Grade::Consistency, NAME, "as measured");
+            return Item::passed(Grade::Consistency, DECLARATION, "as measured");
         }
         let measured = wrong.iter().filter_map(|own| Some((own, own.measured?)));
         let mut causes: Vec<String> = Vec::new();
@@ -129,7 +133,7 @@ impl Micro {
         }
         let expected = format!("{} (declared)", list(&wrong, |own| own.declared));
         let found = format!("{} (measured)", list(&wrong, |own| own.measured));
-        Item::failed(Grade::Consistency, NAME, expected, found, causes)
+        Item::failed(Grade::Consistency, DECLARATION, expected, found, causes)
     }
 
     /// How the manifest would say what was measured.
@@ -155,8 +159,9 @@ impl Micro {
         )
     }
 
-    /// The convention by which the stack is looked at: the measured one where the declared one is wrong.
-    pub fn convention(&self) -> ContactConvention {
+    /// The conventions that the code may have: the declared one, and last the one by which the stack is looked at, which is
+    /// the measured one where the declared one is wrong.
+    pub fn conventions(&self) -> Vec<ContactConvention> {
         let settled = self.findings.settled.convention;
         let mut findings = self.findings.findings.iter();
         let is_wrong = findings.any(|own| is_convention(own) && self.deviates(own));
@@ -165,8 +170,8 @@ impl Micro {
             ..self.findings.measured.convention
         };
         match is_wrong && measured.validate().is_ok() {
-            true => measured,
-            false => settled,
+            true => vec![settled, measured],
+            false => vec![settled],
         }
     }
 }
@@ -201,135 +206,18 @@ fn is_convention(own: &Finding) -> bool {
         && !parameters.any(|other| *other == ending)
 }
 
-/// Meanings of a radius, by the torque of a force.
-const RADII: [(f64, &str); 3] = [
-    (0.5, "1/2: a diameter of 1; the radius is 1"),
-    (2.0, "2: the diameter in place of the radius"),
-    (
-        -1.0,
-        "the torque has the wrong sign: on both bodies it is minus radius times the force along (-n_y, n_x)",
-    ),
-];
-/// Meanings of the reported force of the top wall, in units of that which it exerts.
-const WALL_FORCES: [(f64, &str); 2] = [
-    (-1.0, "its sign: it counts positive in compression"),
-    (2.0, "it counts twice"),
-];
-/// Meanings of the steps by which the overlap in a force is ahead of the positions of its row.
-const LEADS: [(f64, &str); 2] = [
-    (
-        -1.0,
-        "the force of a row is that of the step before: it is written before it is computed anew, or positions have \
-            moved on before they are written",
-    ),
-    (
-        1.0,
-        "the force of a row is that of the step after: positions are written before they move, forces after",
-    ),
-];
-
 /// What fits a parameter of that `name` that is not as asked.
 fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
-    let named = |candidates: &[(f64, &str)]| {
-        let candidates = candidates.iter();
-        let candidates = candidates.map(|(value, meaning)| (*value, (*meaning).to_owned()));
-        meanings(found, &candidates.collect::<Vec<_>>())
-    };
-    let none = |meaning: &str| vec![meaning.to_owned()];
-    let is_none = found.abs() < 1e-9;
     let texts = match (name, ending(name)) {
-        (_, "radius") if is_none => {
-            none("there is no torque: the tangential force acts at the centre")
-        }
-        (_, "radius") => named(&RADII),
-        (_, "reported_force") if is_none => {
-            none("it is 0: never computed, or written before it is")
-        }
-        (_, "reported_force") => named(&WALL_FORCES),
-        (_, "overlap_lead") => named(&LEADS),
         ("wall_friction", _) => vec![format!(
             "the top wall has a friction of {found:.6}, and must have none"
         )],
         (_, "friction") => of_friction(found, asked, asked),
-        (_, "normal_damping" | "tangential_damping") => damping(found, asked),
-        (_, "tangential_stiffness") => tangential_stiffness(found, asked),
-        (_, "mass" | "normal_stiffness") => of_factor(found / asked, NO_WEIGHT),
-        _ => Vec::new(),
+        (_, own) if own == "mass" || own.ends_with("_stiffness") || own.ends_with("_damping") => {
+            meanings(name, found, asked, asked, |_| f64::NAN)
+        }
+        (_, own) => of_property(own, found),
     };
-    texts
-        .into_iter()
-        .map(|text| format!("{name}: {text}"))
-        .collect()
-}
-
-/// In the micro-tests k_n/k_t = 1/k_t, since k_n = 1.
-fn tangential_stiffness(found: f64, asked: f64) -> Vec<String> {
-    let mut texts = of_factor(found / asked, NO_WEIGHT);
-    if is_about(found, 1.0) {
-        texts.push("k_n: the normal stiffness serves for both".to_owned());
-    }
-    if is_about(found, 1.0 / asked) {
-        texts.push("1/k_t: the ratio is turned round".to_owned());
-    }
-    texts
-}
-
-fn damping(found: f64, asked: f64) -> Vec<String> {
-    let factor = found / asked;
-    if factor.abs() < 1e-6 {
-        return vec!["there is no damping".to_owned()];
-    }
-    let own = |value: f64, meaning: &str| (value, meaning.to_owned());
-    let candidates = [
-        own(-1.0, "its sign: it must oppose the motion"),
-        own(
-            2.0,
-            "twice: 2 sqrt(k m) and a ratio, where the coefficient itself is given, or both bodies count",
-        ),
-        own(
-            0.5,
-            "half: two equal dashpots in series, or the reduced mass m/2 counts, or one body alone",
-        ),
-        own(
-            asked,
-            "its square: the given coefficient is multiplied by itself",
-        ),
-        own(
-            2f64.sqrt(),
-            "sqrt 2: the mass in its place is twice the reduced one",
-        ),
-        own(
-            0.5f64.sqrt(),
-            "1/sqrt 2: the reduced mass m/2 in place of m; the coefficient is given, not the ratio",
-        ),
-    ];
-    meanings(factor, &candidates)
-}
-
-fn usual(name: &str) -> &'static str {
-    match name {
-        "mass" => {
-            "usual causes: density times volume in place of mass 1; a force that is written, but not applied"
-        }
-        "normal stiffness" => {
-            "usual causes: a modulus in place of a stiffness; two materials in series; Hertz in place of Hooke"
-        }
-        "tangential stiffness" => {
-            "usual causes: the ratio k_n/k_t turned round; two materials in series"
-        }
-        "damping" => {
-            "usual causes: a damping ratio or a restitution in place of the coefficient; global damping besides"
-        }
-        "radius and torque" => {
-            "usual causes: a diameter in place of the radius; a torque with the wrong sign"
-        }
-        "friction" => "usual causes: an angle in place of the coefficient; a mean of two materials",
-        "force of the top wall" => {
-            "usual causes: its sign; the sum of several walls; a force of another step"
-        }
-        MOMENTS_NAME => {
-            "usual causes: rows written after the positions moved, with the forces of before"
-        }
-        _ => "",
-    }
+    let named = texts.into_iter().map(|text| format!("{name}: {text}"));
+    named.collect()
 }

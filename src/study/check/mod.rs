@@ -3,17 +3,17 @@
 //! A failure is explained by computing: the native DEM makes a mistake, or its series is written wrongly, and the result
 //! is compared with what the code has written.
 
-mod beside;
-mod computed;
+mod diagnosis;
+mod evidence;
 mod factor;
 mod information;
 mod micro;
-mod mistake;
-mod parameter;
 mod reaction;
 mod report;
-mod rows;
+mod search;
 mod stack;
+mod table;
+mod twin;
 mod unreadable;
 mod written;
 
@@ -22,13 +22,13 @@ pub use report::{Grade, Item, Outcome, Report};
 use super::convention::ask;
 use super::yield_force::planned_protocol;
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
+use crate::files::{Scratch, temporary};
 use crate::model::{Case, ContactConvention, Stack};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
 use std::io;
 use std::path::Path;
-use tempfile::TempDir;
 use unreadable::explained;
 
 /// The stack that is compressed: soft, so that every convention shows, and above the critical friction.
@@ -37,6 +37,8 @@ const STIFFNESS: f64 = 100.0;
 /// Wall speed in units of the displacement by which the speeds of measurements are measured: twice their fastest.
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
+/// The beginning of the name of the directory of a run that failed.
+const EVIDENCE: &str = "tristack-check-";
 
 /// The case by which a code with this `convention` is checked.
 ///
@@ -61,9 +63,7 @@ pub fn case(convention: ContactConvention) -> Case {
 /// # Errors
 /// If there is no place for the runs.
 pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Report> {
-    let place = tempfile::Builder::new()
-        .prefix("tristack-check-")
-        .tempdir()?;
+    let place = Scratch::new()?;
     let mut check = Check {
         code,
         context,
@@ -76,17 +76,22 @@ pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Repor
         completed.is_some() && report.failed_grade().is_none(),
         folder,
     );
-    if completed.is_none() {
-        keep(place, context);
+    if completed.is_none() && !context.interrupt.requested() {
+        keep(&place, &mut report)?;
     }
     Ok(report)
 }
 
-/// Keeps the directory of a run that failed, with its output.
-fn keep(place: TempDir, context: &RunContext) {
-    if !context.interrupt.requested() {
-        keep_evidence(place);
+/// Keeps the directory of a run that failed, with its output, and says where.
+fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
+    let kept = temporary(EVIDENCE.as_ref()).tempdir()?;
+    std::fs::rename(place.path(), kept.path())?;
+    let [from, to] = [place.path(), kept.path()].map(|path| path.display().to_string());
+    for item in &mut report.items {
+        item.found = item.found.replace(&from, &to);
     }
+    keep_evidence(kept);
+    Ok(())
 }
 
 fn next(is_green: bool, folder: &str) -> String {
@@ -110,22 +115,14 @@ impl Check<'_> {
         self.manifest();
         let installed = self.program()?;
         let case = case(self.code.convention());
-        let run = self.stack(installed.as_ref(), &case)?;
+        let Some(run) = self.stack(installed.as_ref(), &case) else {
+            self.explain_explosion(installed.as_ref());
+            return None;
+        };
         let micro = self.micro_tests(installed.as_ref())?;
-        let convention = micro
-            .as_ref()
-            .map_or_else(|| self.code.convention(), Micro::convention);
         self.report
             .items
-            .extend(stack::items(&run.series, &case, convention));
-        match &micro {
-            Some(micro) => self.report.items.extend(micro.items()),
-            None => self.add(Item::not_tested(
-                Grade::Consistency,
-                "micro-tests",
-                "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured",
-            )),
-        }
+            .extend(diagnosis::items(&run.series, &case, micro.as_ref()));
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,
@@ -255,6 +252,28 @@ impl Check<'_> {
         })
     }
 
+    /// Where the stack explodes, the micro-tests may still say why.
+    fn explain_explosion(&mut self, installed: &dyn InstalledCode) {
+        let unstable = |item: &Item| item.found.contains("finite number");
+        if !self.report.items.last().is_some_and(unstable)
+            || self.code.check_task(TaskKind::Motion).is_err()
+        {
+            return;
+        }
+        let directory = self.directory.join("motion");
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        let micro = ask(installed, &context)
+            .ok()
+            .and_then(|record| Micro::of(self.code, record));
+        let causes = micro.map_or_else(Vec::new, |micro| diagnosis::of_motions(&micro));
+        if let Some(item) = self.report.items.last_mut().filter(|_| !causes.is_empty()) {
+            item.causes = causes;
+        }
+    }
+
     fn run(&self, installed: &dyn InstalledCode, case: &Case, name: &str) -> Option<Run> {
         self.try_run(installed, case, name).ok()
     }
@@ -286,4 +305,33 @@ impl Check<'_> {
             }
         }
     }
+}
+
+/// The answers of the native DEM with this `convention`.
+#[cfg(test)]
+fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
+    let mut answers = Vec::new();
+    let declared = crate::code::Declaration {
+        convention,
+        ..Code::NATIVE.declaration()
+    };
+    let run = |tests: &[crate::model::ContactTest]| {
+        let motions: Vec<_> = tests
+            .iter()
+            .map(|test| crate::dem::run_contact_test(test).expect("it is finite"))
+            .collect();
+        answers.extend(
+            tests
+                .iter()
+                .zip(&motions)
+                .map(|(test, motion)| crate::runs::Answer {
+                    test: *test,
+                    input_hash: String::new(),
+                    motion: motion.clone(),
+                }),
+        );
+        Ok::<_, ()>(motions)
+    };
+    super::convention::probe(&declared, run).expect("the native DEM answers");
+    answers
 }

@@ -1,370 +1,544 @@
-//! Mistakes in what is written: the code computes rightly, and some columns are something else.
+//! Mistakes in what is written: the code computes rightly, and a column is something else that its twin knows.
 
-use super::beside::Beside;
-use super::factor::{is_about, of_factor};
-use super::rows::{
-    ANGLES, FLOOR, FORCES, HEIGHTS, LENGTHS, MIRRORED, NORMALS, Row, SHEARS, WALL, WIDTHS, at_time,
-    index, indices, name, peak,
-};
-use crate::model::Case;
+use super::evidence::{Column, Evidence, ROUNDING, of_contact};
+use super::search::MOST_CAUSES;
+use super::table::{TABLE, meanings};
+use super::twin::{CONTACTS, FLOOR, OF_BODY, PER_CONTACT, Row, WALL, WIDTH};
 
-/// Most relations that together count as an explanation.
-const MOST_RELATIONS: usize = 3;
-
-/// Columns that are likely to share a mistake, with their names in messages.
-const GROUPS: [(&str, &[&str]); 9] = [
-    ("the lengths", &LENGTHS),
-    ("the forces", &FORCES),
-    ("the forces of the floor", &FLOOR),
-    ("the normal forces of the floor", &NORMALS),
-    ("the tangential forces of the floor", &SHEARS),
-    ("the heights", &HEIGHTS),
-    ("the horizontal positions", &WIDTHS),
-    ("the angles", &ANGLES),
-    ("the wall force", &WALL),
+/// The columns that change their sign in a mirror.
+const MIRRORED: [&str; 8] = [
+    "x1", "theta1", "x2", "theta2", "x3", "theta3", "floor_t2", "floor_t3",
 ];
+/// Orders in which the bodies may be written.
+const ORDERS: [[usize; 3]; 5] = [[0, 2, 1], [1, 0, 2], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
 
-/// What explains the columns that deviate, if mistakes in what is written explain them all.
-pub(super) fn explanations(beside: &Beside, case: &Case) -> Vec<String> {
-    let mut open = beside.deviating();
-    if let Some(whole) = mirrored(beside, &open).or_else(|| exchanged_bodies(beside)) {
+/// A stack whose rows are compared with those of its twin, which are there for every step.
+struct Written<'a> {
+    own: &'a Evidence,
+    dense: Vec<Row>,
+    weight: f64,
+    time_step: f64,
+    /// Steps before and between the rows.
+    every: u64,
+}
+
+/// The columns that are not as expected, and what explains them if mistakes in what is written explain them all.
+pub(super) fn explanations(own: &Evidence) -> Vec<String> {
+    let run = own.twin.run;
+    let steps: Vec<u64> = own.found.iter().map(|(step, _)| *step).collect();
+    let every = steps
+        .windows(2)
+        .map(|two| two[1] - two[0])
+        .min()
+        .unwrap_or(1);
+    let dense = own.dense();
+    let written = Written {
+        own,
+        dense,
+        weight: run.gravity,
+        time_step: run.time_step,
+        every,
+    };
+    if written
+        .dense
+        .iter()
+        .flatten()
+        .any(|number| !number.is_finite())
+    {
+        return Vec::new();
+    }
+    if let Some(whole) = written.reordered() {
         return vec![whole];
     }
-    let mut found = Vec::new();
-    let single = open.clone();
-    let single = single
-        .iter()
-        .map(|&column| (format!("`{}`", name(column)), vec![column]));
-    let groups = GROUPS
-        .iter()
-        .map(|(what, names)| (what.to_string(), indices(names)));
-    for (what, group) in groups.chain(single) {
-        let group: Vec<usize> = group
-            .into_iter()
-            .filter(|column| beside.columns.contains(column))
-            .collect();
-        // A column of zeros is right with every factor.
-        let moves = |column: &&usize| beside.expected.iter().any(|row| row[**column].abs() > 1e-9);
-        let moving: Vec<usize> = group.iter().filter(moves).copied().collect();
-        if !moving.iter().any(|column| open.contains(column)) {
-            continue;
-        }
-        let group = Group {
-            beside,
-            case,
-            what: &what,
-            columns: &group,
+    let off = (0..own.columns.len())
+        .filter(|&column| !written.explains(column, &|step| written.right(column, step)));
+    let mut told: Vec<(String, Vec<&str>)> = Vec::new();
+    for column in off {
+        let Some(relation) = written.relation(column) else {
+            return Vec::new();
         };
-        if let Some(relation) = group.relation() {
-            open.retain(|column| !group.columns.contains(column));
-            found.push(relation);
+        let name = own.columns[column].name;
+        match told.iter_mut().find(|(known, _)| *known == relation) {
+            Some((_, names)) => names.push(name),
+            None => told.push((relation, vec![name])),
         }
     }
-    match open.is_empty() && found.len() <= MOST_RELATIONS {
-        true => found,
-        false => exchanged_columns(beside, &beside.deviating())
-            .into_iter()
-            .collect(),
+    if told.len() > MOST_CAUSES {
+        told.clear();
     }
+    told.into_iter()
+        .map(|(relation, names)| format!("{} {relation}", written.subject(&names)))
+        .collect()
 }
 
-/// Whether the stack is written as a mirror shows it.
-fn mirrored(beside: &Beside, deviating: &[usize]) -> Option<String> {
-    let mirrored = beside.expected.iter().map(|row| {
-        let mut row = *row;
-        indices(&MIRRORED)
-            .into_iter()
-            .for_each(|column| row[column] = -row[column]);
-        row
-    });
-    let mirrored: Vec<Row> = mirrored.collect();
-    let explains = !deviating.is_empty() && beside.explains(&mirrored, &beside.columns);
-    explains.then(|| {
-        let text = "left and right are exchanged: cylinder 2 is the right one, x points to the right, and angles count \
-                    counter-clockwise";
-        text.to_owned()
-    })
-}
-
-/// Whether the bodies are written in another order.
-fn exchanged_bodies(beside: &Beside) -> Option<String> {
-    const ORDERS: [[usize; 3]; 5] = [[0, 2, 1], [1, 0, 2], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
-    let bodies = ["x1", "x2", "x3"].map(index);
-    let order = ORDERS.into_iter().find(|order| {
-        let reordered: Vec<Row> = beside
-            .expected
-            .iter()
-            .map(|row| {
-                let mut other = *row;
-                for (body, from) in order.iter().enumerate() {
-                    let (to, from) = (bodies[body], bodies[*from]);
-                    other[to..to + 3].copy_from_slice(&row[from..from + 3]);
-                }
-                other
-            })
-            .collect();
-        beside.explains(&reordered, &beside.columns)
-    })?;
-    Some(format!(
-        "the cylinders are written in another order: where 1 (top), 2 (right), 3 (left) must stand, there are {}, {}, {}",
-        order[0] + 1,
-        order[1] + 1,
-        order[2] + 1
-    ))
-}
-
-/// Whether two columns, on one side or on both, stand in place of each other.
-fn exchanged_columns(beside: &Beside, deviating: &[usize]) -> Option<String> {
-    let both: [(&[&str], &[&str]); 3] = [
-        (&NORMALS, &SHEARS),
-        (&WIDTHS, &HEIGHTS),
-        (&["floor_n2", "floor_t2"], &["floor_n3", "floor_t3"]),
+/// A number of the twin in words.
+fn title(place: usize) -> String {
+    const NUMBERS: [&str; PER_CONTACT] = [
+        "normal force",
+        "tangential force",
+        "spring's part (without the damping) of the normal force",
+        "overlap",
+        "length of the tangential spring",
     ];
-    let both = both
-        .into_iter()
-        .map(|(left, right)| (indices(left), indices(right)));
-    let pairs = deviating
-        .iter()
-        .flat_map(|&left| deviating.iter().map(move |&right| (left, right)));
-    let pairs = pairs
-        .filter(|(left, right)| left < right)
-        .map(|(left, right)| (vec![left], vec![right]));
-    let mut all = both.chain(pairs);
-    let (left, right) = all.find(|(left, right)| {
-        let exchanged: Vec<Row> = beside
-            .expected
-            .iter()
-            .map(|row| {
-                let mut other = *row;
-                left.iter()
-                    .zip(right)
-                    .for_each(|(&left, &right)| other.swap(left, right));
-                other
-            })
-            .collect();
-        beside.explains(&exchanged, &beside.columns)
-    })?;
-    let names = |columns: &[usize]| {
-        columns
-            .iter()
-            .map(|&column| name(column))
-            .collect::<Vec<_>>()
-            .join(", ")
+    const QUANTITIES: [&str; 9] = [
+        "x",
+        "y",
+        "angle",
+        "horizontal velocity",
+        "vertical velocity",
+        "angular velocity",
+        "horizontal net force",
+        "vertical net force (the sum of contacts and weight)",
+        "net torque",
+    ];
+    let Some(contact) = place.checked_sub(3 * OF_BODY.len()) else {
+        return format!(
+            "the {} of cylinder {}",
+            QUANTITIES[place % OF_BODY.len()],
+            place / OF_BODY.len() + 1
+        );
     };
-    Some(format!(
-        "{} and {} are exchanged",
-        names(&left),
-        names(&right)
-    ))
-}
-
-/// Columns that may share a mistake.
-struct Group<'a> {
-    beside: &'a Beside<'a>,
-    case: &'a Case,
-    what: &'a str,
-    columns: &'a [usize],
-}
-
-impl Group<'_> {
-    /// The relation between found and expected values, in words.
-    fn relation(&self) -> Option<String> {
-        self.factor()
-            .or_else(|| self.since_start())
-            .or_else(|| self.offset())
-            .or_else(|| self.lag())
-            .or_else(|| self.magnitude())
-    }
-
-    fn expected(&self, row: usize, column: usize) -> f64 {
-        self.beside.expected[row][column]
-    }
-
-    /// Change of a column since the wall began to move.
-    fn change(&self, row: usize, column: usize) -> f64 {
-        self.expected(row, column) - self.expected(0, column)
-    }
-
-    /// Whether these values explain the columns.
-    fn explains(&self, value: impl Fn(usize, usize) -> f64) -> bool {
-        let rows = 0..self.beside.expected.len();
-        let rows: Vec<Row> = rows
-            .map(|row| std::array::from_fn(|column| value(row, column)))
-            .collect();
-        self.beside.explains(&rows, self.columns)
-    }
-
-    /// Rows up to the peak, and the columns.
-    fn places(&self) -> impl Iterator<Item = (usize, usize)> {
-        let rows = 0..=peak(self.beside.expected);
-        rows.flat_map(|row| self.columns.iter().map(move |&column| (row, column)))
-    }
-
-    /// The factor of `by` that is nearest to `of`.
-    fn slope(&self, by: impl Fn(usize, usize) -> f64, of: impl Fn(usize, usize) -> f64) -> f64 {
-        let sum = |value: &dyn Fn(usize, usize) -> f64| -> f64 {
-            self.places().map(|(row, column)| value(row, column)).sum()
-        };
-        let square = sum(&|row, column| by(row, column).powi(2));
-        sum(&|row, column| by(row, column) * of(row, column)) / square.max(f64::MIN_POSITIVE)
-    }
-
-    fn found(&self, row: usize, column: usize) -> f64 {
-        self.beside.found[row][column]
-    }
-
-    fn factor(&self) -> Option<String> {
-        let factor = self.slope(|r, c| self.expected(r, c), |r, c| self.found(r, c));
-        let explains = self.explains(|row, column| factor * self.expected(row, column));
-        let weight = self.case.stack.epsilon();
-        explains.then(|| with_factor(self.what, factor, weight, self.columns))
-    }
-
-    fn since_start(&self) -> Option<String> {
-        let what = self.what;
-        if self.explains(|row, column| self.change(row, column)) {
-            return Some(format!(
-                "{what} count from the beginning of the compression, and must count from the floor, \
-                 from the middle, and from the stack before gravity rose"
-            ));
+    let (contact, number) = (contact / PER_CONTACT, NUMBERS[contact % PER_CONTACT]);
+    let between = match CONTACTS[contact] {
+        (one, Some(two)) => format!("between cylinders {} and {}", two + 1, one + 1),
+        (one, None) if WALL.contains(&contact) => {
+            format!("between the top wall and cylinder {}", one + 1)
         }
-        let factor = self.slope(|r, c| self.change(r, c), |r, c| self.found(r, c));
-        let explains = self.explains(|row, column| factor * self.change(row, column));
-        explains.then(|| {
-            format!(
-                "{what}: {factor:.6} times the change since the beginning of the compression stands in \
-                 place of the value"
-            )
+        (one, None) => format!("between the floor and cylinder {}", one + 1),
+    };
+    format!("the {number} {between}")
+}
+
+impl Written<'_> {
+    /// Whether some values explain a column, given by step.
+    fn explains(&self, column: usize, value: &dyn Fn(f64) -> f64) -> bool {
+        let scale = self.own.columns[column].scale;
+        let mut rows = self.own.found.iter();
+        rows.all(|(step, values)| {
+            (values[column] - value(*step as f64)).abs() <= self.own.same * scale
         })
     }
 
-    fn offset(&self) -> Option<String> {
-        let apart = self
-            .places()
-            .map(|(r, c)| self.found(r, c) - self.expected(r, c));
-        let offset = apart.sum::<f64>() / self.places().count() as f64;
-        let explains = self.explains(|row, column| self.expected(row, column) + offset);
-        explains.then(|| with_offset(self.what, offset, self.case.stack.epsilon()))
+    fn right(&self, column: usize, step: f64) -> f64 {
+        self.at(step, |row| self.own.columns[column].of(row))
     }
 
-    fn lag(&self) -> Option<String> {
-        let (time, step) = (index("time"), self.case.protocol.time_step);
-        let rows = self.beside.expected.iter();
-        let late = |lag: f64| -> Vec<Row> {
-            let moments = rows.clone().map(|row| row[time] - lag * step);
-            moments
-                .map(|moment| at_time(self.beside.dense, moment))
-                .collect()
-        };
-        let [before, after] = [late(0.5), late(-0.5)];
-        let lag = self.slope(
-            |row, column| before[row][column] - after[row][column],
-            |row, column| self.found(row, column) - self.expected(row, column),
+    /// A number at a step, which may lie between two of them; before the first one the stack is at rest.
+    fn at(&self, step: f64, value: impl Fn(&Row) -> f64) -> f64 {
+        let last = self.dense.len() - 1;
+        let place = step.clamp(0.0, last as f64);
+        let before = (place as usize).min(last.saturating_sub(1));
+        let share = place - before as f64;
+        let (one, two) = (
+            value(&self.dense[before]),
+            value(&self.dense[(before + 1).min(last)]),
         );
-        let mut lags = [lag.round(), 0.5 * (2.0 * lag).round(), lag].into_iter();
-        let lag = lags.find(|&lag| self.beside.explains(&late(lag), self.columns))?;
-        Some(with_lag(self.what, lag, self.case))
+        one + share * (two - one)
     }
 
-    fn magnitude(&self) -> Option<String> {
-        let explains = self.explains(|row, column| self.expected(row, column).abs());
-        explains.then(|| format!("{} are written without their signs", self.what))
-    }
-}
-
-fn with_factor(what: &str, factor: f64, weight: f64, group: &[usize]) -> String {
-    let text = format!("{what}: {factor:.6} times what must stand there");
-    if is_about(factor, -1.0) {
-        let is = |names: &[&str]| group.iter().all(|column| indices(names).contains(column));
-        let sign = if is(&WALL) {
-            "the force on the wall in place of that of the wall on cylinder 1, which counts positive in compression"
-        } else if is(&ANGLES) {
-            "they count clockwise, and must count counter-clockwise; or those of cylinders 2 and 3 are exchanged"
-        } else if is(&FLOOR) {
-            "the force on the floor in place of that of the floor on the cylinder (normal upwards, tangential along +x); \
-             or those of cylinders 2 and 3 are exchanged"
-        } else if is(&WIDTHS) {
-            "x points to the left, or those of cylinders 2 and 3 are exchanged"
-        } else {
-            "the sign is wrong"
+    /// Whether the columns are those of other bodies, or of a mirror.
+    fn reordered(&self) -> Option<String> {
+        let columns = 0..self.own.columns.len();
+        let explains = |of: &dyn Fn(&Column) -> Column| {
+            let all = columns.clone().all(|column| {
+                let other = of(&self.own.columns[column]);
+                self.explains(column, &|step| self.at(step, |row| other.of(row)))
+            });
+            all && self.own.is_off()
         };
-        return format!("{text}: {sign}");
-    }
-    if factor.abs() < 1e-9 {
-        return format!("{what} are all 0: they are written before they are computed, or never");
-    }
-    let meanings = of_factor(factor, weight);
-    match (meanings.is_empty(), factor < 0.0) {
-        (false, _) => format!("{text}: {}", meanings.join("; or ")),
-        (true, true) => {
-            let meanings = of_factor(-factor, weight);
-            let meanings = if meanings.is_empty() {
-                "and another unit".to_owned()
+        let mirror = |column: &Column| {
+            let sign = if MIRRORED.contains(&column.name) {
+                -1.0
             } else {
-                meanings.join("; or ")
+                1.0
             };
-            format!("{text}: the sign is wrong, {meanings}")
+            let parts = column
+                .parts
+                .iter()
+                .map(|(place, own)| (*place, sign * own))
+                .collect();
+            Column {
+                parts,
+                ..column.clone()
+            }
+        };
+        if explains(&mirror) {
+            let text = "left and right are exchanged: cylinder 2 is the right one, x points to the right, and angles count \
+                        counter-clockwise";
+            return Some(text.to_owned());
         }
-        (true, false) => format!("{text}: another unit, or a factor too many"),
+        let order = ORDERS.into_iter().find(|order| {
+            explains(&|column| {
+                let bodies = 3 * OF_BODY.len();
+                let other = |place: usize| match place < bodies {
+                    true => order[place / OF_BODY.len()] * OF_BODY.len() + place % OF_BODY.len(),
+                    false => place,
+                };
+                let parts = column
+                    .parts
+                    .iter()
+                    .map(|(place, own)| (other(*place), *own))
+                    .collect();
+                Column {
+                    parts,
+                    ..column.clone()
+                }
+            })
+        })?;
+        let [first, second, third] = order.map(|body| body + 1);
+        Some(format!(
+            "the cylinders are written in another order: where 1 (top), 2 (right), 3 (left) must stand, there are {first}, \
+             {second}, {third}"
+        ))
     }
-}
 
-fn with_offset(what: &str, offset: f64, weight: f64) -> String {
-    let text = format!("{what} are off by {offset:+.6} throughout");
-    let own = |value: f64, meaning: &str| (value, meaning.to_owned());
-    let mut candidates = vec![
-        own(
+    /// What stands in a column, in words.
+    fn relation(&self, column: usize) -> Option<String> {
+        let own = |step: f64| self.right(column, step);
+        let zero = |_: f64| 0.0;
+        let tests: [&dyn Fn() -> Option<String>; 7] = [
+            &|| {
+                self.explains(column, &zero)
+                    .then(|| "all 0: written before they are computed, or never".to_owned())
+            },
+            &|| Some(self.with_factor(column, self.factor(column, &own)?)),
+            &|| Some(self.with_offset(self.offset(column)?)),
+            &|| self.late(column),
+            &|| self.transformed(column),
+            &|| self.another(column),
+            &|| {
+                self.with_another(column)
+                    .filter(|_| self.own.same <= ROUNDING)
+            },
+        ];
+        tests.iter().find_map(|test| test())
+    }
+
+    /// The factor between a column and some values, if that is all.
+    fn factor(&self, column: usize, value: &dyn Fn(f64) -> f64) -> Option<f64> {
+        let mut sums = [0.0; 2];
+        for (step, values) in &self.own.found {
+            let by = value(*step as f64);
+            sums[0] += by * values[column];
+            sums[1] += by * by;
+        }
+        let factor = sums[0] / sums[1];
+        (sums[1] > 0.0 && self.explains(column, &|step| factor * value(step))).then_some(factor)
+    }
+
+    fn offset(&self, column: usize) -> Option<f64> {
+        let rows = self.own.found.iter();
+        let sum: f64 = rows
+            .map(|(step, values)| values[column] - self.right(column, *step as f64))
+            .sum();
+        let offset = sum / self.own.found.len() as f64;
+        self.explains(column, &|step| self.right(column, step) + offset)
+            .then_some(offset)
+    }
+
+    /// The column belongs to another step.
+    fn late(&self, column: usize) -> Option<String> {
+        let every = self.every as f64;
+        let lags = [
             1.0,
-            "one radius: heights must be those of the centres above the floor, not of the uppermost points, and \
-                  the floor is y = 0",
-        ),
-        own(
             -1.0,
-            "one radius: heights must be those of the centres above the floor, not of the lowest points",
-        ),
-        own(2.0, "a diameter: the origin lies elsewhere"),
-    ];
-    for (count, whose) in [
-        (1.0, "one cylinder"),
-        (2.0, "two cylinders"),
-        (3.0, "the whole stack"),
-        (0.5, "half a cylinder"),
-        (1.5, "half the stack"),
-    ] {
-        candidates.push((
-            count * weight,
-            format!("it includes the weight of {whose}; it must be the contact force alone"),
-        ));
-        candidates.push((
-            -count * weight,
-            format!("the weight of {whose} is taken off; it must be the contact force alone"),
-        ));
+            0.5,
+            -0.5,
+            2.0,
+            -2.0,
+            every,
+            -every,
+            0.5 * every,
+            0.5 * (every - 1.0),
+        ];
+        let lag = lags
+            .into_iter()
+            .find(|lag| self.explains(column, &|step| self.right(column, step - lag)))?;
+        let when = if lag > 0.0 { "before it" } else { "after it" };
+        let text = format!("of a row belong to a moment {:.3} steps {when}", lag.abs());
+        Some(match lag {
+            1.0 => format!(
+                "{text}: they are kept from the step before, or the positions have moved on before the row is written"
+            ),
+            -1.0 => format!(
+                "{text}: the row is written after the step, and labelled with the step before"
+            ),
+            _ if lag.abs() == every => {
+                format!("{text}, the distance of two rows: they stand in another row")
+            }
+            _ => format!("{text}: all values of a row must belong to the same step"),
+        })
     }
-    let meanings = super::factor::meanings(offset, &candidates);
-    match meanings.is_empty() {
-        true => format!(
-            "{text}: the origin lies elsewhere (the floor is y = 0, x = 0 in the middle), or a constant is added"
-        ),
-        false => format!("{text}: {}", meanings.join("; or ")),
-    }
-}
 
-fn with_lag(what: &str, steps: f64, case: &Case) -> String {
-    let schedule = case.protocol.schedule();
-    let text = format!(
-        "{what} of a row belong to a moment {:.3} steps {}",
-        steps.abs(),
-        if steps > 0.0 { "before it" } else { "after it" }
-    );
-    if is_about(steps, 1.0) {
-        format!(
-            "{text}: they are kept from the step before, or the positions have moved on before the row is written"
-        )
-    } else if is_about(steps, -1.0) {
-        format!("{text}: the row is written after the step, and labelled with the step before")
-    } else if is_about(2.0 * steps, schedule.fine_every as f64) {
-        format!("{text}: they are averages over the interval between rows; a row is one moment")
-    } else {
-        format!("{text}: all values of a row must belong to the same step")
+    /// Changes, sums, means, absolute values of the right column.
+    fn transformed(&self, column: usize) -> Option<String> {
+        let steps: Vec<f64> = self
+            .own
+            .found
+            .iter()
+            .map(|(step, _)| *step as f64)
+            .collect();
+        let row = |step: f64| steps.partition_point(|own| *own < step);
+        let before = |step: f64| row(step).checked_sub(1).map(|row| steps[row]);
+        let own = |step: f64| self.right(column, step);
+        let start = own(0.0);
+        let sum = |step: f64| {
+            steps[..=row(step)]
+                .iter()
+                .map(|step| own(*step))
+                .sum::<f64>()
+        };
+        let whole = |step: f64| (0..=step as u64).map(|step| own(step as f64)).sum::<f64>();
+        let mean = |step: f64| {
+            let from = before(step).map_or(step, |before| before + 1.0) as u64;
+            (from..=step as u64)
+                .map(|step| own(step as f64))
+                .sum::<f64>()
+                / (step as u64 + 1 - from) as f64
+        };
+        let turned = 2.0 * std::f64::consts::PI;
+        let last = steps.len() - 1;
+        let values: [(&str, &dyn Fn(f64) -> f64); 16] = [
+            (
+                "are written without their signs: their absolute values",
+                &|step| own(step).abs(),
+            ),
+            (
+                "are changes since the beginning of the compression, in place of values",
+                &|step| own(step) - start,
+            ),
+            (
+                "are negative changes since the beginning of the compression, in place of values",
+                &|step| start - own(step),
+            ),
+            (
+                "are changes since the row before, in place of values",
+                &|step| own(step) - before(step).map_or(0.0, own),
+            ),
+            (
+                "are changes since the row before, which are 0 in the first one",
+                &|step| own(step) - before(step).map_or(own(step), own),
+            ),
+            ("are changes since the step before", &|step| {
+                own(step) - own(step - 1.0)
+            }),
+            ("are sums over all rows so far (cumulative)", &sum),
+            ("are sums over all steps so far (cumulative)", &whole),
+            (
+                "are sums over all steps so far times the time step: an integral over time",
+                &|step| whole(step) * self.time_step,
+            ),
+            (
+                "are averages over the steps since the row before; a row is one moment",
+                &mean,
+            ),
+            ("are means of this step and the one before", &|step| {
+                0.5 * (own(step) + own(step - 1.0))
+            }),
+            ("are the largest values so far", &|step| {
+                (0..=step as u64)
+                    .map(|step| own(step as f64))
+                    .fold(f64::NEG_INFINITY, f64::max)
+            }),
+            (
+                "are wrapped into 0 to 2 pi (one turn), and must be negative where they count clockwise",
+                &|step| own(step).rem_euclid(turned),
+            ),
+            ("stand in the reverse order of the rows", &|step| {
+                own(steps[last - row(step)])
+            }),
+            ("are those of the row before", &|step| {
+                before(step).map_or(0.0, own)
+            }),
+            (
+                "are those of the first row throughout: written once, or kept from the start",
+                &|_| start,
+            ),
+        ];
+        let known = values.into_iter().find_map(|(text, value)| {
+            let factor = self.factor(column, value).filter(|factor| *factor != 0.0)?;
+            Some(if (factor - 1.0).abs() < 1e-6 {
+                text.to_owned()
+            } else {
+                format!("{text}, times {factor:.6}")
+            })
+        });
+        let squared = || {
+            let factor = self.factor(column, &|step| own(step).powi(2))?;
+            Some(format!("are squares, times {factor:.6}"))
+        };
+        let rounded = || {
+            self.explains(column, &|step| own(step).round())
+                .then(|| "are rounded to whole numbers".to_owned())
+        };
+        known.or_else(squared).or_else(rounded)
+    }
+
+    /// Another number of the twin, or the sum of two.
+    fn another(&self, column: usize) -> Option<String> {
+        let known = self
+            .own
+            .columns
+            .iter()
+            .map(|other| (format!("`{}`", other.name), other.parts.clone()));
+        let all = (0..WIDTH).map(|place| (title(place), vec![(place, 1.0)]));
+        let forces = |number| {
+            [1, 2]
+                .map(|body| (of_contact(FLOOR.start + body, number), 1.0))
+                .to_vec()
+        };
+        let sums = [0, 1].map(|number| {
+            let name = ["normal", "tangential"][number];
+            (
+                format!("the sum of the {name} forces of the floor on both cylinders"),
+                forces(number),
+            )
+        });
+        let all: Vec<(String, Vec<(usize, f64)>)> = known.chain(all).chain(sums).collect();
+        let simple = |factor: f64| [1.0, -1.0].iter().any(|own| (factor - own).abs() < 1e-6);
+        let fitting = all.iter().filter_map(|(name, parts)| {
+            let other = Column {
+                parts: parts.clone(),
+                ..self.own.columns[column].clone()
+            };
+            Some((
+                name,
+                self.factor(column, &|step| self.at(step, |row| other.of(row)))?,
+            ))
+        });
+        let mut fitting: Vec<(&String, f64)> = fitting.collect();
+        fitting.sort_by_key(|(_, factor)| !simple(*factor));
+        let (name, factor) = fitting.first()?;
+        let meaning = self.meaning(*factor);
+        Some(match simple(*factor) {
+            true if *factor > 0.0 => {
+                format!("what stands there is {name}: exchanged, or the wrong variable")
+            }
+            true => format!("what stands there is {name} with the opposite sign"),
+            false => format!("what stands there is {factor:.6} times {name}{meaning}"),
+        })
+    }
+
+    /// The right value and a part of another number.
+    fn with_another(&self, column: usize) -> Option<String> {
+        let scale = self.own.columns[column].scale;
+        let found = (0..WIDTH).find_map(|place| {
+            let mut sums = [0.0; 2];
+            for (step, values) in &self.own.found {
+                let by = self.at(*step as f64, |row| row[place]);
+                sums[0] += by * (values[column] - self.right(column, *step as f64));
+                sums[1] += by * by;
+            }
+            let factor = sums[0] / sums[1];
+            let told =
+                |step: f64| self.right(column, step) + factor * self.at(step, |row| row[place]);
+            (sums[1] > 1e-12 * scale * scale && self.explains(column, &told))
+                .then_some((place, factor))
+        })?;
+        let (place, factor) = found;
+        let meaning = self.meaning(factor);
+        Some(format!(
+            "hold {factor:+.6} times {} besides{meaning}",
+            title(place)
+        ))
+    }
+
+    fn meaning(&self, factor: f64) -> String {
+        let meanings = meanings("", factor, 1.0, 1.0, |name| match name {
+            "gravity" => self.weight,
+            "time_step" => self.time_step,
+            _ => f64::NAN,
+        });
+        meanings
+            .first()
+            .map_or_else(String::new, |meaning| format!(" ({meaning})"))
+    }
+
+    fn with_factor(&self, column: usize, factor: f64) -> String {
+        let text = format!("{factor:.6} times what must stand there");
+        if (factor + 1.0).abs() > 1e-4 {
+            return format!("{text}{}", self.meaning(factor));
+        }
+        let sign = match self.own.columns[column].name.as_bytes()[0] {
+            b'w' => {
+                "the force on the wall in place of that of the wall on cylinder 1, which counts positive in compression"
+            }
+            b't' => {
+                "they count clockwise, and must count counter-clockwise; or those of cylinders 2 and 3 are exchanged"
+            }
+            b'f' => {
+                "the force on the floor in place of that of the floor on the cylinder (normal upwards, tangential along \
+                     +x); or those of cylinders 2 and 3 are exchanged"
+            }
+            b'x' => "x points to the left, or those of cylinders 2 and 3 are exchanged",
+            _ => "the sign is wrong",
+        };
+        format!("{text}: {sign}")
+    }
+
+    fn with_offset(&self, offset: f64) -> String {
+        const RADIUS: &str =
+            "the radius: heights must be those of the centres above the floor, not of the";
+        let weights = [
+            (1.0, "one cylinder"),
+            (2.0, "two cylinders"),
+            (3.0, "the whole stack"),
+            (0.5, "half a cylinder"),
+            (1.5, "half the stack"),
+        ];
+        let text = format!("off by {offset:+.6} throughout");
+        let is = |value: f64| (offset - value).abs() <= 1e-4 * value.abs();
+        if is(1.0) || is(-1.0) {
+            let points = if offset > 0.0 { "uppermost" } else { "lowest" };
+            return format!("{text}: {RADIUS} {points} points");
+        }
+        let weight = weights
+            .into_iter()
+            .find(|(count, _)| is(count * self.weight) || is(-count * self.weight));
+        match weight {
+            Some((_, whose)) if offset > 0.0 => {
+                format!(
+                    "{text}: it includes the weight of {whose}; it must be the contact force alone"
+                )
+            }
+            Some((_, whose)) => format!(
+                "{text}: the weight of {whose} is taken off; it must be the contact force alone"
+            ),
+            None => format!(
+                "{text}: the origin lies elsewhere (the floor is y = 0, x = 0 in the middle), or a constant is added"
+            ),
+        }
+    }
+
+    /// The columns in words.
+    fn subject(&self, names: &[&str]) -> String {
+        let there = |name: &&str| self.own.columns.iter().any(|column| column.name == *name);
+        let moves = |name: &&str| {
+            let place = self
+                .own
+                .columns
+                .iter()
+                .position(|column| column.name == *name);
+            place.is_some_and(|column| {
+                self.own
+                    .found
+                    .iter()
+                    .any(|(_, values)| values[column].abs() > 1e-9)
+            })
+        };
+        // A column of zeros is right with every factor.
+        let group = TABLE.group.iter().find(|group| {
+            let own = group.columns.iter().map(String::as_str);
+            let group: Vec<&str> = own.filter(|name| there(name) && moves(name)).collect();
+            group == names
+        });
+        let list = || {
+            names
+                .iter()
+                .map(|name| format!("`{name}`"))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        group.map_or_else(|| format!("{}:", list()), |group| format!("{}:", group.is))
     }
 }

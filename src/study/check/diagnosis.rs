@@ -1,0 +1,169 @@
+//! The items on a stack and on micro-tests, and the one mistake that explains what failed among them.
+
+use super::evidence::{Evidence, ROUNDING, SAME};
+use super::micro::{self, Micro};
+use super::report::{Grade, Item, Outcome};
+use super::stack::{self, at_first_sight};
+use super::table::usual;
+use super::{search, written};
+use crate::model::{Case, ContactConvention};
+use crate::series::Series;
+
+/// Largest distance of motions that have the same law and integrator: rounding, which single contacts do not amplify.
+const SAME_MOTION: f64 = 1e-9;
+/// So many micro-tests agree to the last digits only where the integrator is that of the twin.
+const MANY_EXACT: usize = 5;
+
+/// The items on the `series` of `case`, and on the micro-tests where there are any; what failed is explained by the
+/// mistake that gives all of it, else by itself, else by what is usual.
+pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<Item> {
+    let of_micro = micro.map_or_else(
+        || {
+            vec![Item::not_tested(
+                Grade::Consistency,
+                "micro-tests",
+                "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured",
+            )]
+        },
+        Micro::items,
+    );
+    let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
+    let convention = conventions.last().copied().unwrap_or(case.convention);
+    let known = Known::of(series, case, micro, convention);
+    let mut items = stack::items(series, case, &known.stacks);
+    items.extend(of_micro);
+    items.extend(known.item());
+    if !items.iter().any(|item| item.outcome == Outcome::Failed) {
+        return items;
+    }
+    let found = conventions
+        .into_iter()
+        .enumerate()
+        .find_map(|(place, convention)| {
+            let causes = Known::of(series, case, micro, convention).causes();
+            (!causes.is_empty()).then_some((place, causes))
+        });
+    let (place, causes) = found.unwrap_or_default();
+    let plain = at_first_sight(series);
+    for item in items
+        .iter_mut()
+        .filter(|item| item.outcome == Outcome::Failed)
+    {
+        // Beside a mistake the declaration may be right, or wrong as well.
+        let is_declaration = item.name == micro::DECLARATION && (place > 0 || causes.is_empty());
+        if !causes.is_empty() && !is_declaration {
+            item.causes.clone_from(&causes);
+        } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
+            item.causes = vec![plain.clone()];
+        } else if item.causes.is_empty() {
+            item.causes = vec![usual(item.name)];
+        }
+    }
+    items
+}
+
+/// The mistakes that explain the micro-tests of a code whose stack explodes.
+pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
+    let each = micro.conventions().into_iter().map(|convention| {
+        let motions: Vec<Evidence> = micro
+            .answers
+            .iter()
+            .map(|answer| Evidence::of_motion(answer, convention))
+            .collect();
+        match motions.iter().any(Evidence::is_off) {
+            true => search::explanations(&motions),
+            false => Vec::new(),
+        }
+    });
+    each.into_iter()
+        .find(|causes| !causes.is_empty())
+        .unwrap_or_default()
+}
+
+/// What a code has written, beside its twins.
+struct Known {
+    /// The stack up to its peak, and to its end where law and integrator are those of the twin.
+    stacks: Vec<Evidence>,
+    motions: Vec<Evidence>,
+}
+
+impl Known {
+    fn of(
+        series: &Series,
+        case: &Case,
+        micro: Option<&Micro>,
+        convention: ContactConvention,
+    ) -> Self {
+        let answers = micro.map_or(&[][..], |micro| &micro.answers);
+        let motions = answers.iter();
+        let mut motions: Vec<Evidence> = motions
+            .map(|answer| Evidence::of_motion(answer, convention))
+            .collect();
+        // In order of what they show, so that what does not fit is soon seen.
+        motions.sort_by(|one, two| two.before.total_cmp(&one.before));
+        let exact = motions
+            .iter()
+            .filter(|own| own.before < SAME_MOTION)
+            .count();
+        let is_exact = exact >= MANY_EXACT;
+        let is_failed = |item: &Item| item.outcome == Outcome::Failed;
+        let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_failed));
+        let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
+        if is_exact {
+            stacks.push(Evidence::of_stack(series, case, convention, true));
+            stacks[0].same = ROUNDING;
+            motions.iter_mut().for_each(|own| own.same = ROUNDING);
+        } else if !is_wrong {
+            // Another integrator.
+            motions.clear();
+        }
+        Self { stacks, motions }
+    }
+
+    /// The item on micro-tests that are not those of the twin, although others are to the last digits.
+    fn item(&self) -> Option<Item> {
+        let off = self
+            .motions
+            .first()
+            .filter(|own| own.is_off() && own.same < SAME)?;
+        let (name, step, found, expected) = off.first_off();
+        Some(Item::failed(
+            Grade::Consistency,
+            "micro-tests step by step",
+            format!(
+                "{name} {expected:.9} at step {step} of a micro-test (native DEM, same convention)"
+            ),
+            format!(
+                "{name} {found:.9} at step {step}, while other micro-tests agree to the last digits"
+            ),
+            Vec::new(),
+        ))
+    }
+
+    /// The mistakes that explain everything, or else the motions.
+    fn causes(self) -> Vec<String> {
+        let Self { stacks, motions } = self;
+        let law = motions.iter().any(Evidence::is_off);
+        let off = stacks.iter().any(Evidence::is_off);
+        let mut causes = match off && !law {
+            true => written::explanations(&stacks[0]),
+            false => Vec::new(),
+        };
+        if !causes.is_empty() || !law && !off {
+            return causes;
+        }
+        let all: Vec<Evidence> = motions.iter().cloned().chain(stacks).collect();
+        let only = |law| if law { &motions[..] } else { &all[..] };
+        causes = search::explanations(&all);
+        if causes.is_empty() && law {
+            causes = search::explanations(&motions);
+        }
+        if causes.is_empty() {
+            causes = search::fitted(only(law), &all);
+        }
+        if causes.is_empty() && law {
+            causes = search::fitted(&motions, &motions);
+        }
+        causes
+    }
+}

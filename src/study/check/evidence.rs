@@ -1,0 +1,274 @@
+//! What a code has written beside what its twin writes, in units in which a deviation of 1 is as large as the load, the
+//! whole displacement, or the largest force of a micro-test.
+
+use super::twin::{FLOOR, OF_BODY, PER_CONTACT, Row, Twin, WALL};
+use crate::model::{Case, ContactConvention, ContactTest};
+use crate::runs::Answer;
+use crate::series::{Row as Declared, Series};
+
+/// Largest distance of two codes with the same law, whose integrators differ: ten times that of LAMMPS.
+pub(super) const SAME: f64 = 1e-3;
+/// Largest distance of two codes with the same law and integrator: rounding, which grows in a contact that slides.
+pub(super) const ROUNDING: f64 = 1e-6;
+/// Part of a deviation that may remain where its cause is found.
+const EXPLAINED: f64 = 0.1;
+/// Factor by which a small distance, that of another integrator, may grow.
+const AS_BEFORE: f64 = 3.0;
+
+/// The place of a number of a contact in a row: 0 normal, 1 tangential force, 2 spring's force, 3 overlap, 4 spring.
+pub(super) const fn of_contact(contact: usize, number: usize) -> usize {
+    3 * OF_BODY.len() + contact * PER_CONTACT + number
+}
+
+/// A column of a result, as a sum of the twin's numbers.
+#[derive(Debug, Clone)]
+pub(super) struct Column {
+    pub name: &'static str,
+    pub parts: Vec<(usize, f64)>,
+    pub scale: f64,
+}
+
+impl Column {
+    pub fn of(&self, row: &Row) -> f64 {
+        self.parts
+            .iter()
+            .map(|(place, sign)| sign * row[*place])
+            .sum()
+    }
+
+    /// The column of that name: a number of a body, or a contact force.
+    fn named(name: &'static str, is_motion: bool) -> Option<Self> {
+        let (letters, body) = name.split_at(name.len() - 1);
+        let body = body
+            .parse::<usize>()
+            .ok()
+            .and_then(|body| body.checked_sub(1));
+        let on_floor = |number, sign| Some(vec![(of_contact(FLOOR.start + body?, number), sign)]);
+        let parts = match (name, letters) {
+            ("wall_force", _) if is_motion => Some(
+                (0..2)
+                    .map(|body| (of_contact(WALL.start + body, 0), 1.0))
+                    .collect(),
+            ),
+            ("wall_force", _) => Some(vec![(of_contact(WALL.start, 0), 1.0)]),
+            (_, "floor_n") => on_floor(0, 1.0),
+            // The tangent of the floor is (-1, 0).
+            (_, "floor_t") => on_floor(1, -1.0),
+            _ => {
+                let number = OF_BODY.iter().position(|own| *own == letters);
+                number
+                    .zip(body)
+                    .map(|(number, body)| vec![(body * OF_BODY.len() + number, 1.0)])
+            }
+        }?;
+        Some(Self {
+            name,
+            parts,
+            scale: 1.0,
+        })
+    }
+}
+
+/// One run of a code, and its twin.
+#[derive(Debug, Clone)]
+pub(super) struct Evidence {
+    pub twin: Twin,
+    pub columns: Vec<Column>,
+    /// Step and values of every row.
+    pub found: Vec<(u64, Vec<f64>)>,
+    /// The distance of the twin without a fault.
+    pub before: f64,
+    /// The distance from which on the rows are others.
+    pub same: f64,
+}
+
+impl Evidence {
+    /// A stack that a code with this `convention` has compressed, to its end or up to its peak.
+    pub fn of_stack(
+        series: &Series,
+        case: &Case,
+        convention: ContactConvention,
+        is_whole: bool,
+    ) -> Self {
+        let case = Case {
+            convention,
+            ..*case
+        };
+        let samples = series.samples();
+        let highest = (0..samples.len())
+            .max_by(|&one, &two| samples[one].wall_force.total_cmp(&samples[two].wall_force));
+        let until = highest.map_or(0, |peak| peak + 1);
+        let until = if is_whole { samples.len() } else { until };
+        Self::new(Twin::of_stack(&case), &samples[..until], false)
+    }
+
+    /// A micro-test in which the law has this `convention`.
+    pub fn of_motion(answer: &Answer, convention: ContactConvention) -> Self {
+        let restitution = answer.test.convention.restitution;
+        let convention = ContactConvention {
+            restitution,
+            ..convention
+        };
+        let test = ContactTest {
+            convention,
+            ..answer.test
+        };
+        Self::new(Twin::of_motion(&test), answer.motion.rows(), true)
+    }
+
+    fn new<R: Declared>(twin: Twin, rows: &[R], is_motion: bool) -> Self {
+        let known = R::columns()
+            .iter()
+            .filter_map(|own| Some((own.value, Column::named(own.name, is_motion)?)));
+        let (values, columns): (Vec<_>, Vec<Column>) = known
+            .filter(|(value, _)| rows.iter().all(|row| value(row).is_finite()))
+            .unzip();
+        let step = R::columns()[0].value;
+        let found = rows.iter().map(|row| {
+            (
+                step(row) as u64,
+                values.iter().map(|value| value(row)).collect(),
+            )
+        });
+        let mut own = Self {
+            found: found.collect(),
+            twin,
+            columns,
+            before: f64::INFINITY,
+            same: SAME,
+        };
+        own.set_scales();
+        own.before = own.distance(|_| (), f64::INFINITY);
+        own
+    }
+
+    /// The same where the code is a twin with a fault.
+    #[cfg(test)]
+    pub fn written_by(mut self, fault: impl Fn(&mut Twin)) -> Self {
+        let mut wrong = self.twin.clone();
+        fault(&mut wrong);
+        let (columns, found) = (&self.columns, &mut self.found);
+        wrong.run(|step, row| {
+            found[step as usize] = (step, columns.iter().map(|column| column.of(row)).collect());
+            step as usize + 1 < found.len()
+        });
+        self.before = self.distance(|_| (), f64::INFINITY);
+        self
+    }
+
+    /// The rows of the twin without a fault, in every step.
+    pub fn dense(&self) -> Vec<Row> {
+        let mut rows = Vec::new();
+        self.twin.clone().run(|_, row| {
+            rows.push(*row);
+            true
+        });
+        rows
+    }
+
+    /// The load, the largest displacement, rotation and speed.
+    fn set_scales(&mut self) {
+        let mut largest = [f64::MIN_POSITIVE; 4];
+        let mut first: Option<Row> = None;
+        let last = self.found.last().map_or(0, |(step, _)| *step);
+        let columns = self.columns.clone();
+        self.twin.clone().run(|step, row| {
+            let start = *first.get_or_insert(*row);
+            for column in &columns {
+                let kind = kind(column.name);
+                let origin = if kind < 2 { column.of(&start) } else { 0.0 };
+                largest[kind] = largest[kind].max((column.of(row) - origin).abs());
+            }
+            step < last
+        });
+        self.columns
+            .iter_mut()
+            .for_each(|column| column.scale = largest[kind(column.name)]);
+    }
+
+    /// The distance of the twin with a fault, or the first one above `limit`.
+    pub fn distance(&self, fault: impl Fn(&mut Twin), limit: f64) -> f64 {
+        let mut twin = self.twin.clone();
+        fault(&mut twin);
+        let (mut rows, mut worst) = (self.found.iter().peekable(), 0.0);
+        twin.run(|step, row| {
+            if let Some((_, values)) = rows.next_if(|(own, _)| *own == step) {
+                for (column, value) in self.columns.iter().zip(values) {
+                    let apart = (column.of(row) - value).abs() / column.scale;
+                    worst = if apart > worst || apart.is_nan() {
+                        apart
+                    } else {
+                        worst
+                    };
+                }
+            }
+            worst <= limit && rows.peek().is_some()
+        });
+        let is_cut = worst <= limit && rows.peek().is_some();
+        match worst.is_nan() || is_cut {
+            true => f64::INFINITY,
+            false => worst,
+        }
+    }
+
+    /// The first row that is off, in its column that is furthest off: name, step, found, expected.
+    pub fn first_off(&self) -> (&'static str, u64, f64, f64) {
+        let dense = self.dense();
+        let rows = self
+            .found
+            .iter()
+            .filter_map(|(step, values)| Some((*step, values, dense.get(*step as usize)?)));
+        let mut worst = rows.map(|(step, values, right)| {
+            let each = self.columns.iter().zip(values).map(|(column, value)| {
+                let expected = column.of(right);
+                (
+                    (value - expected).abs() / column.scale,
+                    (column.name, step, *value, expected),
+                )
+            });
+            each.max_by(|one, two| one.0.total_cmp(&two.0))
+                .unwrap_or((0.0, ("", step, 0.0, 0.0)))
+        });
+        worst
+            .find(|(apart, _)| *apart >= self.same)
+            .map_or(("", 0, 0.0, 0.0), |(_, told)| told)
+    }
+
+    /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.
+    pub fn is_symmetric(&self) -> bool {
+        let place = |name: &str| self.columns.iter().position(|column| column.name == name);
+        place("floor_n2")
+            .zip(place("floor_n3"))
+            .is_some_and(|(right, left)| {
+                let apart = |values: &Vec<f64>| {
+                    (values[right] - values[left]).abs() / self.columns[right].scale
+                };
+                self.found
+                    .iter()
+                    .all(|(_, values)| apart(values) < ROUNDING)
+            })
+    }
+
+    /// Whether the rows are not those of the twin without a fault.
+    pub fn is_off(&self) -> bool {
+        self.before >= self.same
+    }
+
+    /// The largest distance that is allowed to what explains these rows.
+    pub fn allowed(&self) -> f64 {
+        match self.is_off() {
+            true => self.same.min(EXPLAINED * self.before),
+            false => (AS_BEFORE * self.before).max(ROUNDING),
+        }
+    }
+}
+
+/// Lengths, angles, speeds, forces.
+fn kind(name: &str) -> usize {
+    match name.as_bytes()[0] {
+        b'x' | b'y' => 0,
+        _ if name.starts_with("theta") => 1,
+        _ if name.starts_with('v') || name.starts_with("spin") => 2,
+        _ => 3,
+    }
+}

@@ -1,0 +1,475 @@
+//! The search for the mistake: every entry of mistakes.toml, at every place, is made by the twin and compared with what
+//! the code has written.
+
+use super::evidence::{Evidence, ROUNDING};
+use super::table::{Flags, Quantity, Size, TABLE, Value};
+use super::twin::{FLOOR, OfContact, OfRun, PAIRS, Twin, WALL};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Mistakes that fit as well as the best one are named too, but not more than these.
+const AS_WELL: f64 = 3.0;
+pub(super) const MOST_CAUSES: usize = 3;
+/// Steps of the golden section, and values that are tried first on either side of 1.
+const REFINEMENTS: usize = 32;
+const FIRST_TRIES: i32 = 8;
+const LARGEST_FACTOR: f64 = 30.0;
+
+/// Numbers of the task that may stand in place of one another.
+const PARAMETERS: [&str; 12] = [
+    "normal_stiffness",
+    "tangential_stiffness",
+    "damping_normal",
+    "damping_tangential",
+    "floor_friction",
+    "cylinder_friction",
+    "gravity",
+    "time_step",
+    "wall_speed",
+    "moment_of_inertia",
+    "ramp_steps",
+    "rest_steps",
+];
+
+/// The numbers of a task, as one contact sees them.
+#[derive(Clone, Copy)]
+struct Task {
+    contacts: [OfContact; 9],
+    run: OfRun,
+    contact: usize,
+}
+
+impl Task {
+    fn of(&self, name: &str) -> f64 {
+        let (mut own, mut run) = (self.contacts[self.contact], self.run);
+        match name {
+            "floor_friction" => self.contacts[FLOOR.start].friction,
+            "cylinder_friction" => self.contacts[PAIRS.start].friction,
+            _ => own
+                .by_name(name)
+                .or_else(|| run.by_name(name))
+                .map_or(f64::NAN, |own| *own),
+        }
+    }
+
+    fn other_friction(&self) -> f64 {
+        self.of(if FLOOR.contains(&self.contact) {
+            "cylinder_friction"
+        } else {
+            "floor_friction"
+        })
+    }
+}
+
+/// Numbers that may be exchanged.
+const EXCHANGED: [(&str, &str); 3] = [
+    ("normal_stiffness", "tangential_stiffness"),
+    ("damping_normal", "damping_tangential"),
+    ("ramp_steps", "rest_steps"),
+];
+
+/// What a fault does with its fields.
+#[derive(Clone, Copy)]
+enum Act<'a> {
+    Replace(&'a Value),
+    Parameter(&'a str),
+    Factor(f64),
+    Set(f64),
+}
+
+/// A mistake at a place.
+struct Fault<'a> {
+    text: String,
+    contacts: Range<usize>,
+    acts: Vec<(&'a str, Act<'a>)>,
+}
+
+impl Fault<'_> {
+    fn make(&self, twin: &mut Twin) {
+        let mut task = Task {
+            contacts: twin.contacts,
+            run: twin.run,
+            contact: 0,
+        };
+        for (name, act) in &self.acts {
+            for contact in self.contacts.clone() {
+                task.contact = contact;
+                if let Some(own) = twin.contacts[contact].by_name(name) {
+                    *own = act.value(name, *own, &task);
+                }
+            }
+            if let Some(own) = twin.run.by_name(name) {
+                *own = act.value(name, *own, &task);
+            }
+        }
+    }
+}
+
+impl Act<'_> {
+    fn value(&self, name: &str, asked: f64, task: &Task) -> f64 {
+        let other = if name.contains("friction") {
+            task.other_friction()
+        } else {
+            asked
+        };
+        match self {
+            Self::Replace(value) => value.of(asked, other, |number| match number {
+                "own_stiffness" if name.contains("tangential") => task.of("tangential_stiffness"),
+                "own_stiffness" => task.of("normal_stiffness"),
+                number => task.of(number),
+            }),
+            Self::Parameter(name) => task.of(name),
+            Self::Factor(factor) => asked * factor,
+            Self::Set(value) => *value,
+        }
+    }
+}
+
+/// Contacts that may share a mistake: all, those of one kind, and single ones.
+const PLACES: [(&str, Range<usize>); 11] = [
+    ("at every contact", 0..9),
+    ("between cylinders", PAIRS),
+    ("at the floor", FLOOR),
+    ("at the top wall", WALL),
+    ("between cylinders 1 and 2", 0..1),
+    ("between cylinders 1 and 3", 1..2),
+    ("between cylinders 2 and 3", 2..3),
+    ("between floor and cylinder 1", 3..4),
+    ("between floor and cylinder 2", 4..5),
+    ("between floor and cylinder 3", 5..6),
+    ("between top wall and cylinder 1", 6..7),
+];
+/// Those on one side of the stack.
+const ONE_SIDED: [Range<usize>; 4] = [0..1, 1..2, 4..5, 5..6];
+/// Those of more than one contact, and the values that are tried at a single one.
+const KINDS: usize = 4;
+const AT_SINGLE: usize = 4;
+
+/// All single mistakes without a size of their own.
+fn faults() -> Vec<Fault<'static>> {
+    let table = &*TABLE;
+    let mut faults = Vec::new();
+    for (place, (at, contacts)) in PLACES.iter().enumerate() {
+        for quantity in &table.contact {
+            let values = if place < KINDS {
+                table.value.len()
+            } else {
+                AT_SINGLE
+            };
+            of_quantity(quantity, &format!(" {at}"), contacts, values, &mut faults);
+        }
+        faults.extend(
+            table
+                .law
+                .iter()
+                .map(|own| own.fault(Some(at), contacts.clone())),
+        );
+    }
+    for quantity in &table.run {
+        of_quantity(quantity, "", &(0..0), table.value.len(), &mut faults);
+    }
+    faults.extend(table.loading.iter().map(|own| own.fault(None, 0..0)));
+    faults.extend(EXCHANGED.into_iter().map(|(one, two)| Fault {
+        text: format!("{one} and {two} are exchanged"),
+        contacts: 0..9,
+        acts: vec![(one, Act::Parameter(two)), (two, Act::Parameter(one))],
+    }));
+    faults
+}
+
+impl Flags {
+    fn fault(&'static self, at: Option<&str>, contacts: Range<usize>) -> Fault<'static> {
+        let text = at.map_or_else(|| self.says.clone(), |at| format!("{} ({at})", self.says));
+        let acts = self
+            .set
+            .iter()
+            .map(|(name, value)| (name.as_str(), Act::Set(*value)));
+        Fault {
+            text,
+            contacts,
+            acts: acts.collect(),
+        }
+    }
+}
+
+fn of_quantity(
+    quantity: &'static Quantity,
+    at: &str,
+    contacts: &Range<usize>,
+    values: usize,
+    faults: &mut Vec<Fault<'static>>,
+) {
+    let mut add = |says: &str, act: Act<'static>| {
+        let acts = quantity.fields.iter().map(|field| (field.as_str(), act));
+        let (text, contacts) = (format!("{}{at}: {says}", quantity.is), contacts.clone());
+        faults.push(Fault {
+            text,
+            contacts,
+            acts: acts.collect(),
+        });
+    };
+    let own = TABLE.value[..values].iter();
+    for value in own.filter(|value| quantity.is.contains(&value.only)) {
+        add(&value.says, Act::Replace(value));
+    }
+    if quantity.parameter && values > AT_SINGLE {
+        for name in PARAMETERS
+            .iter()
+            .filter(|name| !quantity.is.contains(**name))
+        {
+            add(
+                &format!("`{name}` stands in its place"),
+                Act::Parameter(name),
+            );
+        }
+    }
+}
+
+/// The mistakes that explain all `evidence`, best first.
+pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
+    let mut faults = faults();
+    if evidence.iter().any(Evidence::is_symmetric) {
+        faults.retain(|fault| !ONE_SIDED.contains(&fault.contacts));
+    }
+    let single = faults
+        .par_iter()
+        .filter_map(|fault| Some((score(evidence, fault)?, fault.text.clone())));
+    best(single.collect())
+}
+
+/// The sizes that explain all of `whole`, fitted to `evidence`.
+pub(super) fn fitted(evidence: &[Evidence], whole: &[Evidence]) -> Vec<String> {
+    let sizes = sizes().into_par_iter();
+    best(sizes.filter_map(|own| own.fit(evidence, whole)).collect())
+}
+
+/// The best of some mistakes with their distances.
+fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
+    fitting.sort_by(|left, right| left.0.total_cmp(&right.0));
+    let best = fitting.first().map_or(0.0, |best| best.0);
+    let as_good = fitting
+        .into_iter()
+        .take_while(|(rest, _)| *rest <= AS_WELL * best.max(0.1 * ROUNDING));
+    let mut causes: Vec<String> = Vec::new();
+    for (_, text) in as_good {
+        // Where it makes no difference at which contacts, those of the first place that fits are enough.
+        let told = |other: &String| stripped(other) == stripped(&text);
+        if causes.len() < MOST_CAUSES && !causes.iter().any(told) {
+            causes.push(text);
+        }
+    }
+    causes
+}
+
+/// A text without its place.
+fn stripped(text: &str) -> String {
+    PLACES
+        .iter()
+        .rev()
+        .fold(text.to_owned(), |text, (at, _)| text.replace(at, ""))
+}
+
+/// The largest distance of what the fault gives, if it explains all `evidence`.
+fn score(evidence: &[Evidence], fault: &Fault) -> Option<f64> {
+    let mut worst: f64 = 0.0;
+    for own in evidence {
+        let distance = own.distance(|twin| fault.make(twin), own.allowed());
+        if distance > own.allowed() {
+            return None;
+        }
+        worst = worst.max(distance);
+    }
+    Some(worst)
+}
+
+/// A number to be fitted.
+struct Fitted {
+    text: String,
+    contacts: Range<usize>,
+    fields: Vec<&'static str>,
+    /// The range of a size; a factor where there is none.
+    range: Option<[f64; 2]>,
+}
+
+fn sizes() -> Vec<Fitted> {
+    let table = &*TABLE;
+    let kinds = PLACES[..KINDS].iter();
+    let at_kinds = kinds.flat_map(|(at, contacts)| {
+        let factors = table.contact.iter().map(move |own| {
+            let fields = own.fields.iter().map(String::as_str).collect();
+            Fitted {
+                text: format!("{} {at}", own.is),
+                contacts: contacts.clone(),
+                fields,
+                range: None,
+            }
+        });
+        let sizes = table.size.iter().filter(|size| size.contact);
+        factors.chain(sizes.map(move |own| own.fitted(Some(at), contacts.clone())))
+    });
+    let factors = table.run.iter().map(|own| {
+        let fields = own.fields.iter().map(String::as_str).collect();
+        Fitted {
+            text: own.is.clone(),
+            contacts: 0..0,
+            fields,
+            range: None,
+        }
+    });
+    let sizes = table.size.iter().filter(|size| !size.contact);
+    at_kinds
+        .chain(factors)
+        .chain(sizes.map(|own| own.fitted(None, 0..0)))
+        .collect()
+}
+
+impl Size {
+    fn fitted(&'static self, at: Option<&str>, contacts: Range<usize>) -> Fitted {
+        let text = at.map_or_else(|| self.is.clone(), |at| format!("{}, {at}", self.is));
+        Fitted {
+            text,
+            contacts,
+            fields: vec![&self.field],
+            range: Some([self.from, self.to]),
+        }
+    }
+}
+
+impl Fitted {
+    fn fault(&self, place: f64) -> Fault<'_> {
+        let act = match self.range {
+            // Small sizes are looked at more closely.
+            Some([from, to]) => Act::Set(from + (to - from) * place * place * place),
+            None => Act::Factor((place * LARGEST_FACTOR.ln()).exp()),
+        };
+        let acts = self.fields.iter().map(|field| (*field, act)).collect();
+        Fault {
+            text: String::new(),
+            contacts: self.contacts.clone(),
+            acts,
+        }
+    }
+
+    /// The value with which the twin comes nearest to what was found, if that explains it.
+    fn fit(&self, evidence: &[Evidence], whole: &[Evidence]) -> Option<(f64, String)> {
+        // What is as expected must stay so.
+        let (off, right): (Vec<&Evidence>, Vec<&Evidence>) =
+            evidence.iter().partition(|own| own.is_off());
+        let tried = self.fault(0.3);
+        if right
+            .iter()
+            .any(|own| own.distance(|twin| tried.make(twin), own.allowed()) > own.allowed())
+        {
+            return None;
+        }
+        let distance = |place: f64, limit: f64| {
+            let fault = self.fault(place);
+            off.iter().fold(0.0, |worst: f64, own| match worst > limit {
+                true => worst,
+                false => worst
+                    .max(own.distance(|twin| fault.make(twin), limit * own.before) / own.before),
+            })
+        };
+        let least = if self.range.is_some() {
+            0
+        } else {
+            -FIRST_TRIES
+        };
+        let places = (least..=FIRST_TRIES).map(|index| f64::from(index) / f64::from(FIRST_TRIES));
+        let nearest = places.fold((f64::INFINITY, 0.0), |best, place| {
+            let own = distance(place, best.0);
+            if own < best.0 { (own, place) } else { best }
+        });
+        let spacing = 1.0 / f64::from(FIRST_TRIES);
+        let place = minimum(
+            &|place| distance(place, f64::INFINITY),
+            nearest.1 - spacing,
+            nearest.1 + spacing,
+        );
+        let fault = self.fault(place);
+        let rest = score(whole, &fault)?;
+        let told = match fault.acts.first()? {
+            (_, Act::Set(value)) => format!("{} {value:.6}", self.text),
+            (_, Act::Factor(factor)) => format!("{}: {factor:.6} times what it must be", self.text),
+            _ => self.text.clone(),
+        };
+        Some((rest, told))
+    }
+}
+
+/// Where `value` is smallest between two places, by the golden section.
+fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut left, mut right) = (high - golden * (high - low), low + golden * (high - low));
+    let (mut of_left, mut of_right) = (value(left), value(right));
+    for _ in 0..REFINEMENTS {
+        if of_left < of_right {
+            (high, right, of_right) = (right, left, of_left);
+            left = high - golden * (high - low);
+            of_left = value(left);
+        } else {
+            (low, left, of_left) = (left, right, of_right);
+            right = low + golden * (high - low);
+            of_right = value(right);
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ask_native, case};
+    use super::*;
+    use crate::model::ContactConvention;
+
+    #[test]
+    fn every_field_in_the_table_is_a_number_of_the_twin() {
+        let mut twin = Twin::of_stack(&case(ContactConvention::PAPER));
+        let fitted = sizes();
+        let fields = fitted
+            .iter()
+            .flat_map(|own| own.fields.iter().map(|field| (*field, &own.contacts)));
+        let faults = faults();
+        let acts = faults.iter().flat_map(|fault| {
+            fault
+                .acts
+                .iter()
+                .map(|(field, _)| (*field, &fault.contacts))
+        });
+        for (field, contacts) in fields.chain(acts) {
+            let known = match contacts.is_empty() {
+                true => twin.run.by_name(field),
+                false => twin.contacts[contacts.start].by_name(field),
+            };
+            assert!(known.is_some(), "{field}");
+        }
+    }
+
+    /// A mistake that a twin makes is the one that is found.
+    #[test]
+    fn a_mistake_in_the_law_is_found_among_all() {
+        let answers = ask_native(ContactConvention::PAPER);
+        let told = |says: &str| {
+            let faults = faults();
+            let fault = faults
+                .iter()
+                .find(|fault| fault.text.starts_with(says))
+                .expect("it is in the table");
+            let motions = answers
+                .iter()
+                .map(|answer| Evidence::of_motion(answer, ContactConvention::PAPER));
+            let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin)));
+            explanations(&wrong.collect::<Vec<_>>())
+        };
+        for says in [
+            "damping_normal between cylinders: its sign is wrong",
+            "Coulomb's limit has the spring's part",
+            "the tangential spring is cleared",
+            "the growth of the tangential spring in a step (relative tangential velocity times time step) at the floor: it is divided",
+            "explicit Euler",
+        ] {
+            let causes = told(says);
+            assert!(causes[0].starts_with(says), "{says}: {causes:?}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! mistakes.toml: what may be wrong, in words and as numbers.
+
+use super::search::MOST_CAUSES;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The entries of mistakes.toml.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Table {
+    pub value: Vec<Value>,
+    pub contact: Vec<Quantity>,
+    pub run: Vec<Quantity>,
+    pub law: Vec<Flags>,
+    pub loading: Vec<Flags>,
+    pub size: Vec<Size>,
+    /// Values of measured properties that have a meaning.
+    property: Vec<Property>,
+    /// Columns that are likely to share a mistake.
+    pub group: Vec<Group>,
+    /// Usual causes by the name of an item.
+    usual: BTreeMap<String, String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Property {
+    of: String,
+    value: f64,
+    says: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Group {
+    pub is: String,
+    pub columns: Vec<String>,
+}
+
+/// What stands in place of a number.
+#[derive(Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Value {
+    pub says: String,
+    pub factor: f64,
+    pub power: f64,
+    pub times: String,
+    pub exponent: f64,
+    pub function: String,
+    pub only: String,
+}
+
+impl Default for Value {
+    fn default() -> Self {
+        let [says, times, function, only] = std::array::from_fn(|_| String::new());
+        Self {
+            says,
+            factor: 1.0,
+            power: 1.0,
+            times,
+            exponent: 1.0,
+            function,
+            only,
+        }
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Quantity {
+    pub is: String,
+    pub fields: Vec<String>,
+    #[serde(default)]
+    pub parameter: bool,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Flags {
+    pub says: String,
+    pub set: Vec<(String, f64)>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Size {
+    pub is: String,
+    pub field: String,
+    pub from: f64,
+    pub to: f64,
+    #[serde(default)]
+    pub contact: bool,
+}
+
+/// The table.
+pub(super) static TABLE: LazyLock<Table> = LazyLock::new(|| {
+    toml::from_str(include_str!("mistakes.toml")).expect("mistakes.toml is tested")
+});
+
+impl Value {
+    /// The value in place of `asked`, where a friction beside it is `other` and a number of the task `number`.
+    pub fn of(&self, asked: f64, other: f64, number: impl Fn(&str) -> f64) -> f64 {
+        let based = match self.function.as_str() {
+            "tan" => libm::tan(asked),
+            "atan" => libm::atan(asked),
+            "tan-of-degrees" => libm::tan(asked.to_radians()),
+            "degrees" => libm::atan(asked).to_degrees(),
+            "sin-of-angle" => libm::sin(libm::atan(asked)),
+            "other" => other,
+            "mean" => 0.5 * (asked + other),
+            "geometric-mean" => (asked * other).sqrt(),
+            "harmonic-mean" => 2.0 * asked * other / (asked + other),
+            "product" => asked * other,
+            "sum" => asked + other,
+            "least" => asked.min(other),
+            "largest" => asked.max(other),
+            _ => asked,
+        };
+        let times = match self.times.as_str() {
+            "" => 1.0,
+            name => libm::pow(number(name), self.exponent),
+        };
+        let powered = if self.power == 1.0 {
+            based
+        } else {
+            libm::pow(based, self.power)
+        };
+        self.factor * powered * times
+    }
+}
+
+/// The meanings of those values that `found` is in place of `asked`, a number of that `name`.
+pub(super) fn meanings(
+    name: &str,
+    found: f64,
+    asked: f64,
+    other: f64,
+    number: impl Fn(&str) -> f64,
+) -> Vec<String> {
+    const DIGITS: f64 = 1e-4;
+    let own = TABLE
+        .value
+        .iter()
+        .filter(|value| name.contains(&value.only));
+    let fitting = own.filter(|value| {
+        let told = value.of(asked, other, &number);
+        (found - told).abs() <= DIGITS * told.abs().max(1e-5 * asked.abs())
+    });
+    let mut texts: Vec<String> = fitting.map(|value| value.says.clone()).collect();
+    texts.truncate(MOST_CAUSES);
+    texts
+}
+
+/// The meaning of the value of a property that was measured, if it has one.
+pub(super) fn of_property(property: &str, found: f64) -> Vec<String> {
+    const DIGITS: f64 = 2e-3;
+    let own = TABLE.property.iter().filter(|own| own.of == property);
+    let fitting = own.filter(|own| (found - own.value).abs() <= DIGITS * own.value.abs().max(1e-6));
+    fitting.map(|own| own.says.clone()).collect()
+}
+
+/// Usual causes of an item that failed.
+pub(super) fn usual(item: &str) -> String {
+    let own = TABLE
+        .usual
+        .get(item)
+        .or_else(|| TABLE.usual.get("loading path"));
+    format!("usual causes: {}", own.map_or("", String::as_str))
+}

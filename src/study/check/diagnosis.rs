@@ -110,8 +110,12 @@ impl Known {
         let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_failed));
         let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
         if is_exact {
-            stacks.push(Evidence::of_stack(series, case, convention, true));
-            stacks[0].same = ROUNDING;
+            // Codes in which surfaces that just touch are a contact are between rounding and another path.
+            let before = stacks[0].before;
+            if !(ROUNDING..SAME).contains(&before) {
+                stacks.push(Evidence::of_stack(series, case, convention, true));
+                stacks[0].same = ROUNDING;
+            }
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
         } else if !is_wrong {
             // Another integrator.

@@ -126,11 +126,12 @@ impl Act<'_> {
 }
 
 /// Contacts that may share a mistake: all, those of one kind, and single ones.
-const PLACES: [(&str, Range<usize>); 11] = [
+const PLACES: [(&str, Range<usize>); 12] = [
     ("at every contact", 0..9),
     ("between cylinders", PAIRS),
     ("at the floor", FLOOR),
     ("at the top wall", WALL),
+    ("between cylinders and at the floor", 0..6),
     ("between cylinders 1 and 2", 0..1),
     ("between cylinders 1 and 3", 1..2),
     ("between cylinders 2 and 3", 2..3),
@@ -142,7 +143,7 @@ const PLACES: [(&str, Range<usize>); 11] = [
 /// Those on one side of the stack.
 const ONE_SIDED: [Range<usize>; 4] = [0..1, 1..2, 4..5, 5..6];
 /// Those of more than one contact, and the values that are tried at a single one.
-const KINDS: usize = 4;
+const KINDS: usize = 5;
 const AT_SINGLE: usize = 4;
 
 /// All single mistakes without a size of their own.

@@ -203,7 +203,7 @@ impl Written<'_> {
             },
             &|| Some(self.with_factor(column, self.factor(column, &own)?)),
             &|| Some(self.with_offset(self.offset(column)?)),
-            &|| self.late(column),
+            &|| self.late(column).filter(|_| self.own.same <= ROUNDING),
             &|| self.transformed(column),
             &|| self.another(column),
             &|| {

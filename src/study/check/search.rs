@@ -438,11 +438,11 @@ mod tests {
                 .map(|(field, _)| (*field, &fault.contacts))
         });
         for (field, contacts) in fields.chain(acts) {
-            let known = match contacts.is_empty() {
-                true => twin.run.by_name(field),
-                false => twin.contacts[contacts.start].by_name(field),
-            };
-            assert!(known.is_some(), "{field}");
+            let at_contact =
+                |twin: &mut Twin| twin.contacts[contacts.start].by_name(field).is_some();
+            let is_known = twin.run.by_name(field).is_some()
+                || (!contacts.is_empty() && at_contact(&mut twin));
+            assert!(is_known, "{field}");
         }
     }
 

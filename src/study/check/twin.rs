@@ -42,6 +42,7 @@ numbers! {
     sliding_friction = 1.0, "Factor on μ of a contact that slides.";
     exists = 1.0, "Factor on both forces.";
     gap = 0.0, "Is taken off the overlap.";
+    by_diameter = 0.0, "Flag: the normal is the distance of the centres over 2 r, and no unit vector.";
     lever = 1.0, "Radius in torque and surface velocity.";
     exponent = 1.0, "Power of the overlap in the spring's force.";
     spring_growth = 1.0, "Factor on the growth of the tangential spring in a step.";
@@ -72,9 +73,9 @@ numbers! {
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";
     damps_sliding = 0.0, "Flag: the damping is added to the force at the limit.";
-    one_sided = 0.0, "Flag: the force at the limit has always the same sign.";
+    one_sided = 0.0, "The sign that the force at the limit always has.";
     uncapped_damping = 0.0, "Flag: the spring alone is capped, and the damping added.";
-    caps_above = 0.0, "Flag: only positive forces are capped.";
+    caps_of = 0.0, "The only sign of forces that are capped.";
     limit_before = 0.0, "Flag: μ times the normal force of the step before.";
     damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
     damping_exponent = 0.0, "Power of the overlap in the normal damping.";
@@ -420,7 +421,11 @@ impl Twin {
                 let second = &self.bodies[two];
                 let apart = [0, 1].map(|axis| first.at[axis] - second.at[axis]);
                 let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
-                let normal = [apart[0] / distance, apart[1] / distance];
+                let length = match law.by_diameter {
+                    0.0 => distance,
+                    _ => 2.0 * radius,
+                };
+                let normal = [apart[0] / length, apart[1] / length];
                 (normal, distance - radius, second.speed)
             }
             None if FLOOR.contains(&index) => ([0.0, 1.0], first.at[1], [0.0; 3]),
@@ -627,13 +632,12 @@ impl Touching {
                 stretched
             };
             (capped - damping, length)
-        } else if operand.abs() < limit || law.caps_above != 0.0 && operand < 0.0 {
+        } else if operand.abs() < limit || law.caps_of * operand < 0.0 {
             (spring - damping, stretched)
         } else {
-            let sign = if operand > 0.0 || law.one_sided != 0.0 {
-                1.0
-            } else {
-                -1.0
+            let sign = match law.one_sided {
+                0.0 => 1f64.copysign(operand),
+                sign => sign,
             };
             let at_limit = sign * limit * law.sliding_friction;
             let counted = match convention.coulomb_operand {

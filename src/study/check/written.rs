@@ -202,9 +202,9 @@ impl Written<'_> {
                     .then(|| "all 0: written before they are computed, or never".to_owned())
             },
             &|| Some(self.with_factor(column, self.factor(column, &own)?)),
-            &|| Some(self.with_offset(self.offset(column)?)),
             &|| self.late(column).filter(|_| self.own.same <= ROUNDING),
             &|| self.transformed(column),
+            &|| Some(self.with_offset(self.offset(column)?)),
             &|| self.another(column),
             &|| {
                 self.with_another(column)

@@ -11,7 +11,7 @@ use std::ops::Range;
 const AS_WELL: f64 = 3.0;
 pub(super) const MOST_CAUSES: usize = 3;
 /// Steps of the golden section, and values that are tried first on either side of 1.
-const REFINEMENTS: usize = 32;
+const REFINEMENTS: usize = 56;
 const FIRST_TRIES: i32 = 8;
 const LARGEST_FACTOR: f64 = 30.0;
 
@@ -125,6 +125,15 @@ impl Act<'_> {
     }
 }
 
+/// Numbers of one kind are mistaken for one another.
+fn kind(name: &str) -> usize {
+    let kinds = ["stiffness", "damping", "friction", "steps"];
+    kinds
+        .iter()
+        .position(|kind| name.contains(kind))
+        .unwrap_or(kinds.len())
+}
+
 /// Contacts that may share a mistake: all, those of one kind, and single ones.
 const PLACES: [(&str, Range<usize>); 12] = [
     ("at every contact", 0..9),
@@ -214,10 +223,9 @@ fn of_quantity(
         add(&value.says, Act::Replace(value));
     }
     if quantity.parameter && values > AT_SINGLE {
-        for name in PARAMETERS
-            .iter()
-            .filter(|name| !quantity.is.contains(**name))
-        {
+        let is_other =
+            |name: &&&str| !quantity.is.contains(**name) && kind(name) == kind(&quantity.is);
+        for name in PARAMETERS.iter().filter(is_other) {
             add(
                 &format!("`{name}` stands in its place"),
                 Act::Parameter(name),
@@ -357,9 +365,11 @@ impl Fitted {
         let (off, right): (Vec<&Evidence>, Vec<&Evidence>) =
             evidence.iter().partition(|own| own.is_off());
         let tried = self.fault(0.3);
-        if right
-            .iter()
-            .any(|own| own.distance(|twin| tried.make(twin), own.allowed()) > own.allowed())
+        let is_relative = self.fields != ["friction"] || self.range.is_none();
+        if is_relative
+            && right
+                .iter()
+                .any(|own| own.distance(|twin| tried.make(twin), own.allowed()) > own.allowed())
         {
             return None;
         }

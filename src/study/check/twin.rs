@@ -113,6 +113,7 @@ numbers! {
     wall_start = 0.0, "Height of its start above cylinder 1 at rest.";
     wall_ahead = 0.0, "Steps by which it is ahead of the bodies.";
     wall_from_start = 0.0, "Flag: it starts above the stack as it was before gravity.";
+    wall_from_run = 0.0, "Flag: it has moved since the beginning of the run.";
     wall_presses = 1.0, "Factor on its force on cylinder 1.";
     clears_springs = 0.0, "Flag: the springs are cleared when it starts.";
     clears_velocities = 0.0, "Flag: the bodies are stopped when it starts.";
@@ -120,11 +121,14 @@ numbers! {
     mean_velocity = 0.0, "Flag: positions move with the mean of both velocities.";
     accelerates = 0.0, "Flag: positions move on by a dt²/2 in addition.";
     half_kick = 0.0, "Flag: the first kick is a half.";
+    kept_forces = 0.0, "Part of the forces of the step before that is left in those of a step.";
+    kept_torques = 0.0, "The same of the torques.";
     old_forces = 0.0, "Flag: bodies are moved by the forces of the step before.";
     damping = 0.0, "Part of the velocities that is lost in every step.";
     damping_rate = 0.0, "Part of the velocities that is lost in a unit of time.";
     spin_damping_rate = 0.0, "The same of the spins.";
     local_damping = 0.0, "Part of the force that opposes the velocity (Cundall).";
+    damps_rest = 0.0, "Flag: that of a body at rest counts as if it moved in the positive direction.";
     twice_at_rows = 0.0, "Flag: the forces are computed twice at the steps of rows, and the springs grow twice.";
     fixed_top = 0.0, "Flag: cylinder 1 cannot move sideways.";
     no_spin = 0.0, "Flag: the cylinders do not turn.";
@@ -368,6 +372,8 @@ impl Twin {
             0.0 => self.bodies[0].at[1] + 1.0,
             _ => 2.0 + 3f64.sqrt(),
         } + self.run.wall_start;
+        let early = self.run.wall_from_run * (self.run.ramp_steps + self.run.rest_steps);
+        self.wall -= early * self.run.wall_speed * self.run.time_step;
         self.wall_speed = self.run.wall_speed;
         if self.run.clears_springs != 0.0 {
             self.states = Default::default();
@@ -401,7 +407,12 @@ impl Twin {
         for (body, weight) in self.bodies.iter_mut().zip(weights) {
             let weight = run.weight * weight * run.gravity;
             body.before = body.load;
-            body.load = [run.tilt * run.gravity, -weight, 0.0];
+            let [x, y, turn] = body.before;
+            body.load = [
+                run.tilt * run.gravity + run.kept_forces * x,
+                run.kept_forces * y - weight,
+                run.kept_torques * turn,
+            ];
         }
         let count = self.bodies.len();
         for (index, (one, two)) in CONTACTS.into_iter().enumerate() {
@@ -538,7 +549,7 @@ impl Twin {
                     body.load[axis]
                 };
                 force *= push[axis];
-                if run.local_damping != 0.0 && old != 0.0 {
+                if run.local_damping != 0.0 && (old != 0.0 || run.damps_rest != 0.0) {
                     force -= run.local_damping * force.abs() * old.signum();
                 }
                 let rate = if axis == 2 {

@@ -71,6 +71,17 @@ pub(super) fn explanations(own: &Evidence) -> Vec<String> {
         .collect()
 }
 
+/// Where a cylinder is before anything has moved; not a number if the column has no position.
+fn initial_position(column: &str) -> f64 {
+    match column {
+        "x1" => 0.0,
+        "y1" => 1.0 + 3f64.sqrt(),
+        "x2" | "y2" | "y3" => 1.0,
+        "x3" => -1.0,
+        _ => f64::NAN,
+    }
+}
+
 /// A number of the twin in words.
 fn title(place: usize) -> String {
     const NUMBERS: [&str; PER_CONTACT] = [
@@ -298,10 +309,15 @@ impl Written<'_> {
         };
         let turned = 2.0 * std::f64::consts::PI;
         let last = steps.len() - 1;
-        let values: [(&str, &dyn Fn(f64) -> f64); 16] = [
+        let initial = initial_position(self.own.columns[column].name);
+        let values: [(&str, &dyn Fn(f64) -> f64); 17] = [
             (
                 "are written without their signs: their absolute values",
                 &|step| own(step).abs(),
+            ),
+            (
+                "are displacements since the beginning of the run, in place of positions",
+                &|step| own(step) - initial,
             ),
             (
                 "are changes since the beginning of the compression, in place of values",

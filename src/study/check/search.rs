@@ -2,8 +2,9 @@
 //! the code has written.
 
 use super::evidence::{Evidence, ROUNDING};
+use super::numbers::{OfContact, OfRun};
 use super::table::{Flags, Quantity, Size, TABLE, Value};
-use super::twin::{FLOOR, OfContact, OfRun, PAIRS, Twin, WALL};
+use super::twin::{FLOOR, PAIRS, Twin, WALL};
 use rayon::prelude::*;
 use std::ops::Range;
 

@@ -3,140 +3,11 @@
 //! Without a fault it is the native DEM, to rounding. What can be wrong is a field of [`OfContact`] or [`OfRun`], which
 //! mistakes.toml sets by name.
 
+use super::numbers::{OfContact, OfRun};
+use super::touching::{State, Touching};
 use crate::model::{
-    Case, ContactConvention, ContactLaw, ContactTest, CoulombOperand, HistoryUpdate,
-    PreparationSteps, Schedule, SlidingSpring, TensileForce, smooth_step,
+    Case, ContactConvention, ContactLaw, ContactTest, PreparationSteps, Schedule, smooth_step,
 };
-
-/// Declares numbers that have a name and a right value.
-macro_rules! numbers {
-    ($(#[$doc:meta])* $kind:ident: $($name:ident = $right:expr, $meaning:literal;)*) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq)]
-        pub(super) struct $kind {
-            $(#[doc = $meaning] pub $name: f64,)*
-        }
-
-        impl $kind {
-            const RIGHT: Self = Self { $($name: $right,)* };
-
-            /// The number of that name.
-            pub fn by_name(&mut self, name: &str) -> Option<&mut f64> {
-                match name {
-                    $(stringify!($name) => Some(&mut self.$name),)*
-                    _ => None,
-                }
-            }
-        }
-    };
-}
-
-numbers! {
-    /// The law of one contact. What is a factor is 1 where nothing is wrong, and a flag 0.
-    OfContact:
-    normal_stiffness = 1.0, "k_n.";
-    tangential_stiffness = 1.0, "k_t.";
-    damping_normal = 0.0, "η_n.";
-    damping_tangential = 0.0, "η_t.";
-    friction = 0.0, "μ.";
-    sliding_friction = 1.0, "Factor on μ of a contact that slides.";
-    exists = 1.0, "Factor on both forces.";
-    gap = 0.0, "Is taken off the overlap.";
-    by_diameter = 0.0, "Flag: the normal is the distance of the centres over 2 r, and no unit vector.";
-    lever = 1.0, "Radius in torque and surface velocity.";
-    exponent = 1.0, "Power of the overlap in the spring's force.";
-    spring_growth = 1.0, "Factor on the growth of the tangential spring in a step.";
-    spring_kept = 1.0, "Part of the tangential spring that is kept from one step to the next.";
-    spin_one = 1.0, "Factor on the spin of the first body in the surface velocity.";
-    spin_two = 1.0, "The same of the second body.";
-    spin_in_spring = 1.0, "Factor on the spins in the growth of the spring.";
-    spin_in_damping = 1.0, "Factor on the spins in the damping.";
-    separation_two = 1.0, "Factor on the velocity of the second body along the normal.";
-    sliding_one = 1.0, "Factor on the velocity of the first body along the tangent.";
-    sliding_two = 1.0, "The same of the second body.";
-    torque_one = 1.0, "Factor on the torque on the first body.";
-    torque_two = 1.0, "The same of the second body.";
-    normal_one = 1.0, "Factor on the normal force on the first body.";
-    normal_two = 1.0, "The same of the second body.";
-    tangential_one = 1.0, "Factor on the tangential force on the first body.";
-    tangential_two = 1.0, "The same of the second body.";
-    tangent = 1.0, "Factor on the direction of the tangential force.";
-    damping_one = 1.0, "Factor on the normal damping on the first body.";
-    damping_two = 1.0, "The same of the second body.";
-    spring_one = 1.0, "Factor on the normal spring on the first body.";
-    spring_two = 1.0, "The same of the second body.";
-    limit_of_spring = 0.0, "Flag: μ times the spring's part of the normal force.";
-    limit_of_weight = 0.0, "Flag: μ times m g.";
-    limit_signed = 0.0, "Flag: μ n without the absolute value, none where it pulls.";
-    keeps_sliding_spring = 0.0, "Flag: the spring grows while the contact slides.";
-    clears_sliding_spring = 0.0, "Flag: it is 0 while the contact slides.";
-    keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
-    stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";
-    damps_sliding = 0.0, "Flag: the damping is added to the force at the limit.";
-    one_sided = 0.0, "The sign that the force at the limit always has.";
-    uncapped_damping = 0.0, "Flag: the spring alone is capped, and the damping added.";
-    caps_of = 0.0, "The only sign of forces that are capped.";
-    limit_before = 0.0, "Flag: μ times the normal force of the step before.";
-    damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
-    damping_exponent = 0.0, "Power of the overlap in the normal damping.";
-    rolling = 0.0, "Rolling friction: torque over normal force.";
-    pulls = 0.0, "Flag: a contact that opens goes on pulling.";
-}
-
-numbers! {
-    /// Bodies, integration and loading.
-    OfRun:
-    mass = 1.0, "m in the acceleration.";
-    weight = 1.0, "Factor on the weight.";
-    weight_1 = 1.0, "The same of cylinder 1 alone.";
-    weight_2 = 1.0, "The same of cylinder 2 alone.";
-    weight_3 = 1.0, "The same of cylinder 3 alone.";
-    tilt = 0.0, "Horizontal part of gravity.";
-    radius = 1.0, "Radius wherever it counts.";
-    moment_of_inertia = 0.5, "I.";
-    time_step = 0.0, "dt.";
-    mass_1 = 1.0, "Factor on m of cylinder 1.";
-    push_x = 1.0, "Factor on horizontal forces in the kick.";
-    push_y = 1.0, "The same of vertical ones.";
-    push_spin = 1.0, "The same of torques.";
-    drift = 1.0, "Factor on the change of positions.";
-    gravity = 0.0, "g.";
-    gravity_in_compression = 1.0, "Factor on the weight in the compression.";
-    ramp_steps = 0.0, "Steps of the ramp.";
-    rest_steps = 0.0, "Steps of the rest.";
-    ramp_shape = 0.0, "0: quintic, 1: linear, 2: 3x² − 2x³, 3: half a cosine, 4: sudden, 5: x², 6: x³, 7: √x, 8: sine; 9 and 10: 1 and 0 over ramp and rest.";
-    ramp_ahead = 0.0, "Steps by which the ramp is ahead.";
-    unbounded_ramp = 0.0, "Flag: the ramp goes on beyond 1.";
-    wall_speed = 0.0, "Speed of the top wall.";
-    wall_drift = 1.0, "Factor on the movement of the top wall.";
-    wall_per_step = 0.0, "Flag: it moves by its speed in every step.";
-    wall_start = 0.0, "Height of its start above cylinder 1 at rest.";
-    wall_ahead = 0.0, "Steps by which it is ahead of the bodies.";
-    wall_from_start = 0.0, "Flag: it starts above the stack as it was before gravity.";
-    wall_from_run = 0.0, "Flag: it has moved since the beginning of the run.";
-    wall_presses = 1.0, "Factor on its force on cylinder 1.";
-    clears_springs = 0.0, "Flag: the springs are cleared when it starts.";
-    clears_velocities = 0.0, "Flag: the bodies are stopped when it starts.";
-    euler = 0.0, "Flag: positions move with the velocities of before the kick.";
-    mean_velocity = 0.0, "Flag: positions move with the mean of both velocities.";
-    accelerates = 0.0, "Flag: positions move on by a dt²/2 in addition.";
-    half_kick = 0.0, "Flag: the first kick is a half.";
-    kept_forces = 0.0, "Part of the forces of the step before that is left in those of a step.";
-    kept_torques = 0.0, "The same of the torques.";
-    old_forces = 0.0, "Flag: bodies are moved by the forces of the step before.";
-    damping = 0.0, "Part of the velocities that is lost in every step.";
-    damping_rate = 0.0, "Part of the velocities that is lost in a unit of time.";
-    spin_damping_rate = 0.0, "The same of the spins.";
-    local_damping = 0.0, "Part of the force that opposes the velocity (Cundall).";
-    damps_rest = 0.0, "Flag: that of a body at rest counts as if it moved in the positive direction.";
-    twice_at_rows = 0.0, "Flag: the forces are computed twice at the steps of rows, and the springs grow twice.";
-    fixed_top = 0.0, "Flag: cylinder 1 cannot move sideways.";
-    no_spin = 0.0, "Flag: the cylinders do not turn.";
-    one_spin = 0.0, "Flag: only cylinder 1 turns.";
-    single_precision = 0.0, "Flag: positions and velocities are kept in single precision.";
-    spread = 0.0, "Distance by which the bottom cylinders lie too far apart at first.";
-    lift = 0.0, "Height by which cylinder 1 lies too high at first.";
-}
 
 /// Steps of a preparation that nobody waits for.
 const MOST_STEPS: f64 = 2e4;
@@ -172,15 +43,6 @@ struct Body {
     speed: [f64; 3],
     load: [f64; 3],
     before: [f64; 3],
-}
-
-#[derive(Debug, Clone, Copy, Default)]
-struct State {
-    spring: f64,
-    normal: [f64; 2],
-    force: [f64; 2],
-    elastic: f64,
-    overlap: f64,
 }
 
 /// What is run.
@@ -583,141 +445,15 @@ impl Twin {
     }
 }
 
-/// A contact that is closed, at one moment.
-struct Touching {
-    overlap: f64,
-    separation: f64,
-    sliding: f64,
-    /// Velocity of the surfaces by the spins.
-    turning: f64,
-    normal: [f64; 2],
-    time_step: f64,
-    weight: f64,
-}
-
-impl Touching {
-    /// The forces, and the spring as they leave it.
-    fn press(&self, law: &OfContact, convention: &ContactConvention, state: &mut State) {
-        let overlap = self.overlap;
-        let powered = if law.exponent == 1.0 {
-            overlap
-        } else {
-            libm::pow(overlap.max(0.0), law.exponent)
-        };
-        let elastic = law.normal_stiffness * powered;
-        let damped = match law.damping_exponent {
-            0.0 => law.damping_normal * self.separation,
-            power => law.damping_normal * self.separation * libm::pow(overlap.max(0.0), power),
-        };
-        let is_damped = law.damps_approach == 0.0 || self.separation < 0.0;
-        let mut pressing = if is_damped { elastic - damped } else { elastic };
-        if convention.tensile_force == TensileForce::NeverPulls {
-            pressing = pressing.max(0.0);
-        }
-        let limit = law.friction
-            * match law.limit_before {
-                0.0 => self.limited(law, elastic, pressing),
-                _ => state.force[0].abs(),
-            };
-        let velocity = self.sliding - law.spin_in_damping * self.turning;
-        let stretching = self.sliding - law.spin_in_spring * self.turning;
-        let old = state.spring * law.spring_kept * self.transport(convention, state.normal);
-        let stretched = old + law.spring_growth * stretching * self.time_step;
-        let spring = -law.tangential_stiffness
-            * if law.stale_spring != 0.0 {
-                old
-            } else {
-                stretched
-            };
-        let damping = law.damping_tangential * velocity;
-        let operand = match convention.coulomb_operand {
-            CoulombOperand::SpringAndDamping => spring - damping,
-            CoulombOperand::Spring => spring,
-        };
-        let (force, length) = if law.uncapped_damping != 0.0 {
-            let capped = spring.clamp(-limit.abs(), limit.abs());
-            let slides = capped != spring;
-            let length = if slides {
-                self.slid(law, convention, (old, stretched), (capped, 0.0))
-            } else {
-                stretched
-            };
-            (capped - damping, length)
-        } else if operand.abs() < limit || law.caps_of * operand < 0.0 {
-            (spring - damping, stretched)
-        } else {
-            let sign = match law.one_sided {
-                0.0 => 1f64.copysign(operand),
-                sign => sign,
-            };
-            let at_limit = sign * limit * law.sliding_friction;
-            let counted = match convention.coulomb_operand {
-                CoulombOperand::SpringAndDamping => damping,
-                CoulombOperand::Spring => 0.0,
-            };
-            let length = self.slid(law, convention, (old, stretched), (at_limit, counted));
-            (at_limit - law.damps_sliding * damping, length)
-        };
-        *state = State {
-            spring: length,
-            normal: self.normal,
-            force: [pressing, force],
-            elastic,
-            overlap,
-        };
-    }
-
-    /// The force that μ is multiplied with.
-    fn limited(&self, law: &OfContact, elastic: f64, pressing: f64) -> f64 {
-        if law.limit_of_weight != 0.0 {
-            self.weight
-        } else if law.limit_of_spring != 0.0 {
-            elastic
-        } else if law.limit_signed != 0.0 {
-            pressing.max(0.0)
-        } else {
-            pressing.abs()
-        }
-    }
-
-    /// The length of the spring of a contact that slides.
-    fn slid(
-        &self,
-        law: &OfContact,
-        convention: &ContactConvention,
-        (old, stretched): (f64, f64),
-        (at_limit, damping): (f64, f64),
-    ) -> f64 {
-        if law.keeps_sliding_spring != 0.0 {
-            stretched
-        } else if law.clears_sliding_spring != 0.0 {
-            0.0
-        } else if convention.sliding_spring == SlidingSpring::FollowsLimit {
-            -(at_limit + damping) / law.tangential_stiffness
-        } else {
-            old
-        }
-    }
-
-    fn transport(&self, convention: &ContactConvention, before: [f64; 2]) -> f64 {
-        let [x, y] = self.normal;
-        let cosine = before[0] * x + before[1] * y;
-        let sine = before[0] * y - before[1] * x;
-        match convention.history_update {
-            HistoryUpdate::Rotated => 1.0,
-            HistoryUpdate::Projected => cosine,
-            HistoryUpdate::Linearised => cosine + sine * sine,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::evidence::Evidence;
     use super::super::{ask_native, case};
     use super::*;
     use crate::dem::compress_stack;
-    use crate::model::{Arms, ContactArms};
+    use crate::model::{
+        Arms, ContactArms, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce,
+    };
 
     /// The paper's convention, and one that differs from it in every way.
     fn conventions() -> [ContactConvention; 2] {

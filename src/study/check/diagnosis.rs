@@ -29,7 +29,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
     );
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
-    let known = Known::of(series, case, micro, convention);
+    let known = Known::of(series, case, micro, convention, false);
     let mut items = stack::items(series, case, &known.stacks);
     items.extend(of_micro);
     items.extend(known.item());
@@ -40,7 +40,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         .into_iter()
         .enumerate()
         .find_map(|(place, convention)| {
-            let causes = Known::of(series, case, micro, convention).causes();
+            let causes = Known::of(series, case, micro, convention, true).causes();
             (!causes.is_empty()).then_some((place, causes))
         });
     let (place, causes) = found.unwrap_or_default();
@@ -93,6 +93,7 @@ impl Known {
         case: &Case,
         micro: Option<&Micro>,
         convention: ContactConvention,
+        something_failed: bool,
     ) -> Self {
         let answers = micro.map_or(&[][..], |micro| &micro.answers);
         let motions = answers.iter();
@@ -112,7 +113,7 @@ impl Known {
         if is_exact {
             // Codes in which surfaces that just touch are a contact are between rounding and another path.
             let before = stacks[0].before;
-            if !(ROUNDING..SAME).contains(&before) {
+            if something_failed || !(ROUNDING..SAME).contains(&before) {
                 stacks.push(Evidence::of_stack(series, case, convention, true));
                 stacks[0].same = ROUNDING;
             }

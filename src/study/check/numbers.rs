@@ -105,6 +105,7 @@ numbers! {
     wall_start = 0.0, "Height of its start above cylinder 1 at rest.";
     wall_ahead = 0.0, "Steps by which it is ahead of the bodies.";
     wall_from_start = 0.0, "Flag: it starts above the stack as it was before gravity.";
+    wall_per_body = 0.0, "Flag: it moves once for every body in a step.";
     wall_from_run = 0.0, "Flag: it has moved since the beginning of the run.";
     wall_presses = 1.0, "Factor on its force on cylinder 1.";
     clears_springs = 0.0, "Flag: the springs are cleared when it starts.";

@@ -11,6 +11,8 @@ pub(super) struct State {
     pub force: [f64; 2],
     pub elastic: f64,
     pub overlap: f64,
+    /// The tangential force before it is limited.
+    pub trial: f64,
 }
 
 /// A contact that is closed, at one moment.
@@ -94,6 +96,7 @@ impl Touching {
             force: [pressing, force],
             elastic,
             overlap,
+            trial: spring - damping,
         };
     }
 

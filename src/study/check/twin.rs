@@ -30,7 +30,7 @@ pub(super) const WALL: std::ops::Range<usize> = 6..9;
 
 /// Numbers of a body and of a contact in a row.
 pub(super) const OF_BODY: [&str; 9] = ["x", "y", "theta", "vx", "vy", "spin", "fx", "fy", "torque"];
-pub(super) const PER_CONTACT: usize = 5;
+pub(super) const PER_CONTACT: usize = 6;
 pub(super) const WIDTH: usize = 3 * OF_BODY.len() + CONTACTS.len() * PER_CONTACT;
 
 /// All numbers of a step: of the bodies, then of every contact its normal and tangential force, the force of its normal
@@ -258,7 +258,15 @@ impl Twin {
         }
         for (own, cells) in self.states.iter().zip(row[27..].chunks_mut(PER_CONTACT)) {
             let [normal, tangential] = own.force;
-            cells.copy_from_slice(&[normal, tangential, own.elastic, own.overlap, own.spring]);
+            let trial = own.trial;
+            cells.copy_from_slice(&[
+                normal,
+                tangential,
+                own.elastic,
+                own.overlap,
+                own.spring,
+                trial,
+            ]);
         }
         row
     }
@@ -441,7 +449,11 @@ impl Twin {
             }
         }
         let moved = if run.wall_per_step != 0.0 { 1.0 } else { dt };
-        self.wall -= self.wall_speed * moved * run.wall_drift;
+        let times = match run.wall_per_body {
+            0.0 => 1.0,
+            _ => self.bodies.len() as f64,
+        };
+        self.wall -= self.wall_speed * moved * run.wall_drift * times;
     }
 }
 

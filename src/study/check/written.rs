@@ -79,6 +79,7 @@ fn title(place: usize) -> String {
         "spring's part (without the damping) of the normal force",
         "overlap",
         "length of the tangential spring",
+        "tangential force before it is limited by Coulomb (the trial force)",
     ];
     const QUANTITIES: [&str; 9] = [
         "x",

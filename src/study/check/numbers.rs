@@ -62,6 +62,7 @@ numbers! {
     limit_signed = 0.0, "Flag: μ n without the absolute value, none where it pulls.";
     keeps_sliding_spring = 0.0, "Flag: the spring grows while the contact slides.";
     clears_sliding_spring = 0.0, "Flag: it is 0 while the contact slides.";
+    keeps_whole_force = 0.0, "Flag: while the contact slides the spring bears the whole force, damping included.";
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";
     damps_sliding = 0.0, "Flag: the damping is added to the force at the limit.";

@@ -3,14 +3,13 @@
 
 use super::evidence::{Evidence, ROUNDING};
 use super::numbers::{OfContact, OfRun};
-use super::table::{Flags, Quantity, Size, TABLE, Value};
+use super::table::{Flags, MOST_CAUSES, Quantity, Size, TABLE, Value};
 use super::twin::{FLOOR, PAIRS, Twin, WALL};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Mistakes that fit as well as the best one are named too, but not more than these.
+/// Mistakes at up to so many times the distance of the best one fit as well.
 const AS_WELL: f64 = 3.0;
-pub(super) const MOST_CAUSES: usize = 3;
 /// Steps of the golden section, and values that are tried first on either side of 1.
 const REFINEMENTS: usize = 56;
 const FIRST_TRIES: i32 = 8;

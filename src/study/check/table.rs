@@ -1,9 +1,11 @@
 //! mistakes.toml: what may be wrong, in words and as numbers.
 
-use super::search::MOST_CAUSES;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
+
+/// Mistakes that fit as well as the best one are named too, but not more than these.
+pub(super) const MOST_CAUSES: usize = 3;
 
 /// The entries of mistakes.toml.
 #[derive(Debug, Deserialize)]

@@ -1,8 +1,7 @@
 //! Mistakes in what is written: the code computes rightly, and a column is something else that its twin knows.
 
 use super::evidence::{Column, Evidence, ROUNDING, of_contact};
-use super::search::MOST_CAUSES;
-use super::table::{TABLE, meanings};
+use super::table::{MOST_CAUSES, TABLE, meanings};
 use super::twin::{CONTACTS, FLOOR, OF_BODY, PER_CONTACT, Row, WALL, WIDTH};
 
 /// The columns that change their sign in a mirror.

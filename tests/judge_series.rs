@@ -123,7 +123,7 @@ fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
 fn the_force_is_that_of_a_crosscheck() {
     let (bench, speeds) = bench_with(ContactConvention::PAPER);
     let (_, tables, _) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
-    let line = format!("crosscheck --codes native {STACK} --format json");
+    let line = format!("crosscheck --codes native {BARE} --format json");
     let output = bench.tristack(&line).output().expect("it runs").stdout;
     let live = &json(&String::from_utf8(output).expect("text"))["rows"][0];
     let number = |row: &Value, name: &str| row[name].as_f64().expect("a number");

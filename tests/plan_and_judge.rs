@@ -466,7 +466,7 @@ fn a_folder_with_another_deck_has_to_be_planned_again_and_keeps_what_was_made() 
     let (status, _, message) = judge(&bench, "");
     assert_eq!(status, Some(3), "{message}");
     assert!(
-        message.contains("with the files of today; plan again"),
+        message.contains("with the files of today: the same tristack plan again"),
         "{message}"
     );
     let new = plan(&bench, ONE_STACK);

@@ -24,7 +24,7 @@ const UNKNOWN_VERSION: &str = "unknown";
 /// program, and keeps nothing in the store.
 ///
 /// With --series, three or more series of one stack are judged without a plan: slip onset and peak, extrapolated to
-/// vanishing wall speed, against the exact limit under the arms that are given or that a passport has (the paper's, if none). What the
+/// vanishing wall speed, against the exact limit under the arms of --pair-arm and --floor-arm or of a --passport. What the
 /// uncertainty lacks is said, with the run that would make it known; until then nothing agrees.
 #[derive(Debug, Args)]
 #[command(

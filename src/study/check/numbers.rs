@@ -66,9 +66,9 @@ numbers! {
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";
     damps_sliding = 0.0, "Flag: the damping is added to the force at the limit.";
-    one_sided = 0.0, "The sign that the force at the limit always has.";
+    one_sided = 0.0, "The sign that the force at the limit always has; 0 where it has that of the force.";
     uncapped_damping = 0.0, "Flag: the spring alone is capped, and the damping added.";
-    caps_of = 0.0, "The only sign of forces that are capped.";
+    caps_of = 0.0, "The sign of the forces that alone are capped; 0 where all are.";
     limit_before = 0.0, "Flag: μ times the normal force of the step before.";
     damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
     damping_exponent = 0.0, "Power of the overlap in the normal damping.";

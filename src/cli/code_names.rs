@@ -26,7 +26,8 @@ impl TypedValueParser for CodeParser {
                 clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n")).with_cmd(command)
             }),
             None if Path::new(value).is_dir() => {
-                let message = format!("{}\n", unknown(&value.to_string_lossy()));
+                let flag = argument.map_or_else(String::new, |argument| format!("{argument}: "));
+                let message = format!("{flag}{}\n", unknown(&value.to_string_lossy()));
                 Err(clap::Error::raw(ErrorKind::InvalidValue, message).with_cmd(command))
             }
             // The error lists the names.

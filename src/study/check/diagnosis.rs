@@ -3,9 +3,9 @@
 use super::evidence::{Evidence, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
-use super::stack::{self, at_first_sight};
+use super::stack::{self, at_first_sight, in_the_stack};
 use super::table::usual;
-use super::{search, written};
+use super::{equations, search, written};
 use crate::model::{Case, ContactConvention};
 use crate::series::Series;
 
@@ -13,6 +13,8 @@ use crate::series::Series;
 const SAME_MOTION: f64 = 1e-9;
 /// How the table begins to tell of a rule that is none of ours, and right.
 const NO_MISTAKE: &str = "no mistake";
+/// Steps by which the velocities of a leapfrog lag behind the positions.
+const LEAPFROG_LAG: f64 = 0.5;
 /// So many micro-tests agree to the last digits only where the integrator is that of the twin.
 const MANY_EXACT: usize = 5;
 
@@ -31,7 +33,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
     );
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
-    let known = Known::of(series, case, micro, convention, false);
+    let known = Known::of(series, case, micro, convention);
     let mut items = stack::items(series, case, &known.stacks);
     items.extend(of_micro);
     items.extend(known.item());
@@ -42,7 +44,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         .into_iter()
         .enumerate()
         .find_map(|(place, convention)| {
-            let causes = Known::of(series, case, micro, convention, true).causes();
+            let causes = Known::of(series, case, micro, convention).causes();
             (!causes.is_empty()).then_some((place, causes))
         });
     let (place, causes) = found.unwrap_or_default();
@@ -56,6 +58,10 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
             .collect();
     }
     let plain = at_first_sight(series);
+    let located = match causes.is_empty() && plain.is_none() {
+        true => located(&known, series, case, micro),
+        false => Vec::new(),
+    };
     for item in items
         .iter_mut()
         .filter(|item| item.outcome == Outcome::Failed)
@@ -66,11 +72,34 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
             item.causes.clone_from(&causes);
         } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
             item.causes = vec![plain.clone()];
+        } else if !located.is_empty() && !is_declaration {
+            item.causes.clone_from(&located);
         } else if item.causes.is_empty() {
             item.causes = vec![usual(item.name)];
         }
     }
     items
+}
+
+/// Where something is wrong, if no mistake of the table is it: the equations that do not hold in the micro-tests, or else the
+/// place in the stack.
+fn located(known: &Known, series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<String> {
+    let Some(micro) = micro else {
+        return Vec::new();
+    };
+    let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
+    let conventions = micro.conventions().into_iter();
+    let failing = conventions.map(|own| equations::explanations(&micro.answers, own, leaps));
+    let failing = failing.min_by_key(Vec::len).unwrap_or_default();
+    if !failing.is_empty() || !known.is_exact {
+        return failing;
+    }
+    let stack = Evidence::of_stack(series, case, known.stacks[0].twin.convention, true);
+    stack
+        .beginning()
+        .into_iter()
+        .chain(in_the_stack(series, case))
+        .collect()
 }
 
 /// An item that failed because of a rule that is right; a declaration of another rule is wrong all the same.
@@ -108,6 +137,8 @@ struct Known {
     /// The stack up to its peak, and to its end where law and integrator are those of the twin.
     stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
+    /// Whether the code has the law and the integrator of the twin.
+    is_exact: bool,
 }
 
 impl Known {
@@ -116,7 +147,6 @@ impl Known {
         case: &Case,
         micro: Option<&Micro>,
         convention: ContactConvention,
-        something_failed: bool,
     ) -> Self {
         let answers = micro.map_or(&[][..], |micro| &micro.answers);
         let motions = answers.iter();
@@ -134,18 +164,18 @@ impl Known {
         let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_failed));
         let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
         if is_exact {
-            // Codes in which surfaces that just touch are a contact are between rounding and another path.
-            let before = stacks[0].before;
-            if something_failed || !(ROUNDING..SAME).contains(&before) {
-                stacks.push(Evidence::of_stack(series, case, convention, true));
-                stacks[0].same = ROUNDING;
-            }
+            stacks.push(Evidence::of_stack(series, case, convention, true));
+            stacks[0].same = ROUNDING;
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
         } else if !is_wrong {
             // Another integrator.
             motions.clear();
         }
-        Self { stacks, motions }
+        Self {
+            stacks,
+            motions,
+            is_exact,
+        }
     }
 
     /// The item on micro-tests that are not those of the twin, although others are to the last digits.
@@ -170,7 +200,9 @@ impl Known {
 
     /// The mistakes that explain everything, or else the motions.
     fn causes(self) -> Vec<String> {
-        let Self { stacks, motions } = self;
+        let Self {
+            stacks, motions, ..
+        } = self;
         let law = motions.iter().any(Evidence::is_off);
         let off = stacks.iter().any(Evidence::is_off);
         let mut causes = match off && !law {
@@ -180,7 +212,11 @@ impl Known {
         if !causes.is_empty() || !law && !off {
             return causes;
         }
-        let all: Vec<Evidence> = motions.iter().cloned().chain(stacks).collect();
+        let all: Vec<Evidence> = motions
+            .iter()
+            .cloned()
+            .chain(stacks.iter().cloned())
+            .collect();
         let only = |law| if law { &motions[..] } else { &all[..] };
         causes = search::explanations(&all);
         if causes.is_empty() && law {
@@ -191,6 +227,15 @@ impl Known {
         }
         if causes.is_empty() && law {
             causes = search::fitted(&motions, &motions);
+        }
+        if causes.is_empty() && !law {
+            causes = search::explanations(&stacks);
+            if causes.is_empty() {
+                causes = search::fitted(&stacks, &stacks);
+            }
+            causes.iter_mut().for_each(|cause| {
+                cause.insert_str(0, "in the stack, but not in the micro-tests: ")
+            });
         }
         causes
     }

@@ -234,6 +234,44 @@ impl Evidence {
             .map_or(("", 0, 0.0, 0.0), |(_, told)| told)
     }
 
+    /// Where a stack begins to be another one, although its micro-tests are right.
+    pub fn beginning(&self) -> Option<String> {
+        let dense = self.dense();
+        let is_off = |column: &usize| {
+            let own = &self.columns[*column];
+            self.found.iter().any(|(step, values)| {
+                let right = dense
+                    .get(*step as usize)
+                    .map_or(f64::NAN, |row| own.of(row));
+                (values[*column] - right).abs() > ROUNDING * own.scale
+            })
+        };
+        let off: Vec<&str> = (0..self.columns.len())
+            .filter(is_off)
+            .map(|column| self.columns[column].name)
+            .collect();
+        let own = Self {
+            same: ROUNDING,
+            ..self.clone()
+        };
+        let (name, step, found, expected) = own.first_off();
+        let told = format!("{name} is {found:.9} at step {step}, where {expected:.9} is expected");
+        let is_written = off.len() < self.columns.len() / 2;
+        Some(match (off.is_empty(), is_written, step) {
+            (true, ..) => return None,
+            (_, true, _) => format!(
+                "the motion is right: only {} is off, so that it is read or written wrongly; {told}",
+                off.join(", ")
+            ),
+            (_, _, 0) => format!(
+                "single contacts are right, and the stack is another one before the wall moves: what is wrong happens in                  its preparation (first places, gravity, ramp, rest) or where several contacts act at once; {told}"
+            ),
+            _ => format!(
+                "single contacts are right, and so is the stack at rest: what is wrong happens in its compression (the                  movement of the wall, what changes when it starts); {told}"
+            ),
+        })
+    }
+
     /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.
     pub fn is_symmetric(&self) -> bool {
         let place = |name: &str| self.columns.iter().position(|column| column.name == name);

@@ -4,6 +4,7 @@
 //! is compared with what the code has written.
 
 mod diagnosis;
+mod equations;
 mod evidence;
 mod factor;
 mod information;

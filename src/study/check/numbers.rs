@@ -74,6 +74,8 @@ numbers! {
     damping_exponent = 0.0, "Power of the overlap in the normal damping.";
     rolling = 0.0, "Rolling friction: torque over normal force.";
     pulls = 0.0, "Flag: a contact that opens goes on pulling.";
+    shares_spring = 0.0, "Flag: all contacts of its kind have one tangential spring.";
+    touches = 0.0, "Flag: surfaces that just touch are a contact.";
 }
 
 numbers! {

@@ -12,6 +12,9 @@ use std::ops::Range;
 const AS_WELL: f64 = 3.0;
 /// Steps of the golden section, and values that are tried first on either side of 1.
 const REFINEMENTS: usize = 56;
+/// After so many of them something that still leaves so much of the distance is not it.
+const FEW_REFINEMENTS: usize = 14;
+const HOPELESS: f64 = 0.5;
 const FIRST_TRIES: i32 = 8;
 const LARGEST_FACTOR: f64 = 30.0;
 
@@ -396,7 +399,7 @@ impl Fitted {
             &|place| distance(place, f64::INFINITY),
             nearest.1 - spacing,
             nearest.1 + spacing,
-        );
+        )?;
         let fault = self.fault(place);
         let rest = score(whole, &fault)?;
         let told = match fault.acts.first()? {
@@ -408,12 +411,15 @@ impl Fitted {
     }
 }
 
-/// Where `value` is smallest between two places, by the golden section.
-fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+/// Where `value`, a part of what it was, is smallest between two places, by the golden section; `None` if it stays large.
+fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut left, mut right) = (high - golden * (high - low), low + golden * (high - low));
     let (mut of_left, mut of_right) = (value(left), value(right));
-    for _ in 0..REFINEMENTS {
+    for refinement in 0..REFINEMENTS {
+        if refinement == FEW_REFINEMENTS && of_left.min(of_right) > HOPELESS {
+            return None;
+        }
         if of_left < of_right {
             (high, right, of_right) = (right, left, of_left);
             left = high - golden * (high - low);
@@ -424,7 +430,7 @@ fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
             of_right = value(right);
         }
     }
-    0.5 * (low + high)
+    Some(0.5 * (low + high))
 }
 
 #[cfg(test)]

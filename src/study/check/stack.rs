@@ -194,6 +194,48 @@ fn digits(series: &Series, case: &Case) -> Item {
     )
 }
 
+/// What its own forces say of the weight and of the wall, where they are not as asked.
+pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
+    const SAME: f64 = 1e-3;
+    let rows = series.samples();
+    let law = case.convention.law(case.stack.stiffness_ratio);
+    let weight = 3.0 * case.stack.epsilon();
+    let borne = |row: &Sample| (row.floor_n2 + row.floor_n3 - row.wall_force) / weight;
+    let highest = rows
+        .iter()
+        .max_by(|one, two| one.wall_force.total_cmp(&two.wall_force));
+    let (Some(first), Some(last)) = (rows.first(), highest) else {
+        return Vec::new();
+    };
+    let mut told = Vec::new();
+    if [first, last]
+        .iter()
+        .any(|row| (borne(row) - 1.0).abs() > SAME)
+    {
+        told.push(format!(
+            "floor and wall bear {:.4} times the weight 3 m g at step 0, and {:.4} times at step {}",
+            borne(first),
+            borne(last),
+            last.step
+        ));
+    }
+    let way = |row: &Sample| first.y1 - row.y1 + law.overlap(row.wall_force);
+    let asked = |row: &Sample| case.protocol.wall_speed * row.time;
+    let mut pressed = rows.iter().filter(|row| row.wall_force > 0.0);
+    if let Some(touched) = pressed.next().filter(|touched| touched.step < last.step) {
+        let ahead = way(touched) - asked(touched);
+        let speed = (way(last) - way(touched)) / (asked(last) - asked(touched));
+        if ahead.abs() > SAME * asked(last) || (speed - 1.0).abs() > SAME {
+            told.push(format!(
+                "judged by its force and y1, the wall is {ahead:.6} r lower than it must be when it first presses, at step \
+                 {}, and moves on {speed:.4} times as far as it must until step {}",
+                touched.step, last.step
+            ));
+        }
+    }
+    told
+}
+
 /// What the stack at rest shows without computing anything.
 pub(super) fn at_first_sight(series: &Series) -> Option<String> {
     let rows = series.samples();

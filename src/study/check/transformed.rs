@@ -2,6 +2,9 @@
 
 use super::written::Written;
 
+/// Decimals from which on rounding is too small to be found.
+const MOST_DECIMALS: i32 = 9;
+
 impl Written<'_> {
     /// Changes, sums, means, absolute values of the right column.
     pub(super) fn transformed(&self, column: usize) -> Option<String> {
@@ -32,10 +35,20 @@ impl Written<'_> {
         let turned = 2.0 * std::f64::consts::PI;
         let last = steps.len() - 1;
         let initial = initial_position(self.own.columns[column].name);
-        let values: [(&str, &dyn Fn(f64) -> f64); 17] = [
+        let values: [(&str, &dyn Fn(f64) -> f64); 20] = [
             (
                 "are written without their signs: their absolute values",
                 &|step| own(step).abs(),
+            ),
+            ("are 0 where they must be negative", &|step| {
+                own(step).max(0.0)
+            }),
+            ("are 0 where they must be positive", &|step| {
+                own(step).min(0.0)
+            }),
+            (
+                "are cut off after the decimal point, whole numbers",
+                &|step| own(step).trunc(),
             ),
             (
                 "are displacements since the beginning of the run, in place of positions",
@@ -106,10 +119,36 @@ impl Written<'_> {
             Some(format!("are squares, times {factor:.6}"))
         };
         let rounded = || {
-            self.explains(column, &|step| own(step).round())
-                .then(|| "are rounded to whole numbers".to_owned())
+            let decimals = (0..MOST_DECIMALS).find(|decimals| {
+                let unit = libm::exp10(f64::from(*decimals));
+                self.explains(column, &|step| (own(step) * unit).round() / unit)
+            })?;
+            Some(format!("are rounded to {decimals} decimals"))
         };
-        known.or_else(squared).or_else(rounded)
+        known
+            .or_else(squared)
+            .or_else(rounded)
+            .or_else(|| self.smoothed(column, &steps))
+    }
+
+    /// A mean that forgets the rows before by and by.
+    fn smoothed(&self, column: usize, steps: &[f64]) -> Option<String> {
+        let found = |row: usize| self.own.found[row].1[column];
+        let share = |row: usize| {
+            let change = self.right(column, steps[row]) - found(row - 1);
+            (found(row) - found(row - 1)) / change
+        };
+        let middle = (steps.len() / 2).max(1);
+        let own = share(middle);
+        let is_one = |row: usize| {
+            let told = found(row - 1) + own * (self.right(column, steps[row]) - found(row - 1));
+            (told - found(row)).abs() <= self.own.allowed() * self.own.columns[column].scale
+        };
+        (own > 0.0 && own < 1.0 && (1..steps.len()).all(is_one)).then(|| {
+            format!(
+                "are smoothed: {own:.6} of the right value and the rest of the row before; a row is one moment"
+            )
+        })
     }
 }
 

@@ -37,6 +37,12 @@ pub(super) const WIDTH: usize = 3 * OF_BODY.len() + CONTACTS.len() * PER_CONTACT
 /// spring, its overlap, and the length of its tangential spring.
 pub(super) type Row = [f64; WIDTH];
 
+/// The numbers of a contact in a row.
+pub(super) fn cells(row: &Row, contact: usize) -> [f64; PER_CONTACT] {
+    let first = 3 * OF_BODY.len() + contact * PER_CONTACT;
+    std::array::from_fn(|index| row[first + index])
+}
+
 #[derive(Debug, Clone, Copy, Default)]
 struct Body {
     at: [f64; 3],
@@ -64,6 +70,8 @@ pub(super) struct Twin {
     plan: Plan,
     bodies: Vec<Body>,
     states: [State; 9],
+    /// The spring that all contacts of a kind share, where they do.
+    shared: [f64; 3],
     wall: f64,
     wall_speed: f64,
 }
@@ -100,6 +108,7 @@ impl Twin {
             plan,
             bodies: Vec::new(),
             states: [State::default(); 9],
+            shared: [0.0; 3],
             wall: f64::INFINITY,
             wall_speed: 0.0,
         }
@@ -172,6 +181,19 @@ impl Twin {
                 }
             }
         }
+    }
+
+    /// The forces of the law at some positions and velocities, and the springs as they leave them.
+    pub fn forces_at(&mut self, states: &[[f64; 5]], wall: f64) -> Row {
+        let bodies = states.iter().map(|&[x, y, vx, vy, spin]| Body {
+            at: [x, y, 0.0],
+            speed: [vx, vy, spin],
+            ..Body::default()
+        });
+        self.bodies = bodies.collect();
+        (self.wall, self.wall_speed) = (wall, self.run.wall_speed);
+        self.forces();
+        self.row()
     }
 
     fn prepare(&mut self) {
@@ -287,7 +309,15 @@ impl Twin {
         let count = self.bodies.len();
         for (index, (one, two)) in CONTACTS.into_iter().enumerate() {
             if one < count && two.is_none_or(|two| two < count) {
+                let kind = index / 3;
+                let shares = self.contacts[index].shares_spring != 0.0;
+                if shares {
+                    self.states[index].spring = self.shared[kind];
+                }
                 self.contact(index, one, two);
+                if shares {
+                    self.shared[kind] = self.states[index].spring;
+                }
             }
         }
     }
@@ -317,7 +347,8 @@ impl Twin {
         };
         let overlap = radius - distance - law.gap;
         let state = &mut self.states[index];
-        if overlap.is_nan() || overlap <= 0.0 && law.pulls * state.overlap == 0.0 {
+        let is_open = overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
+        if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
             let spring = state.spring * law.keeps_open_spring;
             *state = State {
                 spring,

@@ -112,11 +112,9 @@ fn title(place: usize) -> String {
 impl Written<'_> {
     /// Whether some values explain a column, given by step.
     pub(super) fn explains(&self, column: usize, value: &dyn Fn(f64) -> f64) -> bool {
-        let scale = self.own.columns[column].scale;
+        let allowed = self.own.allowed() * self.own.columns[column].scale;
         let mut rows = self.own.found.iter();
-        rows.all(|(step, values)| {
-            (values[column] - value(*step as f64)).abs() <= self.own.same * scale
-        })
+        rows.all(|(step, values)| (values[column] - value(*step as f64)).abs() <= allowed)
     }
 
     pub(super) fn right(&self, column: usize, step: f64) -> f64 {

@@ -36,5 +36,6 @@ pub(crate) use passport::PASSPORT;
 pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;
+pub(crate) use regression::fit_rows;
 pub(crate) use settle::settle_by_files;
 pub use settle::{settle, settle_by};

@@ -15,6 +15,8 @@ const SAME_MOTION: f64 = 1e-9;
 const NO_MISTAKE: &str = "no mistake";
 /// Steps by which the velocities of a leapfrog lag behind the positions.
 const LEAPFROG_LAG: f64 = 0.5;
+/// The force of a micro-test that moves nothing.
+const REPORTED: &str = "wall_force";
 /// So many micro-tests agree to the last digits only where the integrator is that of the twin.
 const MANY_EXACT: usize = 5;
 
@@ -57,11 +59,11 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
             .map(|item| excused(item, &causes[0]))
             .collect();
     }
-    let plain = at_first_sight(series);
-    let located = match causes.is_empty() && plain.is_none() {
+    let (located, is_known) = match causes.is_empty() {
         true => located(&known, series, case, micro),
-        false => Vec::new(),
+        false => (Vec::new(), false),
     };
+    let plain = at_first_sight(series).filter(|_| !is_known);
     for item in items
         .iter_mut()
         .filter(|item| item.outcome == Outcome::Failed)
@@ -82,24 +84,30 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
 }
 
 /// Where something is wrong, if no mistake of the table is it: the equations that do not hold in the micro-tests, or else the
-/// place in the stack.
-fn located(known: &Known, series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<String> {
+/// place in the stack; and whether the mistake is known by that.
+fn located(
+    known: &Known,
+    series: &Series,
+    case: &Case,
+    micro: Option<&Micro>,
+) -> (Vec<String>, bool) {
     let Some(micro) = micro else {
-        return Vec::new();
+        return (Vec::new(), false);
     };
     let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
     let conventions = micro.conventions().into_iter();
-    let failing = conventions.map(|own| equations::explanations(&micro.answers, own, leaps));
-    let failing = failing.min_by_key(Vec::len).unwrap_or_default();
-    if !failing.is_empty() || !known.is_exact {
-        return failing;
+    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps));
+    let fewest = failing.min_by_key(|own| (!own.is_explained, own.texts.len()));
+    match fewest {
+        Some(own) if !own.texts.is_empty() => (own.texts, own.is_explained),
+        _ if !known.is_exact => (Vec::new(), false),
+        _ => {
+            let convention = known.stacks[0].twin.convention;
+            let stack = Evidence::of_stack(series, case, convention, false);
+            let place = stack.beginning().into_iter();
+            (place.chain(in_the_stack(series, case)).collect(), false)
+        }
     }
-    let stack = Evidence::of_stack(series, case, known.stacks[0].twin.convention, true);
-    stack
-        .beginning()
-        .into_iter()
-        .chain(in_the_stack(series, case))
-        .collect()
 }
 
 /// An item that failed because of a rule that is right; a declaration of another rule is wrong all the same.
@@ -205,7 +213,8 @@ impl Known {
         } = self;
         let law = motions.iter().any(Evidence::is_off);
         let off = stacks.iter().any(Evidence::is_off);
-        let mut causes = match off && !law {
+        let is_moved = motions.iter().any(|own| own.is_off_beside(&[REPORTED]));
+        let mut causes = match off && !is_moved {
             true => written::explanations(&stacks[0]),
             false => Vec::new(),
         };

@@ -12,6 +12,8 @@ pub(super) const SAME: f64 = 1e-3;
 pub(super) const ROUNDING: f64 = 1e-6;
 /// Part of a deviation that may remain where its cause is found.
 const EXPLAINED: f64 = 0.1;
+/// Part of the largest value up to which a column is nearly another number.
+const NEARLY: f64 = 1e-2;
 /// Factor by which a small distance, that of another integrator, may grow.
 const AS_BEFORE: f64 = 3.0;
 
@@ -237,18 +239,24 @@ impl Evidence {
     /// Where a stack begins to be another one, although its micro-tests are right.
     pub fn beginning(&self) -> Option<String> {
         let dense = self.dense();
-        let is_off = |column: &usize| {
-            let own = &self.columns[*column];
-            self.found.iter().any(|(step, values)| {
-                let right = dense
-                    .get(*step as usize)
-                    .map_or(f64::NAN, |row| own.of(row));
-                (values[*column] - right).abs() > ROUNDING * own.scale
-            })
+        let right = |step: u64, column: &Column| {
+            dense
+                .get(step as usize)
+                .map_or(f64::NAN, |row| column.of(row))
         };
-        let off: Vec<&str> = (0..self.columns.len())
-            .filter(is_off)
-            .map(|column| self.columns[column].name)
+        let pairs = |index: usize| {
+            let own = &self.columns[index];
+            self.found
+                .iter()
+                .map(move |(step, values)| (values[index], right(*step, own)))
+        };
+        let furthest = |index: usize, factor: f64| {
+            pairs(index).fold(0.0, |worst, (found, right)| {
+                f64::max(worst, (found - factor * right).abs())
+            }) / self.columns[index].scale
+        };
+        let off: Vec<usize> = (0..self.columns.len())
+            .filter(|own| furthest(*own, 1.0) > ROUNDING)
             .collect();
         let own = Self {
             same: ROUNDING,
@@ -256,20 +264,38 @@ impl Evidence {
         };
         let (name, step, found, expected) = own.first_off();
         let told = format!("{name} is {found:.9} at step {step}, where {expected:.9} is expected");
-        let is_written = off.len() < self.columns.len() / 2;
-        Some(match (off.is_empty(), is_written, step) {
-            (true, ..) => return None,
-            (_, true, _) => format!(
-                "the motion is right: only {} is off, so that it is read or written wrongly; {told}",
-                off.join(", ")
-            ),
-            (_, _, 0) => format!(
-                "single contacts are right, and the stack is another one before the wall moves: what is wrong happens in                  its preparation (first places, gravity, ramp, rest) or where several contacts act at once; {told}"
-            ),
-            _ => format!(
-                "single contacts are right, and so is the stack at rest: what is wrong happens in its compression (the                  movement of the wall, what changes when it starts); {told}"
-            ),
-        })
+        if off.is_empty() {
+            return None;
+        }
+        if off.len() < self.columns.len() / 2 {
+            let each = off.iter().map(|&index| {
+                let sums = pairs(index).fold([0.0; 2], |[by, own], (found, right)| {
+                    [by + found * right, own + right * right]
+                });
+                let (name, factor) = (self.columns[index].name, sums[0] / sums[1]);
+                match furthest(index, factor) {
+                    rest if rest < NEARLY => {
+                        format!("{name} (nearly {factor:.4} times the right values, to {rest:.0e})")
+                    }
+                    _ => name.to_owned(),
+                }
+            });
+            let names = each.collect::<Vec<_>>().join(" and ");
+            return Some(format!(
+                "the motion is right: only the values of {names} are off, so that they are read or written wrongly; {told}"
+            ));
+        }
+        let when = match step {
+            0 => {
+                "the stack is another one before the wall moves: what is wrong happens in its preparation (first places, \
+                 gravity, ramp, rest) or where several contacts act at once"
+            }
+            _ => {
+                "so is the stack at rest: what is wrong happens in its compression (the movement of the wall, what changes \
+                 when it starts)"
+            }
+        };
+        Some(format!("single contacts are right, and {when}; {told}"))
     }
 
     /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.
@@ -290,6 +316,19 @@ impl Evidence {
     /// Whether the rows are not those of the twin without a fault.
     pub fn is_off(&self) -> bool {
         self.before >= self.same
+    }
+
+    /// The same of all columns beside some.
+    pub fn is_off_beside(&self, names: &[&str]) -> bool {
+        let mut beside = self.clone();
+        for column in beside
+            .columns
+            .iter_mut()
+            .filter(|own| names.contains(&own.name))
+        {
+            column.scale = f64::INFINITY;
+        }
+        beside.distance(|_| (), self.same) >= self.same
     }
 
     /// The largest distance that is allowed to what explains these rows.

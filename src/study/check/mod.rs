@@ -15,6 +15,7 @@ mod report;
 mod search;
 mod stack;
 mod table;
+mod terms;
 mod touching;
 mod transformed;
 mod twin;

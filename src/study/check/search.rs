@@ -161,7 +161,16 @@ const AT_SINGLE: usize = 4;
 /// All single mistakes without a size of their own.
 fn faults() -> Vec<Fault<'static>> {
     let table = &*TABLE;
-    let mut faults = Vec::new();
+    // What has a name of its own comes before numbers that have the same effect.
+    let mut faults: Vec<Fault> = table
+        .loading
+        .iter()
+        .map(|own| own.fault(None, 0..0))
+        .collect();
+    for (at, contacts) in &PLACES {
+        let own = table.law.iter();
+        faults.extend(own.map(|own| own.fault(Some(at), contacts.clone())));
+    }
     for (place, (at, contacts)) in PLACES.iter().enumerate() {
         for quantity in &table.contact {
             let values = if place < KINDS {
@@ -171,17 +180,10 @@ fn faults() -> Vec<Fault<'static>> {
             };
             of_quantity(quantity, &format!(" {at}"), contacts, values, &mut faults);
         }
-        faults.extend(
-            table
-                .law
-                .iter()
-                .map(|own| own.fault(Some(at), contacts.clone())),
-        );
     }
     for quantity in &table.run {
         of_quantity(quantity, "", &(0..0), table.value.len(), &mut faults);
     }
-    faults.extend(table.loading.iter().map(|own| own.fault(None, 0..0)));
     faults.extend(EXCHANGED.into_iter().map(|(one, two)| Fault {
         text: format!("{one} and {two} are exchanged"),
         contacts: 0..9,

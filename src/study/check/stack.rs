@@ -221,15 +221,28 @@ pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
     }
     let way = |row: &Sample| first.y1 - row.y1 + law.overlap(row.wall_force);
     let asked = |row: &Sample| case.protocol.wall_speed * row.time;
-    let mut pressed = rows.iter().filter(|row| row.wall_force > 0.0);
-    if let Some(touched) = pressed.next().filter(|touched| touched.step < last.step) {
-        let ahead = way(touched) - asked(touched);
-        let speed = (way(last) - way(touched)) / (asked(last) - asked(touched));
-        if ahead.abs() > SAME * asked(last) || (speed - 1.0).abs() > SAME {
+    let pressed = || {
+        rows.iter()
+            .filter(|row| row.wall_force > 0.0 && row.step <= last.step)
+    };
+    let half = pressed().nth(pressed().count() / 2);
+    if let (Some(touched), Some(half)) =
+        (pressed().next(), half.filter(|half| half.step < last.step))
+    {
+        let speed = |from: &Sample, to: &Sample| (way(to) - way(from)) / (asked(to) - asked(from));
+        let ahead = [touched, last].map(|row| way(row) - asked(row));
+        let speeds = [speed(touched, half), speed(half, last)];
+        if ahead[1].abs() > SAME * asked(last) || speeds.iter().any(|own| (own - 1.0).abs() > SAME)
+        {
+            let steps = |way: f64| way / (case.protocol.wall_speed * case.protocol.time_step);
+            let place = |way: f64| match way < 0.0 {
+                true => format!("{:.6} r too high ({:.1} steps behind)", -way, -steps(way)),
+                false => format!("{way:.6} r too low ({:.1} steps ahead)", steps(way)),
+            };
             told.push(format!(
-                "judged by its force and y1, the wall is {ahead:.6} r lower than it must be when it first presses, at step \
-                 {}, and moves on {speed:.4} times as far as it must until step {}",
-                touched.step, last.step
+                "judged by its force and y1, the wall is {} when it first presses, at step {}, and {} at step {}; in between \
+                 it moves {:.4} times as fast as it must in the first half, and {:.4} times in the second",
+                place(ahead[0]), touched.step, place(ahead[1]), last.step, speeds[0], speeds[1]
             ));
         }
     }

@@ -8,6 +8,7 @@ use super::touching::{State, Touching};
 use crate::model::{
     Case, ContactConvention, ContactLaw, ContactTest, PreparationSteps, Schedule, smooth_step,
 };
+use crate::series::BodyRow;
 
 /// Steps of a preparation that nobody waits for.
 const MOST_STEPS: f64 = 2e4;
@@ -183,17 +184,33 @@ impl Twin {
         }
     }
 
-    /// The forces of the law at some positions and velocities, and the springs as they leave them.
-    pub fn forces_at(&mut self, states: &[[f64; 5]], wall: f64) -> Row {
-        let bodies = states.iter().map(|&[x, y, vx, vy, spin]| Body {
-            at: [x, y, 0.0],
-            speed: [vx, vy, spin],
+    /// The forces of the law at the positions and velocities that a code has written, and the springs as they leave them.
+    pub fn forces_at(&mut self, written: &[BodyRow; 2], wall: f64) -> Row {
+        let bodies = written.iter().map(|own| Body {
+            at: [own.position[0], own.position[1], 0.0],
+            speed: [own.velocity[0], own.velocity[1], own.spin],
             ..Body::default()
         });
         self.bodies = bodies.collect();
         (self.wall, self.wall_speed) = (wall, self.run.wall_speed);
         self.forces();
         self.row()
+    }
+
+    /// Takes the length of the tangential spring of the first body over from the force that a code has written, where the
+    /// contact sticks.
+    pub fn follow(&mut self, written: &BodyRow) {
+        // The first body of a pair is the second of its contact.
+        for (contact, sign) in [(0, -1.0), (FLOOR.start, 1.0)] {
+            let (state, law) = (&mut self.states[contact], &self.contacts[contact]);
+            let [pressing, tangential] = state.force;
+            let ([x, y], [along_x, along_y]) = (state.normal, written.force);
+            let found = sign * (x * along_y - y * along_x);
+            let sticks = tangential == state.trial && found.abs() < law.friction * pressing.abs();
+            if state.overlap > 0.0 && sticks {
+                state.spring -= (found - tangential) / law.tangential_stiffness;
+            }
+        }
     }
 
     fn prepare(&mut self) {

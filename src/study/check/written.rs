@@ -281,6 +281,7 @@ impl Written<'_> {
                 .map(|body| (of_contact(FLOOR.start + body, number), 1.0))
                 .to_vec()
         };
+        let borne = |row: &Row| forces(0).iter().map(|(place, _)| row[*place]).sum::<f64>();
         let sums = [0, 1].map(|number| {
             let name = ["normal", "tangential"][number];
             (
@@ -288,6 +289,12 @@ impl Written<'_> {
                 forces(number),
             )
         });
+        if self.explains(column, &|step| {
+            self.at(step, |row| borne(row)) - 3.0 * self.weight
+        }) {
+            let text = "what stands there is the sum of the normal forces of the floor less the weight of the stack";
+            return Some(text.to_owned());
+        }
         let all: Vec<(String, Vec<(usize, f64)>)> = known.chain(all).chain(sums).collect();
         let simple = |factor: f64| [1.0, -1.0].iter().any(|own| (factor - own).abs() < 1e-6);
         let fitting = all.iter().filter_map(|(name, parts)| {

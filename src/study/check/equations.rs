@@ -25,6 +25,11 @@ const ROUNDED: f64 = 1e-3;
 const FEW_DIGITS: usize = 15;
 /// Part of the numbers under a condition that must be wrong if that is where they are wrong.
 const MOST: f64 = 0.8;
+/// The same of the numbers that the mistake of the first ones explains.
+const MOST_OF_ALL: f64 = 0.5;
+const BEGINNING: usize = 12;
+/// Longest period of something that is not done in every step.
+const MOST_STEPS: u64 = 101;
 /// Fewer numbers do not tell terms apart.
 const FEWEST: usize = 4;
 /// Widest gap between surfaces that are looked at as neighbours.
@@ -64,6 +69,8 @@ struct Equation {
 
 /// What is added or left out in an equation.
 struct Relation {
+    /// Where it is so; equations that fail in the same way are told together.
+    condition: String,
     text: String,
     is_explained: bool,
 }
@@ -97,44 +104,84 @@ impl Equation {
             .filter(|line| line.left().abs() > rounding)
             .collect();
         let first = off.first()?;
-        let explained = |text| {
+        let explained = |condition: String, text| {
             Some(Relation {
+                condition,
                 text,
                 is_explained: true,
             })
         };
         if let Some(digits) = self.digits() {
-            return explained(format!(
+            let text = format!(
                 "rounded to {digits} digits: the numbers of the task are not read as they are"
-            ));
+            );
+            return explained(String::new(), text);
         }
-        if let Some(told) = self.told(&all, rounding) {
-            return explained(told);
+        if let Some(told) = self
+            .told(&all, &all, rounding)
+            .or_else(|| self.in_stairs(&all, rounding))
+        {
+            return explained(String::new(), told);
         }
         let place = self.place(&off, rounding);
-        if let Some(told) = self.told(&off, rounding) {
-            return explained(format!("{place}{told}"));
+        // What begins with another mistake is mostly the same one.
+        let beginning = &off[..off.len().min(BEGINNING)];
+        if let Some(told) = self
+            .told(&off, &off, rounding)
+            .or_else(|| self.told(beginning, &off, rounding))
+        {
+            return explained(place, told);
         }
         let text = format!(
-            "{place}it is another one than the law gives: {:.9} at step {} of a micro-test, where {:.9} is expected at the \
+            "it is another one than the law gives: {:.9} at step {} of a micro-test, where {:.9} is expected at the \
              positions and velocities of that step",
             first.found, first.step, first.expected
         );
         Some(Relation {
+            condition: place,
             text,
             is_explained: false,
         })
     }
 
-    /// The terms, one or two, that explain some lines.
-    fn told(&self, lines: &[&Line], rounding: f64) -> Option<String> {
+    /// What is moved every so many steps only, before or after the forces are computed.
+    fn in_stairs(&self, lines: &[&Line], rounding: f64) -> Option<String> {
+        let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
+        let mut rhythms = (2..MOST_STEPS).flat_map(|every| [(every, 0), (every, 1)]);
+        rhythms.find_map(|(every, first)| {
+            let late = |line: &Line| ((line.step + every - first) % every + first) as f64 * line.moment.time_step;
+            let second = lines.iter().find(|line| line.step == 1)?;
+            let speed = second.left() / late(second);
+            let fits = lines.iter().filter(|line| (line.left() - speed * late(line)).abs() <= allowed);
+            (speed.abs() > rounding && fits.count() as f64 >= MOST * lines.len() as f64).then(|| {
+                format!(
+                    "it is right every {every} steps and goes wrong in between, by {speed:+.6} in a unit of time: something \
+                     moves, or is computed, in every {every}th step only"
+                )
+            })
+        })
+    }
+
+    /// The terms, one or two, that explain `lines`, and most of `all`.
+    fn told(&self, lines: &[&Line], all: &[&Line], rounding: f64) -> Option<String> {
         let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
         let count = self.terms.len();
         let single = (0..count).map(|one| vec![one]);
         let double = (0..count).flat_map(|one| (one + 1..count).map(move |two| vec![one, two]));
-        let mut all = single.chain(double);
-        let (coefficients, terms) =
-            all.find_map(|terms| Some((self.fit(&terms, lines, allowed)?, terms)))?;
+        let explains_most = |terms: &[usize], own: &[f64]| {
+            let is_told = |line: &&&Line| {
+                let each = terms.iter().zip(own);
+                let told: f64 = each
+                    .map(|(term, own)| own * line.term(&self.terms[*term]))
+                    .sum();
+                (line.left() - told).abs() <= allowed
+            };
+            all.iter().filter(is_told).count() as f64 >= MOST_OF_ALL * all.len() as f64
+        };
+        let (coefficients, terms) = single.chain(double).find_map(|terms| {
+            let own = self.fit(&terms, lines, allowed)?;
+            explains_most(&terms, &own).then_some((own, terms))
+        })?;
         let told = terms
             .iter()
             .zip(coefficients)
@@ -227,6 +274,13 @@ impl Equation {
     }
 }
 
+impl Relation {
+    fn is_told_with(&self, other: &Self) -> bool {
+        let is_same = self.condition == other.condition && self.is_explained == other.is_explained;
+        is_same && (self.text == other.text || !self.is_explained)
+    }
+}
+
 /// What a coefficient of a term means.
 fn told(term: &Term, coefficient: f64) -> String {
     let name = term.name;
@@ -290,20 +344,20 @@ pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: 
     let is_explained = failing
         .first()
         .is_some_and(|(_, relation)| relation.is_explained);
-    let mut told: Vec<(Vec<&Equation>, String)> = Vec::new();
+    let mut told: Vec<(Vec<&Equation>, Relation)> = Vec::new();
     for (equation, relation) in failing {
         let mut others = told.iter_mut();
-        match others
-            .find(|(others, text)| *text == relation.text && others[0].name[3] == equation.name[3])
-        {
+        match others.find(|(others, own)| {
+            own.is_told_with(&relation) && others[0].name[3] == equation.name[3]
+        }) {
             Some((others, _)) => others.push(equation),
-            None => told.push((vec![equation], relation.text)),
+            None => told.push((vec![equation], relation)),
         }
     }
     told.truncate(MOST_CAUSES);
     let texts = told
         .into_iter()
-        .map(|(equations, text)| format!("{}: {text}", subject(&equations)));
+        .map(|(equations, own)| format!("{}: {}{}", subject(&equations), own.condition, own.text));
     Failing {
         texts: texts.collect(),
         is_explained,
@@ -391,6 +445,7 @@ impl Walk {
             },
             sheared_before: if began { old.sheared } else { 0.0 },
             first_overlap: if began { old.first_overlap } else { overlap },
+            largest_overlap: old.largest_overlap.max(overlap),
         };
     }
 }

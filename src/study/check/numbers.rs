@@ -62,6 +62,8 @@ numbers! {
     limit_signed = 0.0, "Flag: μ n without the absolute value, none where it pulls.";
     keeps_sliding_spring = 0.0, "Flag: the spring grows while the contact slides.";
     clears_sliding_spring = 0.0, "Flag: it is 0 while the contact slides.";
+    flips_sliding_spring = 0.0, "Flag: it is that of the force at the limit, with the wrong sign.";
+    first_normal = 0.0, "Flag: the normal is that of the moment at which the surfaces have touched.";
     keeps_whole_force = 0.0, "Flag: while the contact slides the spring bears the whole force, damping included.";
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";

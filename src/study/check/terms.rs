@@ -50,6 +50,7 @@ pub(super) struct Touch {
     pub late: [f64; 2],
     pub sheared_before: f64,
     pub first_overlap: f64,
+    pub largest_overlap: f64,
 }
 
 impl Moment {
@@ -134,7 +135,7 @@ macro_rules! terms {
 }
 
 /// A force on a body.
-pub(super) static FORCE: [Term; 35] = terms! {
+pub(super) static FORCE: [Term; 36] = terms! {
     "the normal force" => |m, axis| m.touch.pressing * m.along(axis);
     "the spring's part of the normal force" => |m, axis| m.touch.elastic * m.along(axis);
     "the damping of the normal force" => |m, axis| m.touch.damping() * m.along(axis);
@@ -151,6 +152,8 @@ pub(super) static FORCE: [Term; 35] = terms! {
         |m, axis| m.touch.sheared_before * m.across(axis);
     "the overlap", "the contact acts across a gap where it is open: its range is too large, or it is not ended" =>
         |m, axis| m.touch.overlap * m.along(axis);
+    "the largest overlap so far", "the force depends on the history of the overlap: hysteresis, another stiffness on unloading" =>
+        |m, axis| m.touch.largest_overlap * m.along(axis);
     "the overlap at the beginning", "the force counts from there and not from the overlap itself, if this is -1" =>
         |m, axis| m.touch.first_overlap * m.along(axis);
     "the way by which the surfaces have approached", "the force is summed up from their velocity, if the spring's part is left out" =>

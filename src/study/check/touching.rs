@@ -125,6 +125,8 @@ impl Touching {
             stretched
         } else if law.clears_sliding_spring != 0.0 {
             0.0
+        } else if law.flips_sliding_spring != 0.0 {
+            at_limit / law.tangential_stiffness
         } else if law.keeps_whole_force != 0.0 {
             -at_limit / law.tangential_stiffness
         } else if convention.sliding_spring == SlidingSpring::FollowsLimit {

@@ -374,6 +374,10 @@ impl Twin {
             };
             return;
         }
+        let normal = match law.first_normal != 0.0 && state.overlap > 0.0 {
+            true => state.normal,
+            false => normal,
+        };
         let along = |speed: [f64; 3]| normal[0] * speed[0] + normal[1] * speed[1];
         let across = |speed: [f64; 3]| normal[0] * speed[1] - normal[1] * speed[0];
         let separation = along(first.speed) - law.separation_two * along(other);

@@ -1,6 +1,6 @@
 //! The items on a stack and on micro-tests, and the one mistake that explains what failed among them.
 
-use super::evidence::{Evidence, ROUNDING, SAME};
+use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, at_first_sight, in_the_stack};
@@ -112,8 +112,15 @@ fn located(
         _ => {
             let convention = known.stacks[0].twin.convention;
             let stack = Evidence::of_stack(series, case, convention, false);
-            let place = stack.beginning().into_iter();
-            (place.chain(in_the_stack(series, case)).collect(), false)
+            // Where only what is written is wrong, nothing follows from it.
+            let place: Vec<String> = stack.beginning().into_iter().collect();
+            let moves = place.iter().any(|own| own.starts_with(MOVED));
+            let further = if moves {
+                in_the_stack(series, case)
+            } else {
+                Vec::new()
+            };
+            (place.into_iter().chain(further).collect(), false)
         }
     }
 }

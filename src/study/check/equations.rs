@@ -722,3 +722,40 @@ fn moment(
         touch: walk.touch,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::ask_native;
+    use super::*;
+    use crate::series::Motion;
+
+    /// What is told of the native DEM after a change of its rows.
+    fn told_after(change: impl Fn(&mut MotionRow)) -> Vec<String> {
+        let mut answers = ask_native(ContactConvention::PAPER);
+        for answer in &mut answers {
+            let mut rows = answer.motion.rows().to_vec();
+            rows.iter_mut().for_each(&change);
+            answer.motion = Motion::new(rows, answer.test.steps).expect("as many rows as before");
+        }
+        failing(&answers, ContactConvention::PAPER, true).texts
+    }
+
+    #[test]
+    fn all_equations_hold_for_the_native_dem() {
+        assert_eq!(told_after(|_| ()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn what_is_added_to_a_force_is_named_with_its_size_and_place() {
+        let told = told_after(|row| row.fx1 += 0.125 * row.vx1).join(" ");
+        assert!(
+            told.contains("+0.125000 times the velocity of the cylinder"),
+            "{told}"
+        );
+        let told = told_after(|row| row.torque2 *= 3.0).join(" ");
+        let expected = "the torque on the second cylinder between cylinders: the tangential force is 3.000000 times";
+        assert!(told.contains(expected), "{told}");
+        let told = told_after(|row| row.y1 = (row.y1 * 1e4).round() / 1e4).join(" ");
+        assert!(told.contains("the change in a step of y"), "{told}");
+    }
+}

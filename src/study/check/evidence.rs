@@ -12,6 +12,8 @@ pub(super) const SAME: f64 = 1e-3;
 pub(super) const ROUNDING: f64 = 1e-6;
 /// Part of a deviation that may remain where its cause is found.
 const EXPLAINED: f64 = 0.1;
+/// How it is told that a stack moves otherwise.
+pub(super) const MOVED: &str = "single contacts are right";
 /// Part of the largest value up to which a column is nearly another number.
 const NEARLY: f64 = 1e-2;
 /// Factor by which a small distance, that of another integrator, may grow.
@@ -295,7 +297,7 @@ impl Evidence {
                  when it starts)"
             }
         };
-        Some(format!("single contacts are right, and {when}; {told}"))
+        Some(format!("{MOVED}, and {when}; {told}"))
     }
 
     /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.

@@ -66,6 +66,7 @@ numbers! {
     first_normal = 0.0, "Flag: the normal is that of the moment at which the surfaces have touched.";
     keeps_whole_force = 0.0, "Flag: while the contact slides the spring bears the whole force, damping included.";
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
+    stretches_open_spring = 0.0, "Flag: it is kept and stretched while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";
     damps_sliding = 0.0, "Flag: the damping is added to the force at the limit.";
     one_sided = 0.0, "The sign that the force at the limit always has; 0 where it has that of the force.";
@@ -133,5 +134,6 @@ numbers! {
     one_spin = 0.0, "Flag: only cylinder 1 turns.";
     single_precision = 0.0, "Flag: positions and velocities are kept in single precision.";
     spread = 0.0, "Distance by which the bottom cylinders lie too far apart at first.";
+    enlarged = 0.0, "Part by which all initial positions are too large.";
     lift = 0.0, "Height by which cylinder 1 lies too high at first.";
 }

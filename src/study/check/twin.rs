@@ -221,9 +221,10 @@ impl Twin {
             [apart, 1.0],
             [-apart, 1.0],
         ];
+        let scale = 1.0 + self.run.enlarged;
         self.bodies = places
             .map(|[x, y]| Body {
-                at: [x, y, 0.0],
+                at: [scale * x, scale * y, 0.0],
                 ..Body::default()
             })
             .to_vec();
@@ -366,7 +367,11 @@ impl Twin {
         let state = &mut self.states[index];
         let is_open = overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
         if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
-            let spring = state.spring * law.keeps_open_spring;
+            let ([x, y], [dx, dy]) = (normal, [0, 1].map(|axis| first.speed[axis] - other[axis]));
+            let sliding = x * dy - y * dx - radius * (first.speed[2] + other[2]);
+            let stretched = state.spring + sliding * self.run.time_step;
+            let spring =
+                state.spring * law.keeps_open_spring + stretched * law.stretches_open_spring;
             *state = State {
                 spring,
                 normal,

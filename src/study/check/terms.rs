@@ -258,8 +258,11 @@ pub(super) static START: [Term; 3] = terms! {
     "the velocity in the task" => |m, axis| m.asked_rate(axis);
 };
 
+/// In words, and whether it is so.
+type Condition = (&'static str, fn(&Moment) -> bool);
+
 /// Conditions under which an equation may fail.
-pub(super) static WHERE: [(&str, fn(&Moment) -> bool); 18] = [
+pub(super) static WHERE: [Condition; 18] = [
     ("in the first step", |m| m.step == 0),
     ("in the second step", |m| m.step == 1),
     ("from the second step on", |m| m.step > 0),

@@ -450,6 +450,15 @@ impl ContactLaw {
         self.power.value() * self.at(overlap).secant
     }
 
+    /// k_t at an overlap without stiffening, which it has to first order in small overlaps.
+    pub(crate) fn unstiffened(&self, overlap: f64) -> f64 {
+        let plain = Self {
+            stiffens: false,
+            ..*self
+        };
+        plain.at(overlap).tangential_stiffness
+    }
+
     /// d ln k_t/dδ at an overlap.
     pub(crate) fn tangential_steepening(&self, overlap: f64) -> f64 {
         let of_power = match self.power {

@@ -1,18 +1,20 @@
-//! The states in which the floor slides while contact 2–3 is closed, for any arms.
+//! The states in which the floor slides while contact 2–3 is closed, for any arms and power of the normal force.
 //!
 //! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d at each
 //! T = tan(ψ/2): the states remember neither springs nor preparation, and the torque arms are all that they see
-//! of a convention (docs/theory.md, Eqs. 74 to 76). The load grows along them until the contact opens, or to a
+//! of a convention beside the normal force (docs/theory.md, Eqs. 74 to 76 and 87 to 89). The load grows along them until the contact opens, or to a
 //! maximum shortly before.
 
 use super::events::{Event, PathPoint};
 use super::overlap::HIGHEST_TANGENT;
 use super::root::{bracketed_root, maximum_between};
-use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, ContactLaw, Stack};
 use nalgebra::{Matrix2, Vector2};
 
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
-/// With arms 0 the equations are linear, and one step is enough; a second one mends its rounding.
+/// The centres of cylinders 1 and 2 coincide.
+const LARGEST_OVERLAP: f64 = 2.0;
+/// From the solution with arms 0.
 const MOST_STEPS: usize = 60;
 
 /// The sliding branch of one stack.
@@ -20,6 +22,8 @@ const MOST_STEPS: usize = 60;
 pub(super) struct SlidingBranch {
     stack: Stack,
     arms: Arms,
+    law: ContactLaw,
+    wall: ContactLaw,
 }
 
 /// How a stack ends whose floor slides while contact 2–3 is closed.
@@ -36,6 +40,8 @@ impl SlidingBranch {
         Self {
             stack: *stack,
             arms: convention.arms,
+            law: convention.law(stack.stiffness_ratio),
+            wall: convention.wall_law(stack.stiffness_ratio),
         }
     }
 
@@ -81,34 +87,38 @@ impl SlidingBranch {
     pub(super) fn point(&self, beyond: f64) -> PathPoint {
         let (overlap, load) = self.balance(beyond).unwrap_or((f64::NAN, f64::NAN));
         let tangent = CRITICAL_FRICTION + beyond;
-        let geometric = beyond * (CRITICAL_FRICTION.recip() - tangent);
-        let outward = (geometric - 2.0 * overlap * tangent) / (1.0 + tangent * tangent);
+        let outward = -0.5 * bottom_overlap(beyond, overlap);
         let [pair_lever, floor_lever] = self.levers(overlap, load);
         let shear = self.stack.floor_friction * load * floor_lever / pair_lever;
         let wall_force = 2.0 * load - 3.0 * self.stack.epsilon();
         PathPoint {
             tangent,
             pair_overlap: overlap,
-            floor_overlap: load,
+            floor_overlap: self.wall.overlap(load),
             floor_force: load,
             outward,
-            pair_ratio: shear / overlap,
+            pair_ratio: shear / self.law.force(overlap),
             floor_ratio: self.stack.floor_friction,
-            bottom_force: (-2.0 * outward).max(0.0),
+            bottom_force: self.law.force((-2.0 * outward).max(0.0)),
             wall_force,
-            wall_overlap: wall_force,
+            wall_overlap: self.wall.overlap(wall_force),
         }
     }
 
     /// R_c and R_f.
     fn levers(&self, overlap: f64, load: f64) -> [f64; 2] {
         let Arms { pair, floor } = self.arms;
-        [1.0 + pair.torque * overlap, 1.0 + floor.torque * load]
+        let floor_overlap = self.wall.overlap(load);
+        [
+            1.0 + pair.torque * overlap,
+            1.0 + floor.torque * floor_overlap,
+        ]
     }
 
-    /// G and d at T = μ_c + `beyond`, by Newton's method from the stress-free state (docs/theory.md, Eq. 75).
+    /// G and d at T = μ_c + `beyond`, by Newton's method from the state with arms 0 (docs/theory.md, Eqs. 75 and 88).
     fn balance(&self, beyond: f64) -> Option<(f64, f64)> {
-        let mut state = Vector2::new(0.0, 0.0);
+        let overlap = self.overlap_without_arms(beyond)?;
+        let mut state = Vector2::new(overlap, self.load_without_arms(beyond, overlap));
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let (residual, slope) = self.residual(beyond, state.x, state.y);
@@ -123,33 +133,80 @@ impl SlidingBranch {
         None
     }
 
+    /// G at which the balances hold with arms 0. What they lack grows with G beyond the overlap at which contact 2–3 just
+    /// touches, and up to it wherever it is positive there.
+    fn overlap_without_arms(&self, beyond: f64) -> Option<f64> {
+        let lack = |overlap: f64| {
+            let load = self.load_without_arms(beyond, overlap);
+            self.outward_push(beyond, overlap) - self.stack.floor_friction * load
+        };
+        let tangent = CRITICAL_FRICTION + beyond;
+        let touching = 0.5 * opened(beyond) / tangent;
+        match lack(touching) > 0.0 {
+            true => bracketed_root(lack, 0.0, touching),
+            false => bracketed_root(lack, touching, LARGEST_OVERLAP),
+        }
+    }
+
+    /// d of the vertical balance with arms 0.
+    fn load_without_arms(&self, beyond: f64, overlap: f64) -> f64 {
+        let [tangent, sum, difference] = half_angle(beyond);
+        let weight = self.stack.epsilon() * sum;
+        (self.law.force(overlap) * difference + weight)
+            / (sum - self.stack.floor_friction * tangent)
+    }
+
+    /// (a sin ψ + c)(1 + T²)/2.
+    fn outward_push(&self, beyond: f64, overlap: f64) -> f64 {
+        let [tangent, sum, _] = half_angle(beyond);
+        let bottom = self.law.force(bottom_overlap(beyond, overlap));
+        self.law.force(overlap) * tangent + bottom * sum
+    }
+
     /// What the horizontal balance of cylinder 2 and the vertical one of cylinder 1 lack at G and d, multiplied by
     /// R_c (1 + T²)/2, with the derivatives.
     fn residual(&self, beyond: f64, overlap: f64, load: f64) -> (Vector2<f64>, Matrix2<f64>) {
         let Arms { pair, floor } = self.arms;
         let [pair_lever, floor_lever] = self.levers(overlap, load);
         let (mu, epsilon) = (self.stack.floor_friction, self.stack.epsilon());
-        let tangent = CRITICAL_FRICTION + beyond;
-        let (sum, difference) = (
-            0.5 * (1.0 + tangent * tangent),
-            0.5 * (1.0 - tangent * tangent),
-        );
-        // (a sin ψ + c)(1 + T²)/2, linear in G.
-        let outward_push = 3.0 * overlap * tangent - beyond * (CRITICAL_FRICTION.recip() - tangent);
-        let lack = overlap * difference - (load - epsilon) * sum;
+        let [tangent, sum, difference] = half_angle(beyond);
+        let outward_push = self.outward_push(beyond, overlap);
+        let lack = self.law.force(overlap) * difference - (load - epsilon) * sum;
         let lever_sum = sum * pair_lever + difference * floor_lever;
         let residual = Vector2::new(
             outward_push * pair_lever - mu * load * lever_sum,
             lack * pair_lever + mu * load * floor_lever * tangent,
         );
+        let stiffness = self.law.stiffness(overlap);
+        let bottom = self.law.stiffness(bottom_overlap(beyond, overlap));
+        let floor_slope = floor.torque / self.wall.stiffness(self.wall.overlap(load));
         let slope = Matrix2::new(
-            3.0 * tangent * pair_lever + (outward_push - mu * load * sum) * pair.torque,
-            -mu * (lever_sum + load * difference * floor.torque),
-            difference * pair_lever + lack * pair.torque,
-            -sum * pair_lever + mu * tangent * (floor_lever + load * floor.torque),
+            (stiffness + 2.0 * bottom) * tangent * pair_lever
+                + (outward_push - mu * load * sum) * pair.torque,
+            -mu * (lever_sum + load * difference * floor_slope),
+            stiffness * difference * pair_lever + lack * pair.torque,
+            -sum * pair_lever + mu * tangent * (floor_lever + load * floor_slope),
         );
         (residual, slope)
     }
+}
+
+/// T, (1 + T²)/2 and (1 − T²)/2 at T = μ_c + `beyond`.
+fn half_angle(beyond: f64) -> [f64; 3] {
+    let tangent = CRITICAL_FRICTION + beyond;
+    let square = tangent * tangent;
+    [tangent, 0.5 * (1.0 + square), 0.5 * (1.0 - square)]
+}
+
+/// (1 + T²) y of cylinders that do not overlap, free of cancellation.
+fn opened(beyond: f64) -> f64 {
+    beyond * (CRITICAL_FRICTION.recip() - (CRITICAL_FRICTION + beyond))
+}
+
+/// −2y at an overlap G of the cylinders 1 and 2; negative where contact 2–3 is open.
+fn bottom_overlap(beyond: f64, overlap: f64) -> f64 {
+    let [tangent, sum, _] = half_angle(beyond);
+    (2.0 * overlap * tangent - opened(beyond)) / sum
 }
 
 #[cfg(test)]

@@ -1,0 +1,1 @@
+//! The native DEM against the limit.

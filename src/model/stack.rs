@@ -102,6 +102,14 @@ impl Stack {
         (stiffness * (4.0 + 12.0 / ratio)).sqrt()
     }
 
+    /// √(m/k) of the contacts between cylinders under the weight of cylinder 1, in √(m/k_n), from 1 on: 1 with linear
+    /// springs.
+    pub(crate) fn time_scale(&self, convention: &ContactConvention) -> f64 {
+        let law = convention.law(self.stiffness_ratio);
+        let stiffness = law.stiffness(law.overlap(0.5 * self.epsilon()));
+        stiffness.sqrt().recip().max(1.0)
+    }
+
     /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the
     /// stiffest mode.
     pub fn longest_time_step(&self, convention: &ContactConvention) -> f64 {

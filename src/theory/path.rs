@@ -234,7 +234,10 @@ impl Path for FollowedPath {
 pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     let path = followed_path(stack, convention, BottomContact::Ignored);
     let slip = locate(&path, Event::FloorSlip, stack);
-    Limit::of(&path, slip, stack)
+    Limit {
+        time_scale: stack.time_scale(convention),
+        ..Limit::of(&path, slip, stack)
+    }
 }
 
 /// The path of equilibria of `stack`, which does not depend on its frictions.

@@ -2,40 +2,40 @@
 //! with e = μ d, found without a branch that is followed.
 
 use super::unreduced::solved;
-use super::{Problem, TangentialHistory};
+use super::{Problem, TangentialHistory, root};
 use tristack::model::Power;
 
 impl Problem {
-    /// What the balances of a sliding stack lack at an angle turned: vertical and horizontal force on 2, and the same
-    /// vertically on 1.
-    fn sliding_lacks(&self, turned: f64, [overlap, sunk, load]: [f64; 3]) -> [f64; 3] {
+    /// What the balances of a sliding stack lack whose bottom cylinders overlap by `bottom`: vertical and horizontal
+    /// force on 2, and vertical force on 1. The unknowns are the overlaps of pair and floor and the load of cylinder 1.
+    fn sliding_lacks(&self, bottom: f64, [overlap, sunk, load]: [f64; 3]) -> [f64; 3] {
         let p = self.power.value();
-        let angle = std::f64::consts::FRAC_PI_6 + turned;
-        let outward = (2.0 - overlap) * angle.sin() - 1.0;
+        let (sine, distance) = (1.0 - 0.5 * bottom, 2.0 - overlap);
+        let [sine, cosine] =
+            [sine, (distance * distance - sine * sine).sqrt()].map(|x| x / distance);
         let [pair_arm, _, floor_arm, _] = self.arms;
         let normal = overlap.powf(p);
         let floor = self.floor_ratio * sunk.powf(p);
         let shear = self.mu * floor * (1.0 + floor_arm * sunk) / (1.0 + pair_arm * overlap);
-        let bottom = (-2.0 * outward).max(0.0).powf(p);
-        let bearing = normal * angle.cos() + shear * angle.sin();
+        let bearing = normal * cosine + shear * sine;
         [
             floor - bearing - self.epsilon(),
-            normal * angle.sin() - shear * angle.cos() - self.mu * floor + bottom,
+            normal * sine - shear * cosine - self.mu * floor + bottom.powf(p),
             2.0 * bearing - load,
         ]
     }
 
-    /// Load of cylinder 1 in the sliding state at an angle turned, by Newton's method from `guess`, which it replaces.
-    fn sliding_load(&self, turned: f64, guess: &mut [f64; 3]) -> f64 {
-        for _ in 0..60 {
-            let lacks = self.sliding_lacks(turned, *guess);
+    /// The sliding state at an overlap of the bottom cylinders, by Newton's method with differences for derivatives.
+    fn sliding_state(&self, bottom: f64, mut state: [f64; 3]) -> [f64; 3] {
+        for _ in 0..20 {
+            let lacks = self.sliding_lacks(bottom, state);
             let mut system = [[0.0; 4]; 3];
             for column in 0..3 {
-                let width = 1e-6 * guess[column];
+                let width = 1e-6 * state[column];
                 let shifted = |by: f64| {
-                    let mut shifted = *guess;
+                    let mut shifted = state;
                     shifted[column] += by;
-                    self.sliding_lacks(turned, shifted)
+                    self.sliding_lacks(bottom, shifted)
                 };
                 let (above, below) = (shifted(width), shifted(-width));
                 for row in 0..3 {
@@ -44,51 +44,62 @@ impl Problem {
                 }
             }
             let change = solved(system);
-            let positive =
-                |part: f64| (0..3).all(|index| guess[index] + part * change[index] > 0.0);
-            let mut part = 1.0;
-            while !positive(part) {
-                part *= 0.5;
-            }
-            let moved: [f64; 3] = std::array::from_fn(|index| guess[index] + part * change[index]);
-            let settled = (0..3).all(|index| (moved[index] / guess[index] - 1.0).abs() < 1e-14);
-            *guess = moved;
-            if settled {
-                break;
-            }
+            state = std::array::from_fn(|index| state[index] + change[index]);
         }
-        guess[2]
+        state
     }
 
-    /// The first maximum of F along the sliding states: passed by growing steps, then enclosed by golden sections.
+    /// The sliding state in which the bottom cylinders just touch, with arms 0: there G₀ᵖ (T − μ) = ε μ,
+    /// G₀ = 2 − 1/sin ψ.
+    fn touching_state(&self) -> [f64; 3] {
+        let (p, epsilon) = (self.power.value(), self.epsilon());
+        let overlap = |tangent: f64| 2.0 - 0.5 * (1.0 + tangent * tangent) / tangent;
+        let lowest = f64::max(self.mu, 2.0 - 3f64.sqrt());
+        let excess = |tangent: f64| {
+            overlap(tangent).max(0.0).powf(p) * (tangent - self.mu) - self.mu * epsilon
+        };
+        let overlap = overlap(root(excess, lowest, 0.9));
+        let normal = overlap.powf(p);
+        let sunk = ((normal + epsilon) / self.floor_ratio).powf(1.0 / p);
+        [overlap, sunk, 2.0 * normal]
+    }
+
+    /// The maximum of F next to the state in which the bottom cylinders part: passed by growing steps, then enclosed by
+    /// golden sections.
     fn largest_force(&self) -> f64 {
-        let inverse = self.power.value().recip();
-        let small = self.epsilon().powf(inverse);
-        let floor = (1.5 * self.epsilon() / self.floor_ratio).powf(inverse);
-        let mut guess = [small, floor, self.epsilon()];
-        let [mut before, mut turned] = [0.0, 1e-3 * small];
-        let mut load = self.sliding_load(turned, &mut guess);
-        let mut next = guess;
-        loop {
-            let further = turned + 0.1 * turned;
-            let grown = self.sliding_load(further, &mut next);
-            if grown < load {
-                let [mut low, mut high] = [before, further];
-                let golden = 0.5 * (5f64.sqrt() - 1.0);
-                for _ in 0..45 {
-                    let width = golden * (high - low);
-                    let [left, right] = [high - width, low + width]
-                        .map(|turned| self.sliding_load(turned, &mut guess.clone()));
-                    if left < right {
-                        low = high - width;
-                    } else {
-                        high = low + width;
-                    }
-                }
-                return self.sliding_load(0.5 * (low + high), &mut guess) * self.stiffness - 1.0;
-            }
-            (before, turned, load, guess) = (turned, further, grown, next);
+        let mut state = self.touching_state();
+        // The arms come little by little, so that every state is close to the last.
+        for part in 1..=40 {
+            let part = f64::from(part) / 40.0;
+            let arms = self.arms.map(|arm| part * arm);
+            state = Problem { arms, ..*self }.sliding_state(0.0, state);
         }
+        let [mut before, mut bottom] = [0.0, 0.0];
+        let mut width = 1e-6 * state[0];
+        loop {
+            let further = bottom + width;
+            let next = self.sliding_state(further, state);
+            assert!(next[2].is_finite(), "{self:?}");
+            if next[2] < state[2] {
+                return self.largest_between(before, further, state);
+            }
+            (before, bottom, state) = (bottom, further, next);
+            width *= 1.3;
+        }
+    }
+
+    fn largest_between(&self, mut low: f64, mut high: f64, state: [f64; 3]) -> f64 {
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let load = |bottom: f64| self.sliding_state(bottom, state)[2];
+        for _ in 0..40 {
+            let width = golden * (high - low);
+            if load(high - width) > load(low + width) {
+                high = low + width;
+            } else {
+                low = high - width;
+            }
+        }
+        load(0.5 * (low + high)) * self.stiffness - 1.0
     }
 }
 
@@ -112,7 +123,12 @@ fn peak_is_the_largest_force_of_a_sliding_stack() {
                     ..Problem::HERTZ
                 };
                 let limit = own.limit();
-                let (onset, peak) = (limit.slip_onset.unwrap(), limit.peak_force.unwrap());
+                let (onset, peak) = (
+                    limit.slip_onset.unwrap(),
+                    limit
+                        .peak_force
+                        .unwrap_or_else(|| panic!("{own:?} {limit:?}")),
+                );
                 assert!(limit.bottom_force.unwrap() > 0.0 && onset < peak, "{own:?}");
                 let largest = own.largest_force();
                 let deviation = (peak - largest) / (largest + 3.0);

@@ -195,8 +195,8 @@ fn planned_protocols(
     });
     protocols.push(Protocol {
         preparation: Preparation::GravityRamp {
-            ramp_time: 0.5 * RAMP_TIME,
-            rest_time: REST_TIME,
+            ramp_time: rounded(0.5 * RAMP_TIME * limit.time_scale),
+            rest_time: rounded(REST_TIME * limit.time_scale),
         },
         ..middle
     });
@@ -219,7 +219,8 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 }
 
 /// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
-/// the wall where that is smaller, so that no onset comes too soon after the start; less where the fastest
+/// the wall where that is smaller, so that no onset comes too soon after the start, over the time scale of the stack at
+/// rest; less where the fastest
 /// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
 /// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
 /// yields.
@@ -231,7 +232,7 @@ pub(super) fn speed_scale(
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
-    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?);
+    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?) / limit.time_scale;
     let scale = match limit.rises_after_onset() {
         true => near.max(affordable),
         false => near,
@@ -263,8 +264,8 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
     let travel = limit.peak_travel?;
     Some(Protocol {
         preparation: Preparation::GravityRamp {
-            ramp_time: RAMP_TIME,
-            rest_time: REST_TIME,
+            ramp_time: rounded(RAMP_TIME * limit.time_scale),
+            rest_time: rounded(REST_TIME * limit.time_scale),
         },
         time_step,
         wall_speed: rounded(wall_speed),
@@ -283,7 +284,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
 fn time_margin(limit: &Limit) -> f64 {
     let stiffness = limit.yield_force.zip(limit.peak_z);
     let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
-    TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
+    TIME_MARGIN * (stiffness / STIFF).sqrt().max(limit.time_scale)
 }
 
 /// `value` to six significant digits. A plan is part of the address of a run: it must not depend on the

@@ -119,17 +119,17 @@ fn every_command_has_help_with_an_example() {
 fn a_law_and_its_parts_are_options_of_every_command_with_a_convention() {
     let bench = Bench::without_codes();
     let row = |options: &str| {
-        let line = format!("theory --mu 0.2 --stiffness 100 --kappa 1.2 {options} --format json");
+        let line = format!("theory --mu 0.2 --stiffness 100 --kappa 0.8 {options} --format json");
         json_rows(&standard_output(&mut bench.tristack(&line)))[0].clone()
     };
     let hertz = row(
-        "--law hertz --history force --floor-ratio 1.2 --floor-kappa 1.5 --tangential-stiffening",
+        "--law hertz --history force --floor-ratio 1.2 --floor-kappa 0.9 --tangential-stiffening",
     );
     for (key, value) in [
         ("law_power", serde_json::json!(1.5)),
         ("history", "force".into()),
         ("floor_ratio", 1.2.into()),
-        ("floor_kappa", 1.5.into()),
+        ("floor_kappa", 0.9.into()),
         ("tangential_stiffening", true.into()),
     ] {
         assert_eq!(hertz[key], value, "{key}");

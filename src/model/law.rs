@@ -259,6 +259,13 @@ impl Law {
         *self == Self::LINEAR
     }
 
+    /// Whether a state of equilibrium depends on the order in which contacts were pressed and sheared: a force is
+    /// remembered, and the stiffness with which it grew depends on the overlap.
+    pub(crate) fn depends_on_order(&self) -> bool {
+        let stiffens = self.power != Power::Linear || self.tangential_stiffening;
+        self.history.keeps_force() && stiffens
+    }
+
     /// The contact of two cylinders at their stiffness ratio κ.
     pub(super) fn of_pairs(&self, stiffness_ratio: f64, restitution: f64) -> ContactLaw {
         ContactLaw::new(self, 1.0, stiffness_ratio, restitution)

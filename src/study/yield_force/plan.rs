@@ -15,6 +15,9 @@ const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
 pub(super) const REST_TIME: f64 = 100.0;
+/// Duration of the ramp over that of the compression, where the limit depends on the ramp: what the ramp leaves behind, of
+/// second order in its speed, is then small beside the lag of the compression, which is of first order.
+const SLOW_RAMP: f64 = 4.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
@@ -194,10 +197,7 @@ fn planned_protocols(
         ..middle
     });
     protocols.push(Protocol {
-        preparation: Preparation::GravityRamp {
-            ramp_time: rounded(0.5 * RAMP_TIME * limit.time_scale),
-            rest_time: rounded(REST_TIME * limit.time_scale),
-        },
+        preparation: preparation(limit, 0.5 * ramp_time(limit, middle.wall_speed)),
         ..middle
     });
     Some(protocols)
@@ -263,10 +263,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
     let fine_from_travel = FINE_FROM * limit.travel_to_watch()?;
     let travel = limit.peak_travel?;
     Some(Protocol {
-        preparation: Preparation::GravityRamp {
-            ramp_time: rounded(RAMP_TIME * limit.time_scale),
-            rest_time: rounded(REST_TIME * limit.time_scale),
-        },
+        preparation: preparation(limit, ramp_time(limit, rounded(wall_speed))),
         time_step,
         wall_speed: rounded(wall_speed),
         wall_travel: rounded(TRAVEL_MARGIN * travel + time_margin(limit) * wall_speed),
@@ -277,6 +274,23 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
         },
         shortcuts: None,
     })
+}
+
+fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
+    Preparation::GravityRamp {
+        ramp_time: rounded(ramp_time),
+        rest_time: rounded(REST_TIME * limit.time_scale),
+    }
+}
+
+/// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached only
+/// if that slows down with the wall.
+fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
+    let usual = RAMP_TIME * limit.time_scale;
+    match limit.peak_travel {
+        Some(travel) if limit.depends_on_preparation => usual.max(SLOW_RAMP * travel / wall_speed),
+        _ => usual,
+    }
 }
 
 /// Duration of the compression beyond the planned travel. The force that drives the collapse of a stack near μ_c falls

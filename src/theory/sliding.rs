@@ -137,8 +137,8 @@ impl SlidingBranch {
         }
     }
 
-    /// The only place in a direction in which all forces balance: what pushes cylinder 2 outwards is proportional to the
-    /// power p of the distance from the stress-free state, with a factor that grows.
+    /// The first place in a direction in which all forces balance: what pushes cylinder 2 outwards grows about as the power
+    /// p of the distance from the stress-free state (docs/theory.md, section 11.5).
     fn place(&self, direction: f64) -> Option<Place> {
         let at = |distance: f64| Place::new(distance * direction, distance * (1.0 - direction));
         let lack = |distance: f64| self.outward_push(&at(distance));

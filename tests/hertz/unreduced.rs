@@ -289,11 +289,13 @@ pub fn solved<const N: usize, const M: usize>(mut system: [[f64; M]; N]) -> [f64
             let size = |row: usize| system[row][column].abs();
             size(i).total_cmp(&size(j))
         });
-        system.swap(column, pivot.unwrap());
-        for row in column + 1..N {
-            let factor = system[row][column] / system[column][column];
-            for entry in column..M {
-                system[row][entry] -= factor * system[column][entry];
+        system.swap(column, pivot.expect("a row"));
+        let (above, below) = system.split_at_mut(column + 1);
+        let above = above[column];
+        for row in below {
+            let factor = row[column] / above[column];
+            for (entry, above) in row.iter_mut().zip(above).skip(column) {
+                *entry -= factor * above;
             }
         }
     }

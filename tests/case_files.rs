@@ -66,6 +66,18 @@ fn what_is_written_takes_the_place_of_its_default_alone() {
 }
 
 #[test]
+fn a_table_of_a_law_is_the_case_of_its_options() {
+    let bench = Bench::without_codes();
+    let flags = case(
+        &bench,
+        &format!("{FLAGS} --law hertz --history force --floor-kappa 3"),
+    );
+    let text =
+        "[stack]\nmu = 0.3\n[convention.law]\npower = 1.5\nhistory = \"force\"\nfloor_kappa = 3\n";
+    assert_eq!(in_file(&bench, text), flags);
+}
+
+#[test]
 fn side_walls_need_no_more_than_their_kind() {
     let bench = Bench::without_codes();
     for (text, push) in [("", 0.0), (", push = 0.005", 0.005)] {

@@ -114,3 +114,73 @@ fn every_command_has_help_with_an_example() {
         );
     }
 }
+
+#[test]
+fn a_law_and_its_parts_are_options_of_every_command_with_a_convention() {
+    let bench = Bench::without_codes();
+    let row = |options: &str| {
+        let line = format!("theory --mu 0.2 --stiffness 100 --kappa 0.8 {options} --format json");
+        json_rows(&standard_output(&mut bench.tristack(&line)))[0].clone()
+    };
+    let hertz = row(
+        "--law hertz --history force --floor-ratio 1.2 --floor-kappa 0.9 --tangential-stiffening",
+    );
+    for (key, value) in [
+        ("law_power", serde_json::json!(1.5)),
+        ("history", "force".into()),
+        ("floor_ratio", 1.2.into()),
+        ("floor_kappa", 0.9.into()),
+        ("tangential_stiffening", true.into()),
+    ] {
+        assert_eq!(hertz[key], value, "{key}");
+    }
+    let forces = ["slip_onset", "peak_force", "yield_force", "c"].map(|key| {
+        hertz[format!("quasistatic.{key}")]
+            .as_f64()
+            .expect("a number")
+    });
+    let [onset, peak, yields, bottom] = forces;
+    assert!(onset < peak && bottom > 0.0, "{forces:?}");
+    assert_eq!(
+        (peak, hertz["quasistatic"].as_f64()),
+        (yields, Some(yields))
+    );
+    let usual = row("--law 1.5");
+    assert_eq!(usual["floor_ratio"], std::f64::consts::SQRT_2);
+    assert_eq!(usual["history"], "displacement");
+    assert_eq!(row("")["law_power"], 1.0);
+}
+
+#[test]
+fn a_law_that_does_not_exist_is_refused_with_those_that_do() {
+    let bench = Bench::without_codes();
+    for (options, part) in [
+        (
+            "--law 1.3",
+            "`linear`, `hertz`, and the powers 1, 1.25, 1.5, 1.75 and 2",
+        ),
+        ("--law hertz --history energy", "displacement-rescaled"),
+        ("--law hertz --floor-ratio 0", "--floor-ratio"),
+        ("--law hertz --floor-kappa 0", "--floor-kappa"),
+    ] {
+        let line = format!("theory --mu 0.2 --stiffness 100 {options}");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            !output.status.success() && message.contains(part),
+            "{options}: {message}"
+        );
+    }
+}
+
+#[test]
+fn an_external_code_takes_its_own_law_alone() {
+    let bench = Bench::without_codes();
+    let line = "sweep --code yade --mu 0.3 --stiffness 100 --law hertz";
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        !output.status.success() && message.contains("--law"),
+        "{message}"
+    );
+}

@@ -2,8 +2,8 @@
 
 use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue, compress_stack};
 use tristack::model::{
-    Case, ContactConvention, CoulombOperand, HistoryUpdate, Preparation, Protocol, Sampling,
-    Shortcuts, SideWalls, SlidingSpring, Stack, TensileForce,
+    Case, ContactConvention, CoulombOperand, HistoryUpdate, Law, Power, Preparation, Protocol,
+    Sampling, Shortcuts, SideWalls, SlidingSpring, Stack, TangentialHistory, TensileForce,
 };
 use tristack::series::{Series, SeriesError};
 
@@ -159,6 +159,31 @@ fn every_convention_has_the_same_bits_in_lanes() {
 }
 
 #[test]
+fn every_law_has_the_same_bits_in_lanes_of_every_width_and_from_checkpoints() {
+    for power in Power::ALL {
+        for history in TangentialHistory::ALL {
+            let law = Law {
+                history,
+                floor_ratio: 1.3,
+                floor_kappa: Some(2.0),
+                tangential_stiffening: history.keeps_force(),
+                ..Law::of_power(power)
+            };
+            let mut cases = different_cases()[..5].to_vec();
+            for case in &mut cases {
+                case.convention.law = law;
+            }
+            let expected = alone(&cases);
+            assert!(
+                in_lanes(&cases, &LaneWidth::available(), 1) == expected,
+                "{law}"
+            );
+            assert!(in_lanes(&cases, &[LaneWidth::widest()], usize::MAX) == expected);
+        }
+    }
+}
+
+#[test]
 fn side_walls_have_the_same_bits_in_lanes() {
     let cases: Vec<Case> = [0.0, 0.002, 0.01, 0.05]
         .map(|push| {
@@ -198,6 +223,9 @@ fn a_kind_is_what_lanes_cannot_differ_in() {
     let mut capped = one;
     capped.convention.sliding_spring = SlidingSpring::FollowsLimit;
     assert_ne!(LaneKind::of(&one), LaneKind::of(&capped));
+    let mut hertz = one;
+    hertz.convention.law = Law::HERTZ;
+    assert_ne!(LaneKind::of(&one), LaneKind::of(&hertz));
 }
 
 #[test]

@@ -313,7 +313,7 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
 /// c at the beginning of the compression and F at the onset of slip, in m g.
 fn contact_and_slip(series: &Series, case: &Case) -> [f64; 2] {
     let stack = &case.stack;
-    let contact = series.samples()[0].bottom_contact_force() * stack.stiffness;
+    let contact = series.samples()[0].bottom_overlap() * stack.stiffness;
     let slip = YieldEstimates::read(series, case).slip;
     [contact, slip.expect("an onset of slip").force]
 }

@@ -151,7 +151,7 @@ fn a_folder_with_several_codes_is_asked_for_one_by_name() {
 }
 
 /// A change of a manifest, the beginning of what is to blame if it has a line, and what the refusal says.
-const WRONG: [(&str, &str, &str, &[&str]); 20] = [
+const WRONG: [(&str, &str, &str, &[&str]); 21] = [
     (
         "schema = 1",
         "schema = 2",
@@ -269,6 +269,12 @@ const WRONG: [(&str, &str, &str, &[&str]); 20] = [
         "restitution = 2.0",
         "restitution = 2.0",
         &["`convention.restitution` is 2"],
+    ),
+    (
+        "history_update = \"projected\"",
+        "law = { power = 1.5 }",
+        "law =",
+        &["`convention.law` is law hertz", "linear springs"],
     ),
     (
         "history_update = \"projected\"",

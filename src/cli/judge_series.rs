@@ -5,7 +5,7 @@ use super::out::Out;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::{FileError, Layout, Links, read_bounded};
-use crate::model::{ContactConvention, InvalidValue, shown};
+use crate::model::{ContactConvention, ContactLaw, InvalidValue, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
@@ -118,7 +118,8 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     if limit.yield_force.is_none() {
         return Err(Box::new(no_yield(&stack, &convention, &limit)).into());
     }
-    let mut series = at_speeds(arguments)?;
+    let wall = convention.wall_law(stack.stiffness_ratio);
+    let mut series = at_speeds(arguments, &wall)?;
     series.sort_by(|one, other| other.wall_speed.total_cmp(&one.wall_speed));
     let middle = &series[series.len() - SPEEDS.len() + 1];
     let [coarse, hastened] = [
@@ -128,12 +129,8 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     .map(|(flag, file, factor)| {
         let file = file.as_deref();
         file.map(|file| {
-            read(
-                flag,
-                file,
-                middle.wall_speed,
-                Some(factor * middle.time_step),
-            )
+            let time_step = factor * middle.time_step;
+            read((flag, file), middle.wall_speed, Some(time_step), &wall)
         })
         .transpose()
     });
@@ -157,7 +154,7 @@ fn passport(path: &Path) -> Result<MeasuredArms, FileError> {
 }
 
 /// The series at their speeds, which differ, and with one time step.
-fn at_speeds(arguments: &SeriesArguments) -> Result<Vec<SeriesInput>, CliError> {
+fn at_speeds(arguments: &SeriesArguments, wall: &ContactLaw) -> Result<Vec<SeriesInput>, CliError> {
     let (files, speeds) = (&arguments.series, &arguments.speeds);
     if files.len() != speeds.len() {
         let accepted = format!("as many as files after --series, {}", files.len());
@@ -173,17 +170,18 @@ fn at_speeds(arguments: &SeriesArguments) -> Result<Vec<SeriesInput>, CliError> 
     let mut series: Vec<SeriesInput> = Vec::new();
     for (file, &speed) in files.iter().zip(speeds) {
         let expected = arguments.dt.or(series.first().map(|first| first.time_step));
-        series.push(read("--speeds", file, speed, expected)?);
+        series.push(read(("--speeds", file), speed, expected, wall)?);
     }
     Ok(series)
 }
 
-/// The series in `file`, which must show the wall speed that `flag` says, and the expected time step.
+/// The series in `file`, which must show, under a `wall` of this law, the wall speed that `flag` says, and the expected
+/// time step.
 fn read(
-    flag: &str,
-    file: &Path,
+    (flag, file): (&str, &Path),
     wall_speed: f64,
     time_step: Option<f64>,
+    wall: &ContactLaw,
 ) -> Result<SeriesInput, CliError> {
     let content = read_bounded(file, LARGEST_SERIES, Links::Followed);
     let content = content.map_err(FileError::reading(file))?;
@@ -202,7 +200,7 @@ fn read(
             expected_because(flag)
         )));
     }
-    if let Some((speed, uncertainty)) = input.shown_speed()
+    if let Some((speed, uncertainty)) = input.shown_speed(wall)
         && (speed - wall_speed).abs() > uncertainty
     {
         return Err(refused(format!(

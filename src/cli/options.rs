@@ -4,11 +4,12 @@ pub(super) use super::code_names::CodeParser;
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::Code;
 use crate::model::{
-    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, PAPER_CYLINDER_FRICTION,
-    PAPER_STIFFNESS_RATIO, Stack,
+    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, Law,
+    PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Power, Stack, TangentialHistory,
 };
 use crate::output::{DataTable, json};
 use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -88,7 +89,7 @@ pub(super) struct OneStackOptions {
     /// Floor friction; a number or the word `critical`
     #[arg(long, value_parser = friction, requires = "stiffness", allow_negative_numbers = true)]
     mu: Option<f64>,
-    /// Stiffness k_n r/(m g)
+    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g)
     #[arg(long, value_name = "S", requires = "mu", allow_negative_numbers = true)]
     stiffness: Option<f64>,
     #[command(flatten)]
@@ -106,7 +107,7 @@ impl OneStackOptions {
 /// The parameters of several stacks other than floor friction.
 #[derive(Debug, Clone, Args)]
 pub(super) struct StackListOptions {
-    /// Stiffness k_n r/(m g); one or several, separated by commas
+    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g); one or several, separated by commas
     #[arg(
         long = "stiffness",
         required = true,
@@ -153,6 +154,70 @@ pub(super) struct ConventionOptions {
     /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
     #[arg(long, value_name = "R1", allow_negative_numbers = true)]
     pub floor_kinematic_arm: Option<f64>,
+    #[command(flatten)]
+    pub law: LawOptions,
+}
+
+/// The contact law, or parts of it that replace those of the code.
+#[derive(Debug, Clone, Args)]
+pub(super) struct LawOptions {
+    /// Normal force K overlap^p: `linear` (p = 1), `hertz` (p = 1.5), 1.25, 1.75 or 2 [default: that of the code]
+    #[arg(long, value_parser = power, value_name = "LAW")]
+    law: Option<Power>,
+    /// What tangential springs remember: the displacement or the force, perhaps rescaled by the contact radius while that
+    /// shrinks [default: displacement]
+    #[arg(long, value_parser = history(), value_name = "WHAT")]
+    history: Option<TangentialHistory>,
+    /// K of the floor and other walls over K of cylinders [default: root of 2 for Hertz, else 1]
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    floor_ratio: Option<f64>,
+    /// Stiffness ratio k_n/k_t of the floor [default: as --kappa]
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    floor_kappa: Option<f64>,
+    /// Multiply the tangential stiffness by 2/(2 - overlap)
+    #[arg(long)]
+    tangential_stiffening: bool,
+}
+
+/// Reads `--law`.
+fn power(text: &str) -> Result<Power, String> {
+    let named = match text {
+        "linear" => Ok(Power::Linear),
+        "hertz" => Ok(Power::Hertz),
+        number => number
+            .parse()
+            .map_err(|_| String::new())
+            .and_then(|value: f64| Power::try_from(value)),
+    };
+    named.map_err(|_| {
+        "accepted are `linear`, `hertz`, and the powers 1, 1.25, 1.5, 1.75 and 2".to_owned()
+    })
+}
+
+/// Reads `--history`.
+fn history() -> impl TypedValueParser<Value = TangentialHistory> {
+    let words = TangentialHistory::ALL.map(TangentialHistory::as_str);
+    PossibleValuesParser::new(words).map(|word| {
+        let histories = TangentialHistory::ALL.into_iter();
+        let named = histories
+            .into_iter()
+            .find(|history| history.as_str() == word);
+        named.expect("one of the possible values")
+    })
+}
+
+impl LawOptions {
+    /// `own` with the given parts; a given power brings the other parts that are usual with it.
+    fn over(&self, own: Law) -> Law {
+        let base = self.law.map_or(own, Law::of_power);
+        Law {
+            power: base.power,
+            history: self.history.unwrap_or(base.history),
+            floor_ratio: self.floor_ratio.unwrap_or(base.floor_ratio),
+            floor_kappa: self.floor_kappa.or(base.floor_kappa),
+            tangential_stiffening: self.tangential_stiffening || base.tangential_stiffening,
+        }
+    }
 }
 
 impl ConventionOptions {
@@ -182,6 +247,7 @@ impl ConventionOptions {
                 pair: replaced(own.arms.pair, self.pair_arm, self.pair_kinematic_arm),
                 floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
             },
+            law: self.law.over(own.law),
             ..own
         };
         convention.validate().map_err(as_flag)?;
@@ -351,6 +417,9 @@ pub(super) fn as_flag(error: InvalidValue) -> InvalidValue {
         "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
         "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",
         "convention.floor.kinematic_arm" => "--floor-kinematic-arm",
+        "convention.law" => "--law",
+        "convention.law.floor_ratio" => "--floor-ratio",
+        "convention.law.floor_kappa" => "--floor-kappa",
         "cylinder.density" => "--density",
         "cylinder.poisson_ratio" => "--poisson",
         "mu_uncertainty" => "--mu-uncertainty",

@@ -87,6 +87,18 @@ pub trait ContactModel<R: Real>: Copy {
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
 }
 
+/// A contact law that a convention describes.
+pub(super) trait ConventionalModel<R: Real>: ContactModel<R> + Composite<R> {
+    /// The law of `convention` at stiffness ratio κ, in numbers like `number`.
+    fn of_convention(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self;
+}
+
+impl<R: Real> ConventionalModel<R> for SpringDashpot<R> {
+    fn of_convention(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self {
+        Self::like(number, convention, stiffness_ratio)
+    }
+}
+
 /// The paper's contact law, with the conventions by which other codes differ from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDashpot<R> {
@@ -141,8 +153,8 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n, with k_n = 1, of an overlap Δ and a normal velocity v_n, positive when separating
-    /// (paper, "Numerical results").
+    /// h_n = k_n Δ − η_n v_n of a normal spring that exerts k_n Δ, the overlap Δ since k_n = 1, and a normal velocity
+    /// v_n, positive when separating (paper, "Numerical results").
     ///
     /// ```
     /// use tristack::dem::SpringDashpot;
@@ -152,8 +164,8 @@ impl<R: Real> SpringDashpot<R> {
     /// assert_eq!(model.normal_force(0.5, -1.0), 0.75);
     /// ```
     #[inline(always)]
-    pub fn normal_force(&self, overlap: R, separation_speed: R) -> R {
-        let force = overlap - self.law.damping_normal * separation_speed;
+    pub fn normal_force(&self, elastic: R, separation_speed: R) -> R {
+        let force = elastic - self.law.damping_normal * separation_speed;
         match self.tensile_force {
             TensileForce::MayPull => force,
             TensileForce::NeverPulls => {
@@ -221,6 +233,19 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
 
     #[inline(always)]
     fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
+        self.exert(contact, contact.overlap, memory)
+    }
+}
+
+impl<R: Real> SpringDashpot<R> {
+    /// The force of `contact`, whose normal spring exerts `elastic`, and whose memory is advanced to the present.
+    #[inline(always)]
+    pub(super) fn exert(
+        &self,
+        contact: &Contact<R>,
+        elastic: R,
+        memory: &mut Spring<R>,
+    ) -> ContactForce<R> {
         let one = contact.overlap.like(1.0);
         let arms = match contact.counterpart {
             Counterpart::Cylinder => self.arms.pair,
@@ -228,7 +253,7 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
         };
         let kinematic_arm = one + arms.kinematic * contact.overlap;
         let velocity = contact.sliding_speed - kinematic_arm * contact.spin;
-        let normal = self.normal_force(contact.overlap, contact.separation_speed);
+        let normal = self.normal_force(elastic, contact.separation_speed);
         let limit = contact.friction * normal.abs();
         if self.history_update != HistoryUpdate::Rotated {
             memory.length *= self.transport(memory.normal, contact.normal);
@@ -277,6 +302,7 @@ mod tests {
                 tangential_stiffness: 0.4,
                 damping_normal: 0.2,
                 damping_tangential: 0.1,
+                ..ContactConvention::PAPER.law(2.5)
             },
             coulomb_operand,
             sliding_spring,

@@ -1,6 +1,7 @@
 //! A micro-test in the native DEM.
 
-use super::contact::{ContactModel, SpringDashpot};
+use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
+use super::power_law::PowerLaw;
 use super::scene::{Cylinder, Scene};
 use super::wall::{Facing, PlaneWall};
 use crate::model::{ContactTest, InitialMotion};
@@ -14,8 +15,14 @@ const TOP_WALL: usize = 1;
 /// # Errors
 /// If the motion leaves the finite numbers.
 pub fn run_contact_test(test: &ContactTest) -> Result<Motion, SeriesError> {
-    let model = SpringDashpot::like(0.0, &test.convention, test.stiffness_ratio);
-    run_contact_test_with(test, model)
+    match test.convention.law.is_linear() {
+        true => run_contact_test_with::<SpringDashpot<f64>>(test, law(test)),
+        false => run_contact_test_with::<PowerLaw<f64>>(test, law(test)),
+    }
+}
+
+fn law<Model: ConventionalModel<f64>>(test: &ContactTest) -> Model {
+    Model::of_convention(0.0, &test.convention, test.stiffness_ratio)
 }
 
 /// Runs `test` with any contact law.

@@ -1,6 +1,7 @@
 //! The sampled states of a native run with all contact forces.
 
-use super::contact::SpringDashpot;
+use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
+use super::power_law::PowerLaw;
 use super::stack_run::{compress_stack_watched, law};
 use super::stack_scene::{FLOOR, StackScene, TOP, TOP_WALL};
 use crate::model::Case;
@@ -15,8 +16,19 @@ pub fn compress_stack_into_frames(
     case: &Case,
     wanted: impl Fn() -> bool,
 ) -> Result<(Series, Frames), SeriesError> {
+    match case.convention.law.is_linear() {
+        true => into_frames::<SpringDashpot<f64>>(case, wanted),
+        false => into_frames::<PowerLaw<f64>>(case, wanted),
+    }
+}
+
+fn into_frames<Model: ConventionalModel<f64>>(
+    case: &Case,
+    wanted: impl Fn() -> bool,
+) -> Result<(Series, Frames), SeriesError> {
     let mut scenes = Vec::new();
-    let series = compress_stack_watched(case, (law(case, 0.0), 0.0), wanted, |scene| {
+    let model: Model = law(case, 0.0);
+    let series = compress_stack_watched(case, (model, 0.0), wanted, |scene| {
         scenes.push(frame(scene));
     })?;
     let stamped = scenes.into_iter().zip(series.samples());
@@ -33,7 +45,7 @@ pub fn compress_stack_into_frames(
 }
 
 /// The present state of the scene, at time 0.
-fn frame(scene: &StackScene<f64, SpringDashpot<f64>>) -> Frame {
+fn frame<Model: ContactModel<f64>>(scene: &StackScene<f64, Model>) -> Frame {
     let cylinders = scene.cylinders.iter().map(|cylinder| PlacedCylinder {
         position: cylinder.position,
         angle: cylinder.angle,
@@ -51,8 +63,8 @@ fn frame(scene: &StackScene<f64, SpringDashpot<f64>>) -> Frame {
     }
 }
 
-fn pair_contacts(
-    scene: &StackScene<f64, SpringDashpot<f64>>,
+fn pair_contacts<Model: ContactModel<f64>>(
+    scene: &StackScene<f64, Model>,
 ) -> impl Iterator<Item = ContactPoint> + '_ {
     let count = scene.cylinders.len();
     let pairs = (1..count).flat_map(|first| (0..first).map(move |second| (first, second)));
@@ -72,8 +84,8 @@ fn pair_contacts(
     })
 }
 
-fn wall_contacts(
-    scene: &StackScene<f64, SpringDashpot<f64>>,
+fn wall_contacts<Model: ContactModel<f64>>(
+    scene: &StackScene<f64, Model>,
 ) -> impl Iterator<Item = ContactPoint> + '_ {
     let walls = [(FLOOR, Partner::Floor), (TOP_WALL, Partner::TopWall)].into_iter();
     walls.flat_map(move |(wall, partner)| {

@@ -1,8 +1,9 @@
 //! Many stacks at once, one in each lane of the machine's vector registers.
 
-use super::contact::SpringDashpot;
+use super::contact::{ConventionalModel, SpringDashpot};
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::lanes::{Lanes, Pair};
+use super::power_law::PowerLaw;
 use super::real::{Composite, Real};
 use super::stack_run::law;
 use super::stack_scene::StackScene;
@@ -51,8 +52,16 @@ impl Checkpoint {
             && self.samples.iter().map(|row| row.step).eq(taken)
             && self.samples.iter().all(is_sound)
             && !fine.any(|row| watch.has_dropped(row.wall_force))
-            && self.numbers.len() == stack(case, 0.0).numbers(0).len()
+            && self.numbers.len() == count_of_numbers(case)
             && self.numbers.iter().all(|number| number.is_finite())
+    }
+}
+
+/// The numbers of the scene of `case`.
+fn count_of_numbers(case: &Case) -> usize {
+    match case.convention.law.is_linear() {
+        true => stack::<f64, SpringDashpot<f64>>(case, 0.0).numbers(0).len(),
+        false => stack::<f64, PowerLaw<f64>>(case, 0.0).numbers(0).len(),
     }
 }
 
@@ -163,7 +172,18 @@ impl LaneWidth {
 
 fn compress<R: Real>(number: R, queue: &mut impl RunQueue) {
     let Some(first) = queue.next() else { return };
-    let stack = stack(&first.case, number);
+    match first.case.convention.law.is_linear() {
+        true => compress_from::<R, SpringDashpot<R>>(first, number, queue),
+        false => compress_from::<R, PowerLaw<R>>(first, number, queue),
+    }
+}
+
+fn compress_from<R: Real, Model: ConventionalModel<R>>(
+    first: OpenRun,
+    number: R,
+    queue: &mut impl RunQueue,
+) {
+    let stack: StackScene<R, Model> = stack(&first.case, number);
     let mut many = Many {
         kind: LaneKind::of(&first.case),
         next: Some(first),
@@ -172,7 +192,7 @@ fn compress<R: Real>(number: R, queue: &mut impl RunQueue) {
     LaneGroup::new(stack).run(&mut many);
 }
 
-fn stack<R: Real>(case: &Case, number: R) -> StackScene<R, SpringDashpot<R>> {
+fn stack<R: Real, Model: ConventionalModel<R>>(case: &Case, number: R) -> StackScene<R, Model> {
     StackScene::of(case, law(case, number), number)
 }
 
@@ -182,15 +202,13 @@ struct Many<'a, Queue> {
     queue: &'a mut Queue,
 }
 
-impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queue> {
-    fn fill(
-        &mut self,
-        stack_of_all: &mut StackScene<R, SpringDashpot<R>>,
-        lane: usize,
-    ) -> Option<Lane> {
+impl<R: Real, Model: ConventionalModel<R>, Queue: RunQueue> Supervisor<R, Model>
+    for Many<'_, Queue>
+{
+    fn fill(&mut self, stack_of_all: &mut StackScene<R, Model>, lane: usize) -> Option<Lane> {
         let run = self.next.take().or_else(|| self.queue.next())?;
         assert_eq!(LaneKind::of(&run.case), self.kind, "one kind for all lanes");
-        let mut fresh = stack(&run.case, stack_of_all.time_step);
+        let mut fresh: StackScene<R, Model> = stack(&run.case, stack_of_all.time_step);
         let kept = run.checkpoint.filter(|kept| kept.fits(&run.case));
         let (step, samples) = match kept {
             Some(checkpoint) => {
@@ -203,7 +221,7 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
         Some(Lane::new(run.index, run.case, step, samples))
     }
 
-    fn wanted(&mut self, stack: &StackScene<R, SpringDashpot<R>>, lanes: &[Option<Lane>]) -> bool {
+    fn wanted(&mut self, stack: &StackScene<R, Model>, lanes: &[Option<Lane>]) -> bool {
         self.queue.wanted(&Open { stack, lanes })
     }
 
@@ -213,12 +231,12 @@ impl<R: Real, Queue: RunQueue> Supervisor<R, SpringDashpot<R>> for Many<'_, Queu
     }
 }
 
-struct Open<'a, R: Real> {
-    stack: &'a StackScene<R, SpringDashpot<R>>,
+struct Open<'a, R: Real, Model: ConventionalModel<R>> {
+    stack: &'a StackScene<R, Model>,
     lanes: &'a [Option<Lane>],
 }
 
-impl<R: Real> OpenRuns for Open<'_, R> {
+impl<R: Real, Model: ConventionalModel<R>> OpenRuns for Open<'_, R, Model> {
     fn steps(&self) -> Vec<(usize, u64)> {
         let lanes = self.lanes.iter().flatten();
         lanes.map(|lane| (lane.index, lane.step)).collect()

@@ -1,4 +1,4 @@
-//! Native time stepping: the paper's DEM for any number of cylinders and plane walls.
+//! Native time stepping: the paper's DEM for any number of cylinders and plane walls, and its stack with other laws.
 //!
 //! The stepping uses only +, −, ×, ÷ and √, in a fixed order and without fused multiply-add, so that its results are
 //! the same bits on every machine.
@@ -14,6 +14,7 @@ mod lanes;
 mod loading;
 mod many_stacks;
 mod packing;
+mod power_law;
 mod real;
 mod scene;
 mod source_digest;
@@ -27,6 +28,7 @@ pub use first_event::{EventRun, Loading, Observation, Until};
 pub use frames::compress_stack_into_frames;
 pub use many_stacks::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue};
 pub use packing::{Material, PYRAMID_FLOOR, Packing, run_pyramid};
+pub use power_law::{LoadedSpring, PowerLaw};
 pub use real::{Composite, Real, Work};
 pub use scene::{Cylinder, Load, Scene};
 pub(crate) use source_digest::SOURCE_DIGEST;

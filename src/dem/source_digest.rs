@@ -15,6 +15,7 @@ pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
         include_str!("lane_group.rs"),
         include_str!("lanes.rs"),
         include_str!("loading.rs"),
+        include_str!("power_law.rs"),
         include_str!("real.rs"),
         include_str!("scene.rs"),
         include_str!("stack_scene.rs"),

@@ -1,8 +1,9 @@
 //! The three-cylinder stack: prepared, compressed, sampled.
 
-use super::contact::{ContactModel, SpringDashpot};
+use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::double_double::DoubleDouble;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
+use super::power_law::PowerLaw;
 use super::real::Real;
 use super::stack_scene::StackScene;
 use crate::model::Case;
@@ -14,7 +15,10 @@ use crate::series::{Series, SeriesError};
 /// # Errors
 /// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Series, SeriesError> {
-    compress_stack_with(case, law(case, 0.0), wanted)
+    match case.convention.law.is_linear() {
+        true => compress_stack_with::<SpringDashpot<f64>>(case, law(case, 0.0), wanted),
+        false => compress_stack_with::<PowerLaw<f64>>(case, law(case, 0.0), wanted),
+    }
 }
 
 /// The same in double-double arithmetic, 106 bits, at some forty times the cost: the difference from [`compress_stack`]
@@ -26,13 +30,23 @@ pub fn compress_stack_precisely(
     case: &Case,
     wanted: impl Fn() -> bool,
 ) -> Result<Series, SeriesError> {
+    match case.convention.law.is_linear() {
+        true => precisely::<SpringDashpot<_>>(case, wanted),
+        false => precisely::<PowerLaw<_>>(case, wanted),
+    }
+}
+
+fn precisely<Model: ConventionalModel<DoubleDouble>>(
+    case: &Case,
+    wanted: impl Fn() -> bool,
+) -> Result<Series, SeriesError> {
     let zero = DoubleDouble::new(0.0);
-    compress_stack_watched(case, (law(case, zero), zero), wanted, |_| ())
+    compress_stack_watched(case, (law::<_, Model>(case, zero), zero), wanted, |_| ())
 }
 
 /// The contact law of `case`, in numbers like `number`.
-pub(super) fn law<R: Real>(case: &Case, number: R) -> SpringDashpot<R> {
-    SpringDashpot::like(number, &case.convention, case.stack.stiffness_ratio)
+pub(super) fn law<R: Real, Model: ConventionalModel<R>>(case: &Case, number: R) -> Model {
+    Model::of_convention(number, &case.convention, case.stack.stiffness_ratio)
 }
 
 /// Like [`compress_stack`], with any contact law.

@@ -1,7 +1,7 @@
 //! Contact convention of a code: arms, Coulomb limit, damping, and the treatment of the tangential spring.
 
 use super::Arms;
-use super::law::ContactLaw;
+use super::law::{ContactLaw, Law};
 use super::validity::{InvalidValue, within};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,15 +59,18 @@ pub enum TensileForce {
 
 /// Contact convention of a code.
 ///
-/// Only the arms move the quasi-static limit of the yield force, above μ_c by 20 % and more between existing
-/// codes; the rest of a convention shows in trajectories. A key that a case file leaves out has the paper's
-/// value.
+/// Only law and arms move the quasi-static limit of the yield force, the arms above μ_c by 20 % and more between
+/// existing codes; the rest of a convention shows in trajectories. A key that a case file leaves out has the
+/// paper's value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactConvention {
     /// Arm coefficients; the keys `pair` and `floor` of a case file.
     #[serde(flatten)]
     pub arms: Arms,
+    /// Growth of the contact forces with the overlap; without this table, linear springs.
+    #[serde(skip_serializing_if = "Law::is_linear")]
+    pub law: Law,
     /// Restitution coefficient e_r, in (0, 1], of normal and tangential damping.
     pub restitution: f64,
     /// The force that Coulomb's limit is compared with.
@@ -93,6 +96,7 @@ impl ContactConvention {
     /// spring frozen while sliding and turning with the contact.
     pub const PAPER: Self = Self {
         arms: Arms::PAPER,
+        law: Law::LINEAR,
         restitution: PAPER_RESTITUTION,
         coulomb_operand: CoulombOperand::SpringAndDamping,
         sliding_spring: SlidingSpring::Frozen,
@@ -109,14 +113,32 @@ impl ContactConvention {
         }
     }
 
-    /// The contact law at stiffness ratio κ.
-    pub fn law(&self, stiffness_ratio: f64) -> ContactLaw {
-        ContactLaw::new(stiffness_ratio, self.restitution)
+    /// The paper's convention but for the law.
+    pub const fn with_law(law: Law) -> Self {
+        Self { law, ..Self::PAPER }
     }
 
-    /// Whether the quasi-static limit is known in closed form: all arms are 0.
+    /// The law of contacts between cylinders at stiffness ratio κ.
+    pub fn law(&self, stiffness_ratio: f64) -> ContactLaw {
+        self.law.of_pairs(stiffness_ratio, self.restitution)
+    }
+
+    /// The law of contacts with walls, κ being the stiffness ratio of contacts between cylinders.
+    pub fn wall_law(&self, stiffness_ratio: f64) -> ContactLaw {
+        self.law.of_walls(stiffness_ratio, self.restitution)
+    }
+
+    /// The largest slope of any normal force, κ being the stiffness ratio of contacts between cylinders.
+    pub(super) fn highest_stiffness(&self, stiffness_ratio: f64) -> f64 {
+        let laws = [self.law(stiffness_ratio), self.wall_law(stiffness_ratio)];
+        laws.map(|law| law.highest_stiffness())
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    /// Whether the quasi-static limit is known in closed form: all arms are 0, and springs linear.
     pub(crate) fn has_closed_form(&self) -> bool {
-        self.arms == Arms::PAPER
+        self.arms == Arms::PAPER && self.law.is_linear()
     }
 
     /// The first key in which this convention is not `other`, with both values.
@@ -127,6 +149,13 @@ impl ContactConvention {
         ];
         if let Some((key, own, theirs)) = arms.into_iter().find(|(_, own, theirs)| own != theirs) {
             return Some((key.to_owned(), own.to_string(), theirs.to_string()));
+        }
+        if self.law != other.law {
+            return Some((
+                "law".to_owned(),
+                self.law.to_string(),
+                other.law.to_string(),
+            ));
         }
         let values = |convention: &Self| {
             let value = serde_json::to_value(convention);
@@ -141,6 +170,7 @@ impl ContactConvention {
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.arms.validate()?;
+        self.law.validate()?;
         within("convention.restitution", self.restitution, 1e-3, 1.0)?;
         // From a solid sphere to a hoop.
         within(
@@ -156,7 +186,11 @@ impl ContactConvention {
 impl fmt::Display for ContactConvention {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Arms { pair, floor } = self.arms;
-        write!(formatter, "arms {pair}, {floor}")
+        write!(formatter, "arms {pair}, {floor}")?;
+        match self.law.is_linear() {
+            true => Ok(()),
+            false => write!(formatter, ", {}", self.law),
+        }
     }
 }
 
@@ -188,6 +222,30 @@ mod tests {
                 "{message}"
             );
         }
+    }
+
+    /// A linear law leaves no trace in a file, so that cases from before there were others keep their hashes.
+    #[test]
+    fn a_law_is_a_table_unless_it_is_linear() {
+        let written = |law| serde_json::to_value(ContactConvention::with_law(law)).unwrap();
+        assert_eq!(written(Law::LINEAR).get("law"), None);
+        let hertz = written(Law::HERTZ);
+        assert_eq!(hertz["law"]["power"], 1.5);
+        let again: ContactConvention = serde_json::from_value(hertz).unwrap();
+        assert_eq!(again, ContactConvention::with_law(Law::HERTZ));
+    }
+
+    #[test]
+    fn a_difference_of_laws_is_named_from_both_sides() {
+        let [linear, hertz] = [Law::LINEAR, Law::HERTZ].map(ContactConvention::with_law);
+        let (key, own, theirs) = linear.difference(&hertz).unwrap();
+        assert_eq!(key, "law");
+        assert_eq!(
+            (own, theirs),
+            (Law::LINEAR.to_string(), Law::HERTZ.to_string())
+        );
+        assert!(hertz.difference(&linear).is_some());
+        assert_eq!(hertz.difference(&hertz), None);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The problem: three cylinders, the convention of their contacts and the protocol that loads them.
 //!
 //! Units throughout: cylinder radius r = 1, cylinder mass m = 1, normal stiffness k_n = 1. Lengths are
-//! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). The yield force alone is
-//! given in m g, as in the paper (arXiv:2511.06807).
+//! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). Where the normal force of a pair is
+//! K δᵖ, K rᵖ⁻¹ takes the place of k_n. The yield force alone is given in m g, as in the paper (arXiv:2511.06807).
 
 mod arms;
 mod case;
@@ -30,7 +30,7 @@ pub use convention::{
     TensileForce,
 };
 pub use digest::sha256_hex;
-pub use law::ContactLaw;
+pub use law::{ContactCoefficients, ContactLaw, Law, Power, TangentialHistory};
 pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;

@@ -100,7 +100,7 @@ impl Pyramid {
         const SAFETY: f64 = 0.6;
         let turning = 1.0 + self.convention.moment_of_inertia.recip();
         let ratio = self.groups.stiffness_ratio;
-        let stiffness = self.convention.law(ratio).highest_stiffness();
+        let stiffness = self.convention.highest_stiffness(ratio);
         let fastest = (stiffness * (12.0 * f64::max(1.0, turning / ratio))).sqrt();
         SAFETY * 2.0 / fastest
     }
@@ -115,6 +115,7 @@ impl Pyramid {
         within("pyramid.spacing", self.spacing, 2.0, WIDEST_SPACING)?;
         self.groups.validate()?;
         self.convention.validate()?;
+        self.validate_law()?;
         positive(
             "pyramid.time_step",
             self.time_step,
@@ -128,6 +129,21 @@ impl Pyramid {
             within(&format!("pyramid.{name}"), steps as f64, fewest, MOST_STEPS)?;
         }
         Ok(())
+    }
+}
+
+impl Pyramid {
+    /// The stepping of many cylinders knows linear springs alone.
+    fn validate_law(&self) -> Result<(), InvalidValue> {
+        let law = self.convention.law;
+        if law.is_linear() {
+            return Ok(());
+        }
+        Err(InvalidValue {
+            key: "pyramid.convention.law".to_owned(),
+            value: law.to_string(),
+            accepted: "linear springs, on walls as stiff as pairs".to_owned(),
+        })
     }
 }
 

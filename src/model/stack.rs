@@ -35,7 +35,7 @@ pub struct Stack {
     /// Friction coefficient μ_d between two cylinders; `mu_d` means the same.
     #[serde(default = "paper_cylinder_friction", alias = "mu_d")]
     pub cylinder_friction: f64,
-    /// Stiffness 1/ε = k_n r/(m g).
+    /// Stiffness 1/ε = k_n r/(m g); with a law of power p it is K rᵖ/(m g), the force of a pair being K δᵖ.
     #[serde(default = "usual_stiffness")]
     pub stiffness: f64,
     /// Stiffness ratio κ = k_n/k_t; `kappa` means the same.
@@ -89,16 +89,25 @@ impl Stack {
         }
     }
 
-    /// ε = m g/(k_n r), which is also gravity in units of k_n r/m.
+    /// ε = m g/(k_n r), which is also gravity in units of k_n r/m; with a law of power p, K rᵖ⁻¹ takes the place of k_n.
     pub fn epsilon(&self) -> f64 {
         1.0 / self.stiffness
     }
 
     /// Bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m at a
-    /// stiffness k (largest eigenvalue, computed for κ from 1e-3 to 100).
+    /// stiffness k (largest eigenvalue, computed for κ from 1e-3 to 100), the highest of all contacts with the lowest κ.
     pub(crate) fn highest_frequency(&self, convention: &ContactConvention) -> f64 {
-        let stiffness = convention.law(self.stiffness_ratio).highest_stiffness();
-        (stiffness * (4.0 + 12.0 / self.stiffness_ratio)).sqrt()
+        let stiffness = convention.highest_stiffness(self.stiffness_ratio);
+        let ratio = convention.law.lowest_stiffness_ratio(self.stiffness_ratio);
+        (stiffness * (4.0 + 12.0 / ratio)).sqrt()
+    }
+
+    /// √(m/k) of the contacts between cylinders under the weight of cylinder 1, in √(m/k_n), from 1 on: 1 with linear
+    /// springs.
+    pub(crate) fn time_scale(&self, convention: &ContactConvention) -> f64 {
+        let law = convention.law(self.stiffness_ratio);
+        let stiffness = law.stiffness(law.overlap(0.5 * self.epsilon()));
+        stiffness.sqrt().recip().max(1.0)
     }
 
     /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the

@@ -1,13 +1,14 @@
 //! A case file with the meaning of each key.
 
-use crate::model::{Case, PartialCase};
+use crate::model::{Case, Law, PartialCase};
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
 const HEAD: &str = "# A case for `tristack simulate --case FILE`, with every key and its default.
 # A case needs only what differs: `[stack]` with `mu = 0.3` alone is one. The defaults of
 # [protocol] depend on the stack; those of [convention] are for native: another code has its own.
-# [protocol.shortcuts] is left out: by default there are none.
+# [protocol.shortcuts] is left out: by default there are none. So is floor_kappa of [convention.law], the stiffness
+# ratio k_n/k_t of walls: by default it is that of the stack.
 ";
 
 /// JSON Schema of a case file.
@@ -20,13 +21,26 @@ pub(super) fn case_schema() -> Value {
 
 /// `case` as a TOML file, each key below its description.
 pub(crate) fn commented_case(case: &Case) -> String {
-    let table = toml::Table::try_from(case).unwrap_or_default();
+    let mut table = toml::Table::try_from(case).unwrap_or_default();
+    let law = case.convention.law;
+    // Linear springs are not written otherwise.
+    if let Some(convention) = table
+        .get_mut("convention")
+        .and_then(|own| own.as_table_mut())
+        && let Ok(law) = toml::Value::try_from(law)
+    {
+        convention.insert("law".to_owned(), law);
+    }
     let mut file = CommentedFile {
         text: HEAD.to_owned(),
-        in_order: case.to_json(),
+        in_order: format!("{}\"law\":{}", case.to_json(), in_order(&law)),
     };
     file.write(&[], &table, &case_schema());
     file.text
+}
+
+fn in_order(law: &Law) -> String {
+    serde_json::to_string(law).expect("a law has only named fields and finite numbers")
 }
 
 struct CommentedFile {

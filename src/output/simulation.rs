@@ -63,6 +63,7 @@ fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
             own(row).moment_of_inertia
         })
         .means("moment of inertia of a cylinder")
+        .law(move |row| own(row).law)
 }
 
 /// Preparation, compression and sampling.

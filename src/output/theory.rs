@@ -46,7 +46,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     })
     .means("an assumption that its root contradicts")
     .number("quasistatic", "m g", |own| own.quasistatic.yield_force)
-    .means("exact quasi-static limit of a DEM with these arms")
+    .means("exact quasi-static limit of a DEM with these arms and this law")
     .number("quasistatic.slip_onset", "m g", |own| {
         own.quasistatic.slip_onset
     })
@@ -70,6 +70,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     })
     .means("F at which the floor slips if other events are ignored; the closing of contact 2–3 is not")
     .convention(|own| own.convention)
+    .law(|own| own.convention.law)
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
     .number("y", "r", |own| own.quasistatic.y)

@@ -38,7 +38,7 @@ pub struct RunSummary {
     pub estimates: YieldEstimates,
     /// Wall force at the end, in m g.
     pub last_force: f64,
-    /// c between the bottom cylinders when the compression begins, in m g; absent from older recordings.
+    /// c, without damping, between the bottom cylinders when the compression begins, in m g; absent from older recordings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_force: Option<f64>,
     /// x₂, y₁ and y₂ when the compression begins, in r; absent from older recordings.
@@ -56,6 +56,7 @@ impl RunSummary {
     /// The summary of `run`.
     pub fn new(run: Run) -> Self {
         let stack = &run.case.stack;
+        let law = run.case.convention.law(stack.stiffness_ratio);
         let samples = run.series.samples();
         let (first, last) = (samples.first(), samples.last());
         Self {
@@ -66,7 +67,7 @@ impl RunSummary {
                 .map(|sample| [sample.x2, sample.y1, sample.y2])
                 .filter(|start| !start.iter().any(|place| place.is_nan())),
             contact_force: first
-                .map(|sample| sample.bottom_contact_force() * stack.stiffness)
+                .map(|sample| law.force(sample.bottom_overlap()) * stack.stiffness)
                 .filter(|force| !force.is_nan()),
             absent: run
                 .series

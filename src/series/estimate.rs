@@ -71,7 +71,7 @@ impl YieldEstimates {
         let slides = beyond.zip(sliding);
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
         // Where cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
-        let is_last = |beyond: usize| samples[beyond].bottom_contact_force() <= 0.0;
+        let is_last = |beyond: usize| samples[beyond].bottom_overlap() <= 0.0;
         let ends = slides.filter(|&(beyond, ..)| reports(samples, &FLOOR) && is_last(beyond));
         let departure = ends.and_then(|(beyond, row, friction)| {
             Sliding::of(case, friction, rounding).departure(samples, beyond, row)
@@ -155,17 +155,16 @@ const AT_THE_LIMIT: f64 = 1e-9;
 /// What |t|/n of a sliding floor contact may be under the convention of a code.
 struct Sliding<'a> {
     case: &'a Case,
-    law: ContactLaw,
+    wall: ContactLaw,
     friction: f64,
     rounding: Rounding,
 }
 
 impl<'a> Sliding<'a> {
     fn of(case: &'a Case, friction: f64, rounding: Rounding) -> Self {
-        let law = case.convention.law(case.stack.stiffness_ratio);
         Self {
             case,
-            law,
+            wall: case.convention.wall_law(case.stack.stiffness_ratio),
             friction,
             rounding,
         }
@@ -243,7 +242,8 @@ impl<'a> Sliding<'a> {
                 + radius * turn.velocity_error
         });
         let speed = speed.unwrap_or_else(|| self.case.protocol.fast_speed());
-        self.law.damping_tangential * speed / (self.friction * sample.floor_n2)
+        let damping = self.wall.at(1.0 - sample.y2).damping_tangential;
+        damping * speed / (self.friction * sample.floor_n2)
     }
 }
 

@@ -173,6 +173,7 @@ impl Reported {
 struct Stack<'a> {
     case: &'a Case,
     law: ContactLaw,
+    wall_law: ContactLaw,
     /// Height of the centre of cylinder 1 in the first row: the wall touches it there.
     start: f64,
     /// Largest frequency of the stack with all its contacts.
@@ -186,12 +187,13 @@ struct Stack<'a> {
 
 impl<'a> Stack<'a> {
     fn of(case: &'a Case, samples: &[Sample]) -> Self {
-        let law = case.convention.law(case.stack.stiffness_ratio);
+        let (convention, ratio) = (&case.convention, case.stack.stiffness_ratio);
         Self {
             case,
-            law,
+            law: convention.law(ratio),
+            wall_law: convention.wall_law(ratio),
             start: samples.first().map_or(0.0, |first| first.y1),
-            frequency: case.stack.highest_frequency(&case.convention),
+            frequency: case.stack.highest_frequency(convention),
             schedule: case.protocol.schedule(),
             rounding: Rounding::read(samples),
             reported: Reported::of(samples),
@@ -240,14 +242,22 @@ impl<'a> Stack<'a> {
         self.rounding.force + 2.0 * self.rounding.coordinate
     }
 
-    /// What is not known of a damping force: its velocity may belong to a moment up to a step away, is a difference of
+    /// What a wall exerts at an overlap that grows at a speed, and by how much more than the overlap itself its rounding
+    /// changes that.
+    fn of_wall(&self, overlap: f64, speed: f64) -> (f64, f64) {
+        let own = self.wall_law.at(overlap);
+        let force = own.secant * overlap + own.damping_normal * speed;
+        (force, self.wall_law.stiffness(overlap).max(1.0))
+    }
+
+    /// What is not known of a force with this damping: its velocity may belong to a moment up to a step away, is a difference of
     /// rows, and rounds.
-    fn damping_error(&self, rates: &[Rates], five: FiveRows<'_>) -> f64 {
+    fn damping_error(&self, damping: f64, rates: &[Rates], five: FiveRows<'_>) -> f64 {
         let of_one = |rates: &Rates| {
             self.case.protocol.time_step * rates.acceleration.abs() + rates.velocity_error
         };
         let lags: f64 = rates.iter().map(of_one).sum();
-        self.law.damping_normal
+        damping
             * (lags
                 + rates.len() as f64 * five.rounding() * (self.frequency + five.interval().recip()))
     }
@@ -319,20 +329,22 @@ impl<'a> Stack<'a> {
     fn wall(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
         let protocol = &self.case.protocol;
         let overlap = sample.y1 - self.start + protocol.travel_at(&self.schedule, sample.step);
+        let damping = self.wall_law.at(overlap).damping_normal;
         let (speed, error) = match five {
             Some(five) => {
                 let rates = five.rates(|sample| sample.y1);
-                let error = self.damping_error(&[rates], five) + self.ringing(five);
+                let error = self.damping_error(damping, &[rates], five) + self.ringing(five);
                 let wall_speed = protocol.speed_at(&self.schedule, sample.step);
                 (rates.velocity + wall_speed, error)
             }
-            None => (0.0, 2.0 * self.law.damping_normal * protocol.fast_speed()),
+            None => (0.0, 2.0 * damping * protocol.fast_speed()),
         };
+        let (expected, stiffness) = self.of_wall(overlap, speed);
         Sides {
             step: sample.step,
             found: sample.wall_force,
-            expected: self.law.force(overlap) + self.law.damping_normal * speed,
-            bound: error + self.rounded(sample) + self.printed(),
+            expected,
+            bound: error + stiffness * (self.rounded(sample) + self.printed()),
         }
     }
 
@@ -343,22 +355,22 @@ impl<'a> Stack<'a> {
         } else {
             sample.floor_n2
         };
+        let overlap = 1.0 - height(sample);
+        let damping = self.wall_law.at(overlap).damping_normal;
         let (speed, error) = match five {
             Some(five) => {
                 let rates = five.rates(height);
-                let error = self.damping_error(&[rates], five) + self.ringing(five);
+                let error = self.damping_error(damping, &[rates], five) + self.ringing(five);
                 (-rates.velocity, error)
             }
-            None => (
-                0.0,
-                self.law.damping_normal * self.case.protocol.fast_speed(),
-            ),
+            None => (0.0, damping * self.case.protocol.fast_speed()),
         };
+        let (expected, stiffness) = self.of_wall(overlap, speed);
         Sides {
             step: sample.step,
             found: force,
-            expected: self.law.force(1.0 - height(sample)) + self.law.damping_normal * speed,
-            bound: error + 4.0 * COORDINATE + self.printed(),
+            expected,
+            bound: error + stiffness * (4.0 * COORDINATE + self.printed()),
         }
     }
 
@@ -367,7 +379,8 @@ impl<'a> Stack<'a> {
         let overlap = 2.0 - (sample.x2 - sample.x3);
         let parting = five.rates(|row| row.x2 - row.x3).velocity;
         if overlap > 0.0 {
-            self.law.force(overlap) - self.law.damping_normal * parting
+            let own = self.law.at(overlap);
+            own.secant * overlap - own.damping_normal * parting
         } else {
             0.0
         }
@@ -380,7 +393,7 @@ impl<'a> Stack<'a> {
         let [x2, y1, y2] = pair.rates;
         let (sine, cosine) = (pair.direction[0], pair.direction[1]);
         let second_difference = 16.0 * five.rounding() / five.interval().powi(2);
-        let known_to = self.damping_error(&[x2, y1, y2], five)
+        let known_to = self.damping_error(pair.damping, &[x2, y1, y2], five)
             + second_difference
             + pair.acceleration_error
             + 8.0 * COORDINATE

@@ -14,6 +14,8 @@ pub(super) struct PairContact {
     pub(super) direction: [f64; 2],
     /// a, normal force of overlap and damping.
     pub(super) normal: f64,
+    /// η_n at its overlap, which is larger than that of cylinders 2 and 3.
+    pub(super) damping: f64,
     /// b, the tangential force with which cylinder 2 turns as it does.
     pub(super) shear: f64,
     /// Error of the accelerations behind the balances of its forces.
@@ -37,7 +39,8 @@ impl PairContact {
         let (apart, sinking) = (x2.velocity - x1.velocity, y1.velocity - y2.velocity);
         let overlap = 2.0 - distance;
         let approach = -(sine * apart + cosine * sinking);
-        let normal = law.force(overlap) + law.damping_normal * approach;
+        let own = law.at(overlap);
+        let normal = own.secant * overlap + own.damping_normal * approach;
         let arms = convention.arms;
         let pair_lever = 1.0 + arms.pair.torque * overlap;
         let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.y2);
@@ -47,7 +50,7 @@ impl PairContact {
         let sliding =
             cosine * apart - sine * sinking - (1.0 + arms.pair.kinematic * overlap) * turn.velocity;
         let on_top = match convention.coulomb_operand {
-            CoulombOperand::Spring => law.damping_tangential * sliding.abs(),
+            CoulombOperand::Spring => own.damping_tangential * sliding.abs(),
             CoulombOperand::SpringAndDamping => 0.0,
         };
         let turning = turn.acceleration_error + 6.0 * five.unit() / five.interval().powi(2);
@@ -59,13 +62,15 @@ impl PairContact {
                 + 2.0 * five.unit() / five.interval()
         };
         let velocity_errors: f64 = [x1, x2, y1, y2].map(known_to).iter().sum();
-        let normal_error = law.damping_normal * velocity_errors + 4.0 * five.unit();
+        let normal_error =
+            own.damping_normal * velocity_errors + 4.0 * law.stiffness(overlap) * five.unit();
         let accelerations = [x2, y1, y2, turn].map(|rates| rates.acceleration_error);
         Self {
             rates: [x2, y1, y2],
             acceleration_error: accelerations.iter().sum(),
             direction: [sine, cosine],
             normal,
+            damping: own.damping_normal,
             shear,
             on_top: on_top / normal,
             ratio_error: (shear_error + (shear / normal).abs() * normal_error) / normal,

@@ -31,10 +31,9 @@ columns! {
 }
 
 impl Sample {
-    /// c, elastic part of the normal force between cylinders 2 and 3, in k_n r: their overlap 2 − |r₂ − r₃|
-    /// times k_n = 1, and 0 where they do not touch. At rest it is the whole force. Not a number where their positions
-    /// are not reported.
-    pub fn bottom_contact_force(&self) -> f64 {
+    /// Overlap of cylinders 2 and 3, 2 − |r₂ − r₃|, and 0 where they do not touch: linear springs bear as much force at
+    /// rest. Not a number where their positions are not reported.
+    pub fn bottom_overlap(&self) -> f64 {
         let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
         let overlap = 2.0 - (dx * dx + dy * dy).sqrt();
         if overlap < 0.0 { 0.0 } else { overlap }

@@ -4,7 +4,7 @@ use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
 use super::path::{BottomContact, FollowedPath, followed_path};
 use super::sliding::{SlidingBranch, SlidingEnd};
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{ContactConvention, Stack};
 
 /// The limit of `stack` along the path on which contact 2–3 closes and may open again, and along the sliding branch
 /// if the floor slips while it is closed.
@@ -22,6 +22,8 @@ pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Li
     };
     Limit {
         event: Event::ContactCloses,
+        time_scale: stack.time_scale(convention),
+        depends_on_preparation: convention.law.depends_on_order(),
         ..limit
     }
 }
@@ -51,7 +53,7 @@ impl SlidingStack<'_> {
         let branch = SlidingBranch::new(self.stack, convention);
         let settled = self.path.settled();
         if self.slip >= settled {
-            let start = onset.tangent - CRITICAL_FRICTION;
+            let start = SlidingBranch::direction(&onset);
             let settled = self.path.point(settled);
             return self.with_end(limit, branch.end(start), &settled);
         }

@@ -39,6 +39,12 @@ pub struct Limit {
     /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand
     /// without sliding.
     pub rest: Option<[f64; 3]>,
+    /// √(m/k) of the stack at rest, in √(m/k_n), from 1 on: what is slow for it takes so many times longer than with
+    /// linear springs.
+    pub time_scale: f64,
+    /// Whether it depends on the way in which gravity was applied: to the gravity ramp, on which all bodies get heavier
+    /// together and slowly.
+    pub depends_on_preparation: bool,
     /// Why there is no yield force.
     pub reason: Option<String>,
 }
@@ -91,6 +97,8 @@ impl Limit {
             peak_z: z.filter(|_| yields),
             pair_ratio: point.map(|point| point.pair_ratio),
             rest: (settled.is_finite() && !own_weight).then(|| path.point(settled).positions()),
+            time_scale: 1.0,
+            depends_on_preparation: false,
             reason: (!yields).then(|| explanation(event, own_weight)),
         }
     }

@@ -1,8 +1,8 @@
-//! The quasi-static limit for any arms, by following the path of equilibria.
+//! The quasi-static limit for any arms and contact law, by following the path of equilibria.
 //!
 //! The [balance] of forces is a differential equation in the angle ψ, with contact 2–3 closed or open. The path is
 //! continuous where that contact closes or opens, its slope is not: the integration stops there and starts anew
-//! (docs/theory.md, Eqs. 47 to 52).
+//! (docs/theory.md, Eqs. 47 to 52, and section 11 for laws other than the linear one).
 
 mod balance;
 
@@ -15,6 +15,9 @@ use balance::{Beginning, Contacts, Leg, State};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
+/// Start of the path on its first ray, relative to the angle that the gravity ramp turns to first order. The ray leaves
+/// out that part of the lengths there, which is the square of it, 1e-16, of those at rest.
+const START: f64 = 1e-8;
 /// First station on the gravity ramp, relative to the angle it turns to first order; each further one lies
 /// twice as far, up to the spacing below.
 const FIRST_STATION: f64 = 1e-7;
@@ -72,13 +75,13 @@ impl FollowedPath {
             first_turn,
             state,
             closed,
-        } = contacts.beginning();
+        } = contacts.beginning(START);
         let mut path = Self {
             first_turn,
             contacts,
             settled: f64::INFINITY,
             knots: vec![Knot {
-                parameter: state.turned / first_turn,
+                parameter: START,
                 state,
                 closed,
             }],
@@ -98,8 +101,11 @@ impl FollowedPath {
         loop {
             let last = self.last();
             let from = last.parameter;
-            let spacing = from.clamp(FIRST_STATION, RAMP_SPACING);
-            let Some(next) = self.next_knot((from + spacing).min(end)) else {
+            let station = match from < FIRST_STATION {
+                true => FIRST_STATION,
+                false => from + from.min(RAMP_SPACING),
+            };
+            let Some(next) = self.next_knot(station.min(end)) else {
                 return;
             };
             if next.state.load >= epsilon {
@@ -213,6 +219,7 @@ impl Path for FollowedPath {
     }
 
     fn point(&self, parameter: f64) -> PathPoint {
+        let parameter = parameter.max(START);
         let after = self
             .knots
             .partition_point(|knot| knot.parameter <= parameter);
@@ -227,7 +234,11 @@ impl Path for FollowedPath {
 pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     let path = followed_path(stack, convention, BottomContact::Ignored);
     let slip = locate(&path, Event::FloorSlip, stack);
-    Limit::of(&path, slip, stack)
+    Limit {
+        time_scale: stack.time_scale(convention),
+        depends_on_preparation: convention.law.depends_on_order(),
+        ..Limit::of(&path, slip, stack)
+    }
 }
 
 /// The path of equilibria of `stack`, which does not depend on its frictions.

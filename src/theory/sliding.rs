@@ -1,25 +1,33 @@
-//! The states in which the floor slides while contact 2–3 is closed, for any arms.
+//! The states in which the floor slides while contact 2–3 is closed, for any arms and power of the normal force.
 //!
-//! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d at each
-//! T = tan(ψ/2): the states remember neither springs nor preparation, and the torque arms are all that they see
-//! of a convention (docs/theory.md, Eqs. 74 to 76). The load grows along them until the contact opens, or to a
-//! maximum shortly before.
+//! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d of each
+//! direction (T − μ_c) : (−2y) = u : 1 − u. The states remember neither springs nor preparation, and torque arms and
+//! normal force are all that they see of a convention (docs/theory.md, Eqs. 74 to 76 and 87 to 89). On the way from u = 0,
+//! where T = μ_c, to u = 1, where the contact opens, the load grows until the end, or to a maximum shortly before.
+//! T alone would not do: with some arms it falls again just before the contact opens, unless springs are linear.
 
 use super::events::{Event, PathPoint};
 use super::overlap::HIGHEST_TANGENT;
 use super::root::{bracketed_root, maximum_between};
-use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
-use nalgebra::{Matrix2, Vector2};
+use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, ContactLaw, Stack};
 
 const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
-/// With arms 0 the equations are linear, and one step is enough; a second one mends its rounding.
+/// The bottom cylinders coincide.
+const LARGEST_BOTTOM_OVERLAP: f64 = 2.0;
+/// The arm of the floor changes d by a small part of its own change: each step gives a digit or more.
 const MOST_STEPS: usize = 60;
+/// Distance from which the balanced state is looked for, in units of the overlap that a weight makes.
+const NEAREST: f64 = 1e-3;
+/// u where contact 2–3 opens.
+const OPENING: f64 = 1.0;
 
 /// The sliding branch of one stack.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlidingBranch {
     stack: Stack,
     arms: Arms,
+    law: ContactLaw,
+    wall: ContactLaw,
 }
 
 /// How a stack ends whose floor slides while contact 2–3 is closed.
@@ -31,25 +39,66 @@ pub(super) enum SlidingEnd {
     Other(Event),
 }
 
+/// Where cylinders 1 and 2 are.
+#[derive(Clone, Copy)]
+struct Place {
+    /// T.
+    tangent: f64,
+    /// (1 + T²)/2.
+    sum: f64,
+    /// (1 − T²)/2.
+    difference: f64,
+    /// −2y.
+    bottom_overlap: f64,
+    /// G.
+    overlap: f64,
+}
+
+impl Place {
+    /// T = μ_c + `beyond` and −2y = `bottom_overlap`.
+    fn new(beyond: f64, bottom_overlap: f64) -> Self {
+        let tangent = CRITICAL_FRICTION + beyond;
+        let square = tangent * tangent;
+        let sum = 0.5 * (1.0 + square);
+        // (1 + T²) y of cylinders that do not overlap.
+        let opened = beyond * (CRITICAL_FRICTION.recip() - tangent);
+        Self {
+            tangent,
+            sum,
+            difference: 0.5 * (1.0 - square),
+            bottom_overlap,
+            overlap: 0.5 * (bottom_overlap * sum + opened) / tangent,
+        }
+    }
+}
+
 impl SlidingBranch {
     pub(super) fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
             stack: *stack,
             arms: convention.arms,
+            law: convention.law(stack.stiffness_ratio),
+            wall: convention.wall_law(stack.stiffness_ratio),
         }
     }
 
-    /// The peak beyond the state at T − μ_c = `start`, or what comes before it. The wall is lowest at the peak; and
+    /// u of a state.
+    pub(super) fn direction(point: &PathPoint) -> f64 {
+        let beyond = point.tangent - CRITICAL_FRICTION;
+        beyond / (beyond - 2.0 * point.outward)
+    }
+
+    /// The peak beyond the state at u = `start`, or what comes before it. The wall is lowest at the peak; and
     /// cylinders that slip meanwhile with c > 0 end nothing either, as long as they would stick at the peak.
     pub(super) fn end(&self, start: f64) -> SlidingEnd {
-        let Some(opening) = self.opening(start) else {
+        let load = |direction: f64| self.point(direction).floor_force;
+        if load(OPENING).is_nan() {
             return SlidingEnd::Other(Event::None);
-        };
-        let load = |beyond: f64| self.point(beyond).floor_force;
-        let highest = maximum_between(load, start, opening);
-        let peak = match load(highest) > load(opening) {
+        }
+        let highest = maximum_between(load, start, OPENING);
+        let peak = match load(highest) > load(OPENING) {
             true => highest,
-            false => opening,
+            false => OPENING,
         };
         let peak = self.point(peak);
         let mut others = [Event::CylinderSlip, Event::WallContact].into_iter();
@@ -59,96 +108,83 @@ impl SlidingBranch {
         }
     }
 
-    /// The state in which the wall just touches, F = 0, of a stack that began to slide under its own weight; `None`
+    /// u of the state in which the wall just touches, F = 0, of a stack that began to slide under its own weight; `None`
     /// if contact 2–3 opens before gravity is complete.
     pub(super) fn at_rest(&self) -> Option<f64> {
-        let opening = self.opening(0.0)?;
-        let missing = |beyond: f64| self.point(beyond).wall_force * self.stack.stiffness;
-        bracketed_root(missing, 0.0, opening)
+        let missing = |direction: f64| self.point(direction).wall_force * self.stack.stiffness;
+        bracketed_root(missing, 0.0, OPENING)
     }
 
-    /// T − μ_c where contact 2–3 opens, which depends on neither κ nor `start` where it can be found without them.
-    fn opening(&self, start: f64) -> Option<f64> {
-        let closed = |beyond: f64| -self.point(beyond).outward;
-        let openings = [0.0, start].map(|low| bracketed_root(closed, low, WIDEST));
-        openings
-            .into_iter()
-            .flatten()
-            .find(|&beyond| beyond > start)
-    }
-
-    /// The state at T = μ_c + `beyond` under the wall; not a number where there is none.
-    pub(super) fn point(&self, beyond: f64) -> PathPoint {
-        let (overlap, load) = self.balance(beyond).unwrap_or((f64::NAN, f64::NAN));
-        let tangent = CRITICAL_FRICTION + beyond;
-        let geometric = beyond * (CRITICAL_FRICTION.recip() - tangent);
-        let outward = (geometric - 2.0 * overlap * tangent) / (1.0 + tangent * tangent);
-        let [pair_lever, floor_lever] = self.levers(overlap, load);
-        let shear = self.stack.floor_friction * load * floor_lever / pair_lever;
+    /// The state at u = `direction` under the wall; not a number where there is none.
+    pub(super) fn point(&self, direction: f64) -> PathPoint {
+        let place = self
+            .place(direction)
+            .unwrap_or(Place::new(f64::NAN, f64::NAN));
+        let load = self.load(&place);
+        let shear = self.stack.floor_friction * load * self.lever_ratio(&place, load);
         let wall_force = 2.0 * load - 3.0 * self.stack.epsilon();
         PathPoint {
-            tangent,
-            pair_overlap: overlap,
-            floor_overlap: load,
+            tangent: place.tangent,
+            pair_overlap: place.overlap,
+            floor_overlap: self.wall.overlap(load),
             floor_force: load,
-            outward,
-            pair_ratio: shear / overlap,
+            outward: -0.5 * place.bottom_overlap,
+            pair_ratio: shear / self.law.force(place.overlap),
             floor_ratio: self.stack.floor_friction,
-            bottom_force: (-2.0 * outward).max(0.0),
+            bottom_force: self.law.force(place.bottom_overlap),
             wall_force,
-            wall_overlap: wall_force,
+            wall_overlap: self.wall.overlap(wall_force),
         }
     }
 
-    /// R_c and R_f.
-    fn levers(&self, overlap: f64, load: f64) -> [f64; 2] {
-        let Arms { pair, floor } = self.arms;
-        [1.0 + pair.torque * overlap, 1.0 + floor.torque * load]
-    }
-
-    /// G and d at T = μ_c + `beyond`, by Newton's method from the stress-free state (docs/theory.md, Eq. 75).
-    fn balance(&self, beyond: f64) -> Option<(f64, f64)> {
-        let mut state = Vector2::new(0.0, 0.0);
-        let mut last = f64::INFINITY;
-        for _ in 0..MOST_STEPS {
-            let (residual, slope) = self.residual(beyond, state.x, state.y);
-            let step = slope.lu().solve(&residual)?;
-            state -= step;
-            let size = step.amax() / state.amax();
-            if size <= 4.0 * f64::EPSILON || (size < 1e-12 && size >= last) {
-                return Some((state.x, state.y));
+    /// The first place in a direction in which all forces balance: what pushes cylinder 2 outwards grows about as the power
+    /// p of the distance from the stress-free state (docs/theory.md, section 11.5).
+    fn place(&self, direction: f64) -> Option<Place> {
+        let at = |distance: f64| Place::new(distance * direction, distance * (1.0 - direction));
+        let lack = |distance: f64| self.outward_push(&at(distance));
+        let farthest = (WIDEST / direction).min(LARGEST_BOTTOM_OVERLAP / (1.0 - direction));
+        let mut near = 0.0;
+        let mut far = NEAREST * self.law.overlap(self.stack.epsilon());
+        // Overlaps far beyond those of the state may have no levers.
+        while lack(far) < 0.0 {
+            if far >= farthest {
+                return None;
             }
-            last = size;
+            (near, far) = (far, (2.0 * far).min(farthest));
         }
-        None
+        bracketed_root(lack, near, far).map(at)
     }
 
-    /// What the horizontal balance of cylinder 2 and the vertical one of cylinder 1 lack at G and d, multiplied by
-    /// R_c (1 + T²)/2, with the derivatives.
-    fn residual(&self, beyond: f64, overlap: f64, load: f64) -> (Vector2<f64>, Matrix2<f64>) {
+    /// What the horizontal balance of cylinder 2 lacks, multiplied by (1 + T²)/2 (docs/theory.md, Eq. 88).
+    fn outward_push(&self, place: &Place) -> f64 {
+        let load = self.load(place);
+        let lever_sum = place.sum + place.difference * self.lever_ratio(place, load);
+        self.law.force(place.overlap) * place.tangent
+            + self.law.force(place.bottom_overlap) * place.sum
+            - self.stack.floor_friction * load * lever_sum
+    }
+
+    /// d of the vertical balance of cylinder 1, whose lever ratio depends on it (docs/theory.md, Eq. 89).
+    fn load(&self, place: &Place) -> f64 {
+        let weight = self.stack.epsilon() * place.sum;
+        let pressing = self.law.force(place.overlap) * place.difference + weight;
+        let sliding = self.stack.floor_friction * place.tangent;
+        let mut load = 0.0;
+        for _ in 0..MOST_STEPS {
+            let next = pressing / (place.sum - sliding * self.lever_ratio(place, load));
+            let change = (next - load).abs();
+            load = next;
+            if change <= f64::EPSILON * next.abs() {
+                break;
+            }
+        }
+        load
+    }
+
+    /// R_f/R_c at a floor load.
+    fn lever_ratio(&self, place: &Place, load: f64) -> f64 {
         let Arms { pair, floor } = self.arms;
-        let [pair_lever, floor_lever] = self.levers(overlap, load);
-        let (mu, epsilon) = (self.stack.floor_friction, self.stack.epsilon());
-        let tangent = CRITICAL_FRICTION + beyond;
-        let (sum, difference) = (
-            0.5 * (1.0 + tangent * tangent),
-            0.5 * (1.0 - tangent * tangent),
-        );
-        // (a sin ψ + c)(1 + T²)/2, linear in G.
-        let outward_push = 3.0 * overlap * tangent - beyond * (CRITICAL_FRICTION.recip() - tangent);
-        let lack = overlap * difference - (load - epsilon) * sum;
-        let lever_sum = sum * pair_lever + difference * floor_lever;
-        let residual = Vector2::new(
-            outward_push * pair_lever - mu * load * lever_sum,
-            lack * pair_lever + mu * load * floor_lever * tangent,
-        );
-        let slope = Matrix2::new(
-            3.0 * tangent * pair_lever + (outward_push - mu * load * sum) * pair.torque,
-            -mu * (lever_sum + load * difference * floor.torque),
-            difference * pair_lever + lack * pair.torque,
-            -sum * pair_lever + mu * tangent * (floor_lever + load * floor.torque),
-        );
-        (residual, slope)
+        (1.0 + floor.torque * self.wall.overlap(load)) / (1.0 + pair.torque * place.overlap)
     }
 }
 
@@ -169,8 +205,8 @@ mod tests {
             Arms::reciprocal(0.7, -0.4),
         ] {
             let branch = branch(0.3, 1e2, arms);
-            for beyond in [1e-3, 0.01, 0.03] {
-                let point = branch.point(beyond);
+            for direction in [0.1, 0.5, 0.9, 1.0] {
+                let point = branch.point(direction);
                 let (sin, cos) = libm::sincos(2.0 * libm::atan(point.tangent));
                 let (a, d) = (point.pair_overlap, point.floor_force);
                 let (b, e, c) = (point.pair_ratio * a, 0.3 * d, 2.0 * (1.0 - (2.0 - a) * sin));
@@ -208,7 +244,7 @@ mod tests {
 
     #[test]
     fn a_wall_that_comes_down_far_enough_ends_the_branch() {
-        let end = branch(0.45, 1e2, Arms::PAPER).end(0.05);
+        let end = branch(0.45, 1e2, Arms::PAPER).end(0.6);
         assert_eq!(end, SlidingEnd::Other(Event::WallContact));
     }
 

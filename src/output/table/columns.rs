@@ -3,7 +3,7 @@
 use super::value::{Typed, ValueKind};
 use super::{DataTable, Value};
 use crate::code::Code;
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{Arms, ContactConvention, Law, Stack};
 use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 use serde::Serialize;
@@ -239,6 +239,20 @@ impl<'a, R: 'a> Columns<'a, R> {
             arm(row, |arms| arms.floor.kinematic)
         })
         .means(kinematic)
+    }
+
+    /// The contact law.
+    pub(crate) fn law(self, law: impl Fn(&R) -> Law + Copy + 'a) -> Self {
+        self.number("law_power", "1", move |row| law(row).power.value())
+            .means("power p of the normal force K overlapᵖ: 1 where springs are linear, 1.5 in Hertz's law")
+            .text("history", move |row| law(row).history.as_str())
+            .means("what tangential springs remember while their stiffness changes")
+            .number("floor_ratio", "1", move |row| law(row).floor_ratio)
+            .means("K of the floor over K of cylinders")
+            .number("floor_kappa", "1", move |row| law(row).floor_kappa)
+            .means("stiffness ratio of the floor; absent where it is that of cylinders")
+            .text("tangential_stiffening", move |row| law(row).tangential_stiffening)
+            .means("whether k_t is multiplied by 2/(2 − overlap)")
     }
 
     /// The code of a row.

@@ -15,6 +15,9 @@ const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
 pub(super) const REST_TIME: f64 = 100.0;
+/// Duration of the ramp over that of the compression, where the limit depends on the ramp: what the ramp leaves behind, of
+/// second order in its speed, is then small beside the lag of the compression, which is of first order.
+const SLOW_RAMP: f64 = 4.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
@@ -194,10 +197,7 @@ fn planned_protocols(
         ..middle
     });
     protocols.push(Protocol {
-        preparation: Preparation::GravityRamp {
-            ramp_time: 0.5 * RAMP_TIME,
-            rest_time: REST_TIME,
-        },
+        preparation: preparation(limit, 0.5 * ramp_time(limit, middle.wall_speed)),
         ..middle
     });
     Some(protocols)
@@ -219,7 +219,8 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
 }
 
 /// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
-/// the wall where that is smaller, so that no onset comes too soon after the start; less where the fastest
+/// the wall where that is smaller, so that no onset comes too soon after the start, over the time scale of the stack at
+/// rest; less where the fastest
 /// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
 /// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
 /// yields.
@@ -231,7 +232,7 @@ pub(super) fn speed_scale(
     let [fastest, _, slowest] = SPEEDS;
     let travel = limit.peak_travel?;
     let affordable = TRAVEL_MARGIN * travel / (LONGEST_COMPRESSION * slowest);
-    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?);
+    let near = limit.z.or(limit.peak_z)?.min(limit.travel_to_watch()?) / limit.time_scale;
     let scale = match limit.rises_after_onset() {
         true => near.max(affordable),
         false => near,
@@ -262,10 +263,7 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
     let fine_from_travel = FINE_FROM * limit.travel_to_watch()?;
     let travel = limit.peak_travel?;
     Some(Protocol {
-        preparation: Preparation::GravityRamp {
-            ramp_time: RAMP_TIME,
-            rest_time: REST_TIME,
-        },
+        preparation: preparation(limit, ramp_time(limit, rounded(wall_speed))),
         time_step,
         wall_speed: rounded(wall_speed),
         wall_travel: rounded(TRAVEL_MARGIN * travel + time_margin(limit) * wall_speed),
@@ -278,12 +276,29 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
     })
 }
 
+fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
+    Preparation::GravityRamp {
+        ramp_time: rounded(ramp_time),
+        rest_time: rounded(REST_TIME * limit.time_scale),
+    }
+}
+
+/// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached only
+/// if that slows down with the wall.
+fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
+    let usual = RAMP_TIME * limit.time_scale;
+    match limit.peak_travel {
+        Some(travel) if limit.depends_on_preparation => usual.max(SLOW_RAMP * travel / wall_speed),
+        _ => usual,
+    }
+}
+
 /// Duration of the compression beyond the planned travel. The force that drives the collapse of a stack near μ_c falls
 /// with the square root of ε, so that stiff stacks take longer.
 fn time_margin(limit: &Limit) -> f64 {
     let stiffness = limit.yield_force.zip(limit.peak_z);
     let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
-    TIME_MARGIN * (stiffness / STIFF).sqrt().max(1.0)
+    TIME_MARGIN * (stiffness / STIFF).sqrt().max(limit.time_scale)
 }
 
 /// `value` to six significant digits. A plan is part of the address of a run: it must not depend on the

@@ -72,6 +72,7 @@ pub(super) fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
 
 fn trial(stack: &Stack, convention: &ContactConvention) -> Case {
     let wall_speed = TRIAL_SPEED * stack.epsilon();
+    let time_scale = stack.time_scale(convention);
     Case {
         stack: Stack {
             floor_friction: NO_LIMIT,
@@ -81,12 +82,12 @@ fn trial(stack: &Stack, convention: &ContactConvention) -> Case {
         convention: *convention,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
-                ramp_time: 100.0,
-                rest_time: 100.0,
+                ramp_time: 100.0 * time_scale,
+                rest_time: 100.0 * time_scale,
             },
             time_step: TRIAL_TIME_STEP,
             wall_speed,
-            wall_travel: wall_speed * TRIAL_TIME,
+            wall_travel: wall_speed * TRIAL_TIME * time_scale,
             sampling: Sampling {
                 coarse_interval: TRIAL_INTERVAL,
                 fine_from_travel: 0.0,

@@ -9,12 +9,16 @@
 //! form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
 //! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
 //!
+//! A spring that remembers its displacement gains force as its overlap grows: b′ and e′ have the further parts
+//! b (ln k_c)′ and e (ln k_f)′ then (Eq. 81).
+//!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
-//! carries c = k_n (−2y), and nothing tangential: by mirror symmetry its surfaces do not move against each
+//! carries c = N(−2y), and nothing tangential: by mirror symmetry its surfaces do not move against each
 //! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are.
 
 use super::super::events::{PathPoint, half_angle_tangent, outward_displacement};
-use crate::model::{Arms, ContactConvention, ContactLaw, Stack};
+use super::super::root::bracketed_root;
+use crate::model::{Arms, ContactArms, ContactConvention, ContactLaw, Stack};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_6;
 
@@ -120,9 +124,44 @@ pub(super) struct Beginning {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contacts {
     law: ContactLaw,
+    wall: ContactLaw,
     arms: Arms,
     pub(super) epsilon: f64,
     pub(super) bottom: BottomContact,
+}
+
+/// One of the two contacts with friction, in one state.
+struct Pressed {
+    /// Torque arm R.
+    lever: f64,
+    /// Kinematic arm R̃.
+    radius: f64,
+    /// dN/dδ.
+    stiffness: f64,
+    /// k_t.
+    tangential: f64,
+    /// Change of the tangential force with the overlap while the surfaces do not move.
+    memory: f64,
+}
+
+impl Pressed {
+    fn new(law: &ContactLaw, arms: ContactArms, overlap: f64, shear: f64, unloads: bool) -> Self {
+        let kept = match law.history.keeps_force() {
+            true => 0.0,
+            false => shear * law.tangential_steepening(overlap),
+        };
+        let lost = match law.history.is_rescaled() && unloads {
+            true => 0.5 * shear / overlap,
+            false => 0.0,
+        };
+        Self {
+            lever: 1.0 + arms.torque * overlap,
+            radius: 1.0 + arms.kinematic * overlap,
+            stiffness: law.stiffness(overlap),
+            tangential: law.at(overlap).tangential_stiffness,
+            memory: kept + lost,
+        }
+    }
 }
 
 impl Contacts {
@@ -133,73 +172,107 @@ impl Contacts {
     ) -> Self {
         Self {
             law: convention.law(stack.stiffness_ratio),
+            wall: convention.wall_law(stack.stiffness_ratio),
             arms: convention.arms,
             epsilon: stack.epsilon(),
             bottom,
         }
     }
 
-    /// The beginning of the path, which has a slope at the origin.
-    pub(super) fn beginning(&self) -> Beginning {
-        let origin = State::from_array([0.0; 6]);
-        let open_slope = self.derivative(&origin, Leg::GravityRamp, false);
-        let closed = self.bottom == BottomContact::Followed && moves_inwards(&open_slope);
-        let slope = self.derivative(&origin, Leg::GravityRamp, closed);
+    /// The beginning of the path, at `fraction` of the angle turned under gravity: on the ray along which all lengths are
+    /// proportional to that angle, and all forces to its power p (docs/theory.md, Eqs. 82 and 83).
+    pub(super) fn beginning(&self, fraction: f64) -> Beginning {
+        let ray = Ray::of(self);
+        let [upper_stretch, _] = ray.stretch(self);
+        let first_turn = self.law.overlap(self.epsilon / ray.load);
+        let turned = fraction * first_turn;
+        let force = self.law.force(turned);
         Beginning {
-            first_turn: self.epsilon / slope.load,
-            state: origin,
-            closed,
+            first_turn,
+            closed: ray.bottom_force > 0.0,
+            state: State {
+                turned,
+                load: ray.load * force,
+                pair_overlap: ray.pair_overlap * turned,
+                rotation: (2.0 - upper_stretch) * turned,
+                pair_shear: ray.shear * force,
+                floor_shear: ray.shear * force,
+            },
         }
     }
 
     /// Derivative of the state with respect to ψ, with contact 2–3 closed or open (docs/theory.md,
-    /// Eqs. 37 to 39 and 52).
+    /// Eqs. 37 to 39, 52 and 81).
     pub(super) fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
+        let (slope, loads) = self.slope(state, leg, closed, [false; 2]);
+        let unloads = loads.map(|loads| !loads);
+        match self.law.history.is_rescaled() && unloads != [false; 2] {
+            true => self.slope(state, leg, closed, unloads).0,
+            false => slope,
+        }
+    }
+
+    /// The derivative if pair and floor `unload` as given, and whether their overlaps grow along it.
+    fn slope(
+        &self,
+        state: &State,
+        leg: Leg,
+        closed: bool,
+        unload: [bool; 2],
+    ) -> (State, [bool; 2]) {
         let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
         let distance = 2.0 - state.pair_overlap;
-        let floor_overlap = self.law.overlap(leg.floor_force(state.load, self.epsilon));
-        let tangential = self.law.tangential_stiffness;
-        let Arms { pair, floor } = self.arms;
-        let pair_lever = 1.0 + pair.torque * state.pair_overlap;
-        let pair_radius = 1.0 + pair.kinematic * state.pair_overlap;
-        let floor_lever = 1.0 + floor.torque * floor_overlap;
-        let floor_radius = 1.0 + floor.kinematic * floor_overlap;
-        let a = self.law.force(state.pair_overlap);
+        let floor_overlap = self.wall.overlap(leg.floor_force(state.load, self.epsilon));
         let (b, e) = (state.pair_shear, state.floor_shear);
+        let Arms { pair, floor } = self.arms;
+        let upper = Pressed::new(&self.law, pair, state.pair_overlap, b, unload[0]);
+        let lower = Pressed::new(&self.wall, floor, floor_overlap, e, unload[1]);
+        let a = self.law.force(state.pair_overlap);
         // −dc/dx₂: the bottom cylinders overlap by −2y.
-        let bottom_stiffness = if closed { 2.0 } else { 0.0 };
+        let bottom_stiffness = match closed {
+            true => 2.0 * self.law.stiffness(-2.0 * state.outward()),
+            false => 0.0,
+        };
+        let sinking = leg.floor_force_slope() / lower.stiffness;
 
         // Rows: torque on 2, horizontal force on 2, vertical force on 1. Columns: ρ′, θ′, L′.
         let system = Matrix3::new(
-            -b * pair.torque - tangential * floor_lever * sin,
-            -tangential * pair_lever * pair_radius - tangential * floor_lever * floor_radius,
-            -e * floor.torque * leg.floor_force_slope(),
-            (1.0 + tangential + bottom_stiffness) * sin,
-            -tangential * pair_radius * cos + tangential * floor_radius,
-            0.0,
-            -2.0 * cos,
-            -2.0 * tangential * pair_radius * sin,
+            -(b * pair.torque + upper.lever * upper.memory) - lower.tangential * lower.lever * sin,
+            -upper.tangential * upper.lever * upper.radius
+                - lower.tangential * lower.lever * lower.radius,
+            -(e * floor.torque + lower.lever * lower.memory) * sinking,
+            (upper.stiffness + lower.tangential + bottom_stiffness) * sin - upper.memory * cos,
+            -upper.tangential * upper.radius * cos + lower.tangential * lower.radius,
+            lower.memory * sinking,
+            -2.0 * upper.stiffness * cos - 2.0 * upper.memory * sin,
+            -2.0 * upper.tangential * upper.radius * sin,
             -1.0,
         );
         let known = Vector3::new(
-            (tangential * pair_lever - tangential * floor_lever * cos) * distance,
-            (2.0 * tangential + bottom_stiffness) * distance * cos - a * cos - b * sin,
-            2.0 * (tangential * distance * sin - a * sin + b * cos),
+            (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance,
+            (upper.tangential + lower.tangential + bottom_stiffness) * distance * cos
+                - a * cos
+                - b * sin,
+            2.0 * (upper.tangential * distance * sin - a * sin + b * cos),
         );
         let solution = system
             .lu()
             .solve(&-known)
             .unwrap_or(Vector3::repeat(f64::NAN));
         let (distance_slope, rotation_slope, load_slope) = (solution.x, solution.y, solution.z);
-        State {
+        let floor_overlap_slope = sinking * load_slope;
+        let slope = State {
             turned: 1.0,
             load: load_slope,
             pair_overlap: -distance_slope,
             rotation: rotation_slope,
-            pair_shear: tangential * (distance - pair_radius * rotation_slope),
-            floor_shear: tangential
-                * (distance_slope * sin + distance * cos + floor_radius * rotation_slope),
-        }
+            pair_shear: upper.tangential * (distance - upper.radius * rotation_slope)
+                - upper.memory * distance_slope,
+            floor_shear: lower.tangential
+                * (distance_slope * sin + distance * cos + lower.radius * rotation_slope)
+                + lower.memory * floor_overlap_slope,
+        };
+        (slope, [distance_slope <= 0.0, floor_overlap_slope >= 0.0])
     }
 
     pub(super) fn point(&self, state: &State, leg: Leg) -> PathPoint {
@@ -212,7 +285,7 @@ impl Contacts {
         PathPoint {
             tangent: half_angle_tangent(state.turned),
             pair_overlap: state.pair_overlap,
-            floor_overlap: law.overlap(floor_force),
+            floor_overlap: self.wall.overlap(floor_force),
             floor_force,
             outward,
             pair_ratio: state.pair_shear / law.force(state.pair_overlap),
@@ -222,14 +295,64 @@ impl Contacts {
                 BottomContact::Followed => law.force((-2.0 * outward).max(0.0)),
             },
             wall_force,
-            wall_overlap: law.overlap(wall_force),
+            wall_overlap: self.wall.overlap(wall_force),
         }
     }
 }
 
-/// Whether cylinder 2 begins to move inwards from the stress-free state.
-fn moves_inwards(slope: &State) -> bool {
-    // dy/dψ = ρ′ sin ψ + ρ cos ψ at ψ = 30°, ρ = 2.
-    let outward_slope = 3f64.sqrt() - 0.5 * slope.pair_overlap;
-    outward_slope < 0.0
+/// The direction in which a path leaves the stress-free state: lengths over the angle turned, forces over its power p.
+struct Ray {
+    pair_overlap: f64,
+    shear: f64,
+    bottom_force: f64,
+    load: f64,
+}
+
+impl Ray {
+    /// The ray on which the springs of both contacts collect what the geometry demands (docs/theory.md, Eq. 83).
+    fn of(contacts: &Contacts) -> Self {
+        let widening = 2.0 + 3f64.sqrt();
+        let excess = |pair_overlap: f64| {
+            let ray = Self::along(contacts, pair_overlap);
+            ray.stretch(contacts).iter().sum::<f64>() + 0.5 * pair_overlap - widening
+        };
+        // Overlaps of 0 have no stiffness.
+        let pair_overlap = bracketed_root(excess, 1e-100, 2.0 * widening).unwrap_or(f64::NAN);
+        Self::along(contacts, pair_overlap)
+    }
+
+    /// Forces of the balances at ψ = 30° and an overlap of the pair.
+    fn along(contacts: &Contacts, pair_overlap: f64) -> Self {
+        let (law, root) = (&contacts.law, 3f64.sqrt());
+        let normal = law.force(pair_overlap);
+        let bottom_force = match contacts.bottom {
+            BottomContact::Ignored => 0.0,
+            BottomContact::Followed => law.force((pair_overlap - 2.0 * root).max(0.0)),
+        };
+        let shear = (0.5 * normal + bottom_force) / (1.0 + 0.5 * root);
+        Self {
+            pair_overlap,
+            shear,
+            bottom_force,
+            load: root * normal + shear,
+        }
+    }
+
+    /// How far the springs of pair and floor are stretched.
+    fn stretch(&self, contacts: &Contacts) -> [f64; 2] {
+        let floor_force = Leg::GravityRamp.floor_force(self.load, 0.0);
+        let floor_overlap = contacts.wall.overlap(floor_force);
+        let contacts = [
+            (&contacts.law, self.pair_overlap),
+            (&contacts.wall, floor_overlap),
+        ];
+        contacts.map(|(law, overlap)| {
+            // A force that grows with the power p of a length is p of itself per relative growth of it.
+            let growth = match law.history.keeps_force() {
+                true => law.power.value(),
+                false => 1.0,
+            };
+            growth * self.shear / law.unstiffened(overlap)
+        })
+    }
 }

@@ -128,6 +128,13 @@ fn one_case(case: &Predictions) -> Table {
         ),
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];
+    // The paper's theories know no other springs; the rigid one knows none.
+    let is_linear = case.convention.law.is_linear();
+    for (.., remark) in lines[1..4].iter_mut().filter(|_| !is_linear) {
+        if remark.is_empty() {
+            *remark = "of linear springs".to_owned();
+        }
+    }
     if exact.rises_after_onset()
         && let Some(onset) = exact.slip_onset
     {

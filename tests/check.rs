@@ -148,7 +148,7 @@ fn folders_of_earlier_trials_are_explained_as_far_as_is_said() {
     explained_as_far_as_is_said(include_str!("check/blind-3.toml"), 6, true);
     explained_as_far_as_is_said(include_str!("check/blind-4.toml"), 5, true);
     explained_as_far_as_is_said(include_str!("check/blind-5.toml"), 1, true);
-    explained_as_far_as_is_said(include_str!("check/blind-7.toml"), 8, true);
+    explained_as_far_as_is_said(include_str!("check/blind-7.toml"), 7, true);
 }
 
 #[test]

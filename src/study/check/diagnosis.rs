@@ -248,6 +248,10 @@ impl Known {
             .collect();
         let only = |law| if law { &motions[..] } else { &all[..] };
         causes = search::explanations(&all);
+        if !law {
+            let of_contacts = causes.iter_mut().filter(|own| search::is_of_contacts(own));
+            of_contacts.for_each(|own| own.push_str(" (in the stack; the micro-tests are right)"));
+        }
         if causes.is_empty() && law {
             causes = search::explanations(&motions);
         }

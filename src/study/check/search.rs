@@ -275,6 +275,11 @@ fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
     causes
 }
 
+/// Whether a mistake is one of contacts.
+pub(super) fn is_of_contacts(text: &str) -> bool {
+    PLACES.iter().any(|(at, _)| text.contains(at))
+}
+
 /// A text without its place.
 fn stripped(text: &str) -> String {
     PLACES

@@ -140,7 +140,7 @@ fn folders_that_were_written_blind_are_explained_as_far_as_is_said() {
 }
 
 #[test]
-#[ignore = "seven further trials take minutes: cargo test --test check -- --ignored"]
+#[ignore = "eight further trials take minutes: cargo test --test check -- --ignored"]
 fn folders_of_earlier_trials_are_explained_as_far_as_is_said() {
     explained_as_far_as_is_said(include_str!("check/unforeseen.toml"), 2, false);
     explained_as_far_as_is_said(include_str!("check/blind.toml"), 5, true);
@@ -149,6 +149,7 @@ fn folders_of_earlier_trials_are_explained_as_far_as_is_said() {
     explained_as_far_as_is_said(include_str!("check/blind-4.toml"), 5, true);
     explained_as_far_as_is_said(include_str!("check/blind-5.toml"), 1, true);
     explained_as_far_as_is_said(include_str!("check/blind-7.toml"), 7, true);
+    explained_as_far_as_is_said(include_str!("check/blind-8.toml"), 8, true);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use tristack::series::{Series, SeriesError};
 
 /// Lanes, and instructions per step and case when the loop was last looked at: of a release, which is what users
 /// run, …
-const PINNED: [(usize, f64); 3] = [(1, 698.0), (2, 463.5), (4, 170.0)];
+const PINNED: [(usize, f64); 3] = [(1, 734.0), (2, 463.5), (4, 170.0)];
 /// … and of the tests, in which the operations on vectors are calls.
 const PINNED_IN_TESTS: [(usize, f64); 3] = [(1, 780.0), (2, 785.5), (4, 773.0)];
 

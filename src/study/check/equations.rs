@@ -7,13 +7,14 @@
 use super::factor::of_factor;
 use super::table::MOST_CAUSES;
 use super::terms::{
-    FORCE, KICK, MOVE, Moment, START, TORQUE, Term, Touch, WALL_FORCE, WHERE, load, rate,
+    FORCE, KICK, MOVE, Moment, START, TORQUE, Term, Touch, WALL_FORCE, WHERE, rate,
 };
 use super::twin::{FLOOR, Row, Twin, WALL, cells};
 use crate::model::{ContactConvention, ContactTest};
 use crate::runs::Answer;
 use crate::series::{BodyRow, MotionRow};
 use crate::study::convention::fit_rows;
+use std::cell::LazyCell;
 
 /// Largest part of its largest value by which a quantity may miss its equation: rounding, which one row does not amplify.
 const HOLDS: f64 = 1e-9;
@@ -52,7 +53,6 @@ const VELOCITIES: [&str; 3] = [
 
 /// One number of a row in its equation: the sum of what its terms have along three axes.
 struct Line {
-    step: u64,
     along: [f64; 3],
     found: f64,
     expected: f64,
@@ -135,7 +135,7 @@ impl Equation {
         let text = format!(
             "it is another one than the law gives: {:.9} at step {} of a micro-test, where {:.9} is expected at the \
              positions and velocities of that step",
-            first.found, first.step, first.expected
+            first.found, first.moment.step, first.expected
         );
         Some(Relation {
             condition: place,
@@ -149,8 +149,8 @@ impl Equation {
         let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
         let mut rhythms = (2..MOST_STEPS).flat_map(|every| [(every, 0), (every, 1)]);
         rhythms.find_map(|(every, first)| {
-            let late = |line: &Line| ((line.step + every - first) % every + first) as f64 * line.moment.time_step;
-            let second = lines.iter().find(|line| line.step == 1)?;
+            let late = |line: &Line| ((line.moment.step + every - first) % every + first) as f64 * line.moment.time_step;
+            let second = lines.iter().find(|line| line.moment.step == 1)?;
             let speed = second.left() / late(second);
             let fits = lines.iter().filter(|line| (line.left() - speed * late(line)).abs() <= allowed);
             (speed.abs() > rounding && fits.count() as f64 >= MOST * lines.len() as f64).then(|| {
@@ -168,7 +168,7 @@ impl Equation {
         let count = self.terms.len();
         let single = (0..count).map(|one| vec![one]);
         let double = (0..count).flat_map(|one| (one + 1..count).map(move |two| vec![one, two]));
-        let explains_most = |terms: &[usize], own: &[f64]| {
+        let explained = |terms: &[usize], own: &[f64]| {
             let is_told = |line: &&&Line| {
                 let each = terms.iter().zip(own);
                 let told: f64 = each
@@ -176,17 +176,25 @@ impl Equation {
                     .sum();
                 (line.left() - told).abs() <= allowed
             };
-            all.iter().filter(is_told).count() as f64 >= MOST_OF_ALL * all.len() as f64
+            all.iter().filter(is_told).count()
         };
-        let (coefficients, terms) = single.chain(double).find_map(|terms| {
+        let (coefficients, terms, count) = single.chain(double).find_map(|terms| {
             let own = self.fit(&terms, lines, allowed)?;
-            explains_most(&terms, &own).then_some((own, terms))
+            let count = explained(&terms, &own);
+            (count as f64 >= MOST_OF_ALL * all.len() as f64).then_some((own, terms, count))
         })?;
         let told = terms
             .iter()
             .zip(coefficients)
             .map(|(term, own)| told(&self.terms[*term], own));
-        Some(told.collect::<Vec<_>>().join(", and "))
+        let told = told.collect::<Vec<_>>().join(", and ");
+        Some(match count == all.len() {
+            true => told,
+            false => format!(
+                "{told}; that explains {count} of the {} numbers that are wrong",
+                all.len()
+            ),
+        })
     }
 
     /// Coefficients of some terms that leave no more than is allowed.
@@ -247,7 +255,7 @@ impl Equation {
         {
             return format!("where the overlap exceeds {least:.4}, and only there, ");
         }
-        let mut steps: Vec<u64> = off.iter().map(|line| line.step).collect();
+        let mut steps: Vec<u64> = off.iter().map(|line| line.moment.step).collect();
         steps.dedup();
         let period = steps
             .windows(2)
@@ -312,7 +320,7 @@ pub(super) struct Failing {
 /// them fail, only those whose mistake is known are told: the integrator may be another one. Where velocities lag by half
 /// a step the code `leaps`, and its integration is looked at too.
 pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: bool) -> Failing {
-    let all = [false, true].map(|follows| {
+    let read = |follows| {
         let mut own = Equations {
             all: Vec::new(),
             leaps,
@@ -322,22 +330,27 @@ pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: 
             .iter()
             .for_each(|answer| own.read(answer, convention));
         own.all
-    });
+    };
+    let (all, following) = (read(false), LazyCell::new(|| read(true)));
     let mut failing: Vec<(&Equation, Relation)> = Vec::new();
-    for equation in &all[0] {
+    for equation in &all {
         let follows = |(other, _): &(&Equation, Relation)| other.name[..3] == equation.name[..3];
         if let Some(relation) = equation.relation().filter(|_| !failing.iter().any(follows)) {
             // The spring of the step before may be the code's own, too.
-            let own = all[1]
-                .iter()
-                .find(|own| own.name == equation.name)
-                .filter(|_| !relation.is_explained);
-            let own = own.and_then(Equation::relation);
-            let relation = own.filter(|own| own.is_explained).unwrap_or(relation);
+            let relation = match relation.is_explained {
+                true => relation,
+                false => {
+                    let mut others = following.iter();
+                    let own = others
+                        .find(|own| own.name == equation.name)
+                        .and_then(Equation::relation);
+                    own.filter(|own| own.is_explained).unwrap_or(relation)
+                }
+            };
             failing.push((equation, relation));
         }
     }
-    if 2 * failing.len() > all[0].len() {
+    if 2 * failing.len() > all.len() {
         failing.retain(|(_, relation)| relation.is_explained);
     }
     failing.sort_by_key(|(_, relation)| !relation.is_explained);
@@ -478,20 +491,29 @@ struct Equations {
 }
 
 impl Equations {
-    fn add(&mut self, name: [&'static str; 4], terms: &'static [Term], line: Line) {
-        let index = self
-            .all
-            .iter()
-            .position(|own| own.name == name)
-            .unwrap_or_else(|| {
-                self.all.push(Equation {
-                    name,
-                    terms,
-                    lines: Vec::new(),
-                });
-                self.all.len() - 1
+    fn add(
+        &mut self,
+        (name, terms): ([&'static str; 4], &'static [Term]),
+        moment: &Moment,
+        along: [f64; 3],
+        [found, expected]: [f64; 2],
+    ) {
+        let known = self.all.iter().position(|own| own.name == name);
+        let index = known.unwrap_or_else(|| {
+            self.all.push(Equation {
+                name,
+                terms,
+                lines: Vec::new(),
             });
-        self.all[index].lines.push(line);
+            self.all.len() - 1
+        });
+        let moment = *moment;
+        self.all[index].lines.push(Line {
+            along,
+            found,
+            expected,
+            moment,
+        });
     }
 
     /// All numbers of a micro-test.
@@ -520,7 +542,7 @@ impl Equations {
                     walk.go(&twin, &forces, (contact, overlaps[nearest]), bodies);
                 }
                 let moment = moment(&walk, &twin, &test, (row, index), nearest);
-                self.integration(row.step, &moment, walk.last[index].as_ref());
+                self.integration(&moment, walk.last[index].as_ref());
                 let closed = overlaps.iter().filter(|own| **own > 0.0).count();
                 self.forces(row, moment, (closed, nearest), walk.when);
                 walk.last[index] = Some(moment);
@@ -582,122 +604,76 @@ impl Equations {
             };
             let found = along[0] * now.force[0] + along[1] * now.force[1];
             let expected = along[0] * law(0) + along[1] * law(1);
-            self.add(
-                [quantity, place, of, when],
-                &FORCE,
-                Line {
-                    step: row.step,
-                    along,
-                    found,
-                    expected,
-                    moment,
-                },
-            );
+            let name = [quantity, place, of, when];
+            self.add((name, &FORCE), &moment, along, [found, expected]);
         }
-        let (found, expected) = (now.torque, -moment.arm * touch.tangential);
-        let along = [0.0, 0.0, 1.0];
+        let torques = [now.torque, -moment.arm * touch.tangential];
         self.add(
-            ["the torque", place, of, when],
-            &TORQUE,
-            Line {
-                step: row.step,
-                along,
-                found,
-                expected,
-                moment,
-            },
+            (["the torque", place, of, when], &TORQUE),
+            &moment,
+            axis_only(2),
+            torques,
         );
         if place == PLACES[2] {
-            let (found, expected, along) = (row.wall_force, touch.pressing, [1.0, 0.0, 0.0]);
+            let forces = [row.wall_force, touch.pressing];
             self.add(
-                ["wall_force", "", "", ""],
-                &WALL_FORCE,
-                Line {
-                    step: row.step,
-                    along,
-                    found,
-                    expected,
-                    moment,
-                },
+                (["wall_force", "", "", ""], &WALL_FORCE),
+                &moment,
+                axis_only(0),
+                forces,
             );
         }
     }
 
     /// The change of positions and velocities since the step before.
-    fn integration(&mut self, step: u64, moment: &Moment, last: Option<&Moment>) {
-        let axis_only = |axis: usize| std::array::from_fn(|own| f64::from(u8::from(own == axis)));
+    fn integration(&mut self, moment: &Moment, last: Option<&Moment>) {
+        const POSITIONS: [&str; 2] = ["x", "y"];
         let now = &moment.now;
-        let Some(last) = last else {
-            for axis in 0..3 {
-                let (along, moment) = (axis_only(axis), *moment);
+        for axis in 0..3 {
+            let along = axis_only(axis);
+            let Some(last) = last else {
                 if axis < 2 {
-                    let (found, expected) = (now.position[axis], moment.place(axis));
+                    let name = (["the position", "at step 0", "", ""], &START[..2]);
                     self.add(
-                        ["the position", "at step 0", "", ""],
-                        &START[..2],
-                        Line {
-                            step,
-                            along,
-                            found,
-                            expected,
-                            moment,
-                        },
+                        name,
+                        moment,
+                        along,
+                        [now.position[axis], moment.place(axis)],
                     );
                 }
                 if self.leaps {
-                    let (found, expected) = (rate(now, axis), moment.asked_rate(axis));
+                    let name = (["the velocity", "at step 0", "", ""], &START[1..]);
                     self.add(
-                        ["the velocity", "at step 0", "", ""],
-                        &START[1..],
-                        Line {
-                            step,
-                            along,
-                            found,
-                            expected,
-                            moment,
-                        },
+                        name,
+                        moment,
+                        along,
+                        [rate(now, axis), moment.asked_rate(axis)],
                     );
                 }
+                continue;
+            };
+            if self.leaps {
+                let name = ["the change in a step of", VELOCITIES[axis], "", ""];
+                let change = rate(now, axis) - rate(&last.now, axis);
+                self.add((name, &KICK), last, along, [change, last.kick(axis)]);
             }
-            return;
-        };
-        if !self.leaps {
-            return;
-        }
-        for axis in 0..3 {
-            let along = axis_only(axis);
-            let expected = load(&last.now, axis) / last.inertia[axis] * last.time_step;
-            let found = rate(now, axis) - rate(&last.now, axis);
-            let name = ["the change in a step of", VELOCITIES[axis], "", ""];
-            self.add(
-                name,
-                &KICK,
-                Line {
-                    step,
-                    along,
-                    found,
-                    expected,
-                    moment: *last,
-                },
-            );
-            if axis < 2 {
-                let found = now.position[axis] - last.now.position[axis];
-                let expected = rate(now, axis) * moment.time_step;
-                let name = ["the change in a step of", ["x", "y"][axis], "", ""];
+            if self.leaps && axis < 2 {
+                let name = ["the change in a step of", POSITIONS[axis], "", ""];
+                let way = now.position[axis] - last.now.position[axis];
                 self.add(
-                    name,
-                    &MOVE,
-                    Line {
-                        step,
-                        along,
-                        found,
-                        expected,
-                        moment: *moment,
-                    },
+                    (name, &MOVE),
+                    moment,
+                    along,
+                    [way, rate(now, axis) * moment.time_step],
                 );
             }
         }
     }
+}
+
+/// The direction of an axis, 2 being that of what turns.
+fn axis_only(axis: usize) -> [f64; 3] {
+    std::array::from_fn(|own| f64::from(u8::from(own == axis)))
 }
 
 /// One body of a row, in the contact of that kind.

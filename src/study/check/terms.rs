@@ -79,7 +79,7 @@ impl Moment {
     }
 
     /// The change of a velocity in this step.
-    fn kick(&self, axis: usize) -> f64 {
+    pub fn kick(&self, axis: usize) -> f64 {
         load(&self.now, axis) / self.inertia[axis] * self.time_step
     }
 
@@ -111,7 +111,7 @@ pub(super) fn rate(body: &BodyRow, axis: usize) -> f64 {
     [body.velocity[0], body.velocity[1], body.spin][axis]
 }
 
-pub(super) fn load(body: &BodyRow, axis: usize) -> f64 {
+fn load(body: &BodyRow, axis: usize) -> f64 {
     [body.force[0], body.force[1], body.torque][axis]
 }
 

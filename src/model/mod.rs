@@ -10,6 +10,7 @@ mod case_file;
 mod contact_test;
 mod convention;
 mod digest;
+mod impact;
 mod law;
 mod protocol;
 mod pyramid;
@@ -30,6 +31,7 @@ pub use convention::{
     TensileForce,
 };
 pub use digest::sha256_hex;
+pub use impact::{Impact, ImpactTarget};
 pub use law::{ContactCoefficients, ContactLaw, Law, Power, TangentialHistory};
 pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};

@@ -8,6 +8,7 @@ mod explain;
 mod figures;
 mod forecast;
 mod formats;
+mod impact;
 mod inventory;
 mod number;
 mod page;
@@ -38,6 +39,7 @@ pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, performance_svg, regimes_svg};
 pub(crate) use forecast::{forecast_text, forecasts};
+pub(crate) use impact::{impacts, impacts_markdown, impacts_text};
 pub(crate) use inventory::inventory;
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};

@@ -1,0 +1,186 @@
+//! The normal impact in closed form.
+//!
+//! With s = δ^((p+1)/2) in place of the overlap δ, and τ in place of the time, dt = 2/(p+1) s^(−q) dτ with
+//! q = (p−1)/(p+1), the equation m δ̈ = −K δᵖ − c δ^((p−1)/2) δ̇ is that of a damped linear oscillator,
+//! m s″ = −2/(p+1) (K s + c s′), and s′ is the speed dδ/dt (docs/theory.md, section 12.1).
+
+use crate::model::{Impact, TensileForce};
+use gauss_quad::{FiniteAboveNegOneF64, GaussJacobi};
+use std::f64::consts::PI;
+use std::num::NonZeroUsize;
+
+/// Without its singular factors at the ends the integrand of a duration is analytic within an ellipse whose semi-axes add
+/// up to more than 5.8 half lengths, so that the error of n nodes is below 5.8⁻²ⁿ: 12 nodes leave nothing but round-off.
+const NODES: NonZeroUsize = NonZeroUsize::new(12).expect("12 is not zero");
+
+/// The relative motion of two bodies along their normal, from the moment at which they touch. It must be damped less than
+/// critically; otherwise every number is not a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalImpact {
+    /// K.
+    stiffness: f64,
+    /// p.
+    power: f64,
+    /// Effective mass.
+    mass: f64,
+    /// Speed of approach.
+    speed: f64,
+    tensile_force: TensileForce,
+    /// Decay of the oscillator in τ.
+    decay: f64,
+    /// Its angular frequency.
+    frequency: f64,
+}
+
+impl NormalImpact {
+    /// The normal motion of `impact`.
+    pub fn of(impact: &Impact) -> Self {
+        let law = impact.law();
+        let (power, mass) = (law.power.value(), impact.target.effective_mass());
+        let decay = law.damping_normal / ((power + 1.0) * mass);
+        let undamped = 2.0 * law.normal_stiffness / ((power + 1.0) * mass);
+        Self {
+            stiffness: law.normal_stiffness,
+            power,
+            mass,
+            speed: impact.approach_speed,
+            tensile_force: impact.convention.tensile_force,
+            decay,
+            frequency: (undamped - decay * decay).sqrt(),
+        }
+    }
+
+    /// The largest overlap, in r.
+    pub fn greatest_overlap(&self) -> f64 {
+        self.overlap(libm::atan2(self.frequency, self.decay))
+    }
+
+    /// Speed of separation over speed of approach.
+    pub fn restitution(&self) -> f64 {
+        let end = match self.tensile_force {
+            TensileForce::MayPull => PI,
+            TensileForce::NeverPulls => self.force_changes_sign(),
+        };
+        -self.velocity(end) / self.speed
+    }
+
+    /// Time from the touch until the force is 0 for good, in √(m/k_n).
+    pub fn force_duration(&self) -> f64 {
+        match self.tensile_force {
+            TensileForce::MayPull => self.time_to_the_end(),
+            TensileForce::NeverPulls => self.time_to_the_end() - self.time_of_pulling(),
+        }
+    }
+
+    /// Time from the touch until the bodies overlap no more. Where they never pull, they fly apart freely at its end.
+    pub fn duration(&self) -> f64 {
+        let free = match self.tensile_force {
+            TensileForce::MayPull => 0.0,
+            TensileForce::NeverPulls => {
+                let release = self.force_changes_sign();
+                self.overlap(release) / -self.velocity(release)
+            }
+        };
+        self.force_duration() + free
+    }
+
+    /// ∫ |N| dt/m: what the normal force would change the speed by if it did not pull in the end.
+    pub fn total_impulse(&self) -> f64 {
+        let fastest = -self.velocity(self.force_changes_sign());
+        let lost = match self.tensile_force {
+            TensileForce::MayPull => fastest + self.velocity(PI),
+            TensileForce::NeverPulls => 0.0,
+        };
+        self.speed + fastest + lost
+    }
+
+    /// |dN/dt| where the force changes from pushing to pulling, in k_n r √(k_n/m); 0 where it never pulls.
+    pub fn slope_at_sign_change(&self) -> f64 {
+        let release = self.force_changes_sign();
+        match self.tensile_force {
+            TensileForce::NeverPulls => 0.0,
+            TensileForce::MayPull if self.decay == 0.0 => 0.0,
+            TensileForce::MayPull => {
+                let steepening = libm::pow(self.overlap(release), self.power - 1.0);
+                let secant = 0.5 * (self.power + 1.0) * self.stiffness * steepening;
+                secant * -self.velocity(release)
+            }
+        }
+    }
+
+    /// The phase of the oscillator at which force and s″ are 0.
+    fn force_changes_sign(&self) -> f64 {
+        PI - self.phase_of_pulling()
+    }
+
+    fn phase_of_pulling(&self) -> f64 {
+        let (decay, frequency) = (self.decay, self.frequency);
+        libm::atan2(
+            2.0 * decay * frequency,
+            frequency * frequency - decay * decay,
+        )
+    }
+
+    /// exp(−decay τ) at a phase of the oscillator.
+    fn left(&self, phase: f64) -> f64 {
+        libm::exp(-self.decay / self.frequency * phase)
+    }
+
+    /// dδ/dt at a phase.
+    fn velocity(&self, phase: f64) -> f64 {
+        let slowing = self.decay / self.frequency * libm::sin(phase);
+        self.speed * self.left(phase) * (libm::cos(phase) - slowing)
+    }
+
+    /// δ at a phase.
+    fn overlap(&self, phase: f64) -> f64 {
+        let s = self.speed / self.frequency * self.left(phase) * libm::sin(phase);
+        libm::pow(s, 2.0 / (self.power + 1.0))
+    }
+
+    /// q.
+    fn singularity(&self) -> f64 {
+        (self.power - 1.0) / (self.power + 1.0)
+    }
+
+    /// The time from the touch to the phase π.
+    fn time_to_the_end(&self) -> f64 {
+        let ends = -self.singularity();
+        self.time(PI, [ends, ends], |x| {
+            let phase = 0.5 * PI * (1.0 + x);
+            (phase, libm::cos(0.5 * PI * x) / (1.0 - x * x))
+        })
+    }
+
+    /// The time from where the force changes its sign to the phase π.
+    fn time_of_pulling(&self) -> f64 {
+        let length = self.phase_of_pulling();
+        if length == 0.0 {
+            return 0.0;
+        }
+        self.time(length, [-self.singularity(), 0.0], |x| {
+            let before_the_end = 0.5 * length * (1.0 + x);
+            (PI - before_the_end, libm::sin(before_the_end) / (1.0 + x))
+        })
+    }
+
+    /// ∫ 2/(p+1) s^(−q) dτ over phases of so much `length`, x being −1 and 1 at their ends. `at` gives the phase and the
+    /// sine of it without the factors (1 + x) and (1 − x), whose powers are the `weights`.
+    fn time(&self, length: f64, weights: [f64; 2], at: impl Fn(f64) -> (f64, f64)) -> f64 {
+        let [lower, upper] = weights.map(FiniteAboveNegOneF64::new);
+        let (Some(lower), Some(upper)) = (lower, upper) else {
+            return f64::NAN;
+        };
+        let integral = GaussJacobi::new(NODES, upper, lower).integrate(-1.0, 1.0, |x| {
+            let (phase, sine) = at(x);
+            let s = self.speed / self.frequency * self.left(phase) * sine;
+            libm::pow(s, -self.singularity())
+        });
+        2.0 / (self.power + 1.0) * 0.5 * length / self.frequency * integral
+    }
+
+    /// Effective mass.
+    pub(super) fn mass(&self) -> f64 {
+        self.mass
+    }
+}

@@ -53,11 +53,11 @@ impl ImpactTarget {
 /// Direction of the line between the cylinders of a pair, along no axis.
 const PAIR_ANGLE: f64 = 0.4;
 /// The middle of a pair, far above the floor.
-const PAIR_CENTRE: [f64; 2] = [0.0, 3.0];
+const PAIR_CENTRE: [f64; 2] = [0.0, 2.3];
 /// Height of the top wall, which nothing reaches.
-const WALL_HEIGHT: f64 = 8.0;
+const WALL_HEIGHT: f64 = 4.5;
 /// Where the second cylinder rests while the first one strikes the floor.
-const BESIDE: [f64; 2] = [-6.0, 3.0];
+const BESIDE: [f64; 2] = [-6.0, 2.0];
 
 /// An impact. Lengths in r, speeds in r √(k_n/m).
 #[derive(Debug, Clone, Copy, PartialEq)]

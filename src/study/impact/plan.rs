@@ -24,6 +24,9 @@ const STIFFNESS_RATIO: f64 = 1.2;
 /// The surfaces slide so fast that a single step would stretch an empty tangential spring to so many times the largest
 /// friction force: no contact sticks, whatever happens to the spring of one that slides.
 const SLIDING_MARGIN: f64 = 2.0;
+/// Sliding speed of a contact that sticks at first, in μ κ times the speed of approach: it sticks for a hundredth of the
+/// impact, which the finest steps resolve, and friction, which takes some 7 μ times the speed of approach, does not stop it.
+const FAST: f64 = 12.0;
 /// Length of a motion, in units of the exact duration of the overlap: a contact half as stiff parts within it.
 const LENGTH: f64 = 1.5;
 /// Further steps, for the rows after the contact.
@@ -122,13 +125,10 @@ impl ImpactStudy {
     /// While the surfaces slide, the tangential force is μ |N| from the first moment on, unless damping is not limited: then
     /// the contact sticks until its spring has grown to the limit, and damping comes on top of it.
     pub fn reference(&self) -> Reference {
-        let operand = self.impact.convention.coulomb_operand;
-        if !self.quantity.is_oblique() {
-            Reference::ClosedForm
-        } else if self.is_damped() && operand == CoulombOperand::Spring {
-            Reference::Twin
-        } else {
-            Reference::Integrated
+        match self.quantity.is_oblique() {
+            false => Reference::ClosedForm,
+            true if sticks_at_first(&self.impact) => Reference::Twin,
+            true => Reference::Integrated,
         }
     }
 
@@ -193,16 +193,30 @@ fn elastic(code: Code, convention: &ContactConvention) -> f64 {
     }
 }
 
-/// `impact` with surfaces that slide all the time.
+/// `impact` with surfaces that go on sliding until they part.
 fn sliding(impact: Impact) -> Impact {
-    let (law, normal) = (impact.law(), NormalImpact::of(&impact));
-    let largest_friction = impact.friction * law.normal_stiffness * normal.greatest_overlap();
-    let finest_step = time_step(&normal, DIVISIONS[DIVISIONS.len() - 1]);
-    let stretching = law.tangential_stiffness * finest_step;
+    let sliding_speed = match sticks_at_first(&impact) {
+        true => FAST * impact.friction * impact.stiffness_ratio * impact.approach_speed,
+        false => speed_without_sticking(&impact),
+    };
     Impact {
-        sliding_speed: SLIDING_MARGIN * largest_friction / stretching,
+        sliding_speed,
         ..impact
     }
+}
+
+/// Whether a contact sticks at first however fast its surfaces move: its spring grows from nothing, while damping has
+/// pressed the bodies together from the first moment on.
+fn sticks_at_first(impact: &Impact) -> bool {
+    let convention = &impact.convention;
+    convention.coulomb_operand == CoulombOperand::Spring && convention.restitution < NEARLY_ELASTIC
+}
+
+fn speed_without_sticking(impact: &Impact) -> f64 {
+    let (law, normal) = (impact.law(), NormalImpact::of(impact));
+    let largest_friction = impact.friction * law.normal_stiffness * normal.greatest_overlap();
+    let finest_step = time_step(&normal, DIVISIONS[DIVISIONS.len() - 1]);
+    SLIDING_MARGIN * largest_friction / (law.tangential_stiffness * finest_step)
 }
 
 /// The time step at which the force of a normal impact, which begins in the middle of a step, also ends there.

@@ -75,15 +75,25 @@ impl Study for ImpactStudy {
     }
 
     fn depends_on(&self, key: ConventionKey) -> bool {
-        let torque_arm = match self.impact.target {
-            ImpactTarget::Pair => ConventionKey::PairTorqueArm,
-            ImpactTarget::Floor => ConventionKey::FloorTorqueArm,
+        let (torque_arm, kinematic_arm) = match self.impact.target {
+            ImpactTarget::Pair => (
+                ConventionKey::PairTorqueArm,
+                ConventionKey::PairKinematicArm,
+            ),
+            ImpactTarget::Floor => (
+                ConventionKey::FloorTorqueArm,
+                ConventionKey::FloorKinematicArm,
+            ),
         };
+        let oblique = self.quantity.is_oblique();
         match key {
             ConventionKey::TensileForce => self.is_damped(),
-            ConventionKey::CoulombOperand => self.is_damped() && self.quantity.is_oblique(),
-            ConventionKey::MomentOfInertia => self.quantity.is_oblique(),
-            key => key == torque_arm && self.quantity.is_oblique(),
+            ConventionKey::CoulombOperand => self.is_damped() && oblique,
+            ConventionKey::SlidingSpring => self.reference() == Reference::Twin,
+            ConventionKey::MomentOfInertia => oblique,
+            key if key == torque_arm => oblique,
+            key if key == kinematic_arm => self.reference() == Reference::Twin,
+            _ => false,
         }
     }
 

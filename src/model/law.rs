@@ -318,12 +318,12 @@ impl Law {
         *self == Self::LINEAR
     }
 
-    /// Whether a state of equilibrium depends on the order in which contacts were pressed and sheared: a force is
-    /// remembered, and the stiffness with which it grew depends on the overlap.
-    pub(crate) fn depends_on_order(&self) -> bool {
-        let stiffens =
-            self.power != Power::Linear || self.tangential_stiffening != TangentialStiffening::None;
-        self.history.keeps_force() && stiffens
+    /// Whether a state of equilibrium depends on the way to it: a force is remembered, and the stiffness with which it grew
+    /// depends on the overlap, or what is remembered is reduced whenever the overlap shrinks, as in every oscillation.
+    pub(crate) fn depends_on_path(&self) -> bool {
+        let stiffens = self.power != Power::Linear
+            || self.tangential_stiffening != TangentialStiffening::None;
+        self.history.is_rescaled() || self.history.keeps_force() && stiffens
     }
 
     /// The contact of two cylinders at their stiffness ratio κ.

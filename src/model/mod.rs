@@ -12,6 +12,7 @@ mod convention;
 mod digest;
 mod impact;
 mod law;
+mod material;
 mod protocol;
 mod pyramid;
 mod shortcuts;
@@ -32,7 +33,11 @@ pub use convention::{
 };
 pub use digest::sha256_hex;
 pub use impact::{Impact, ImpactTarget};
-pub use law::{ContactCoefficients, ContactLaw, Law, Power, TangentialHistory};
+pub use law::{
+    ContactCoefficients, ContactLaw, DampingGrowth, Law, Power, TangentialHistory,
+    TangentialStiffening,
+};
+pub use material::Material;
 pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;

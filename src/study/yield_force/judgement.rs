@@ -362,11 +362,14 @@ impl<'a> Reader<'a> {
     }
 
     fn doubt_order(&mut self, slip: &Extrapolation) {
-        if !slip.order.is_expected() {
+        let (expected, highest) = match self.measurement.limit.depends_on_preparation {
+            true => ("1 to 2", ConvergenceOrder::OF_RAMPS),
+            false => ("1", ConvergenceOrder::EXPECTED),
+        };
+        if !slip.order.is_expected_up_to(highest) {
             self.doubt(format!(
-                "the slip onset converges with order {:.2} in the wall speed, not {}",
+                "the slip onset converges with order {:.2} in the wall speed, not {expected}",
                 slip.order.observed.unwrap_or(f64::NAN),
-                ConvergenceOrder::EXPECTED
             ));
         }
     }

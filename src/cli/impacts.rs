@@ -3,7 +3,7 @@
 use super::convention::settle;
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, ConventionOptions, Format, RunOptions, selected_codes, tell_stand_ins,
+    CodeOptions, ConventionOptions, Format, RunOptions, find_all, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::Reporter;
@@ -42,9 +42,23 @@ pub(super) struct Arguments {
     format: Format,
 }
 
+impl Arguments {
+    /// The codes that are named, or else every code whose law has the power that is asked for.
+    fn codes(&self) -> Result<Vec<SelectedCode>, CliError> {
+        let Some(power) = self.convention.law.power() else {
+            return selected_codes(&self.codes.named);
+        };
+        let named = self.codes.of_power(power)?;
+        match named.is_empty() {
+            true => Ok(find_all(&Code::of_power(power))),
+            false => selected_codes(&named),
+        }
+    }
+}
+
 /// Carries out and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let mut codes = selected_codes(&arguments.codes.named)?;
+    let mut codes = arguments.codes()?;
     settle(&codes, &arguments.run)?;
     let layout = Layout::tables("impacts.json", &["impacts.csv", "impacts.md"]);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;

@@ -328,9 +328,15 @@ fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
 }
 
 impl LawOptions {
-    /// `own` with the given parts; a given power brings the other parts that are usual with it.
+    /// The power, if it is given.
+    pub fn power(&self) -> Option<Power> {
+        self.law
+    }
+
+    /// `own` with the given parts; another power brings the other parts that are usual with it.
     fn over(&self, own: Law) -> Law {
-        let base = self.law.map_or(own, Law::of_power);
+        let other = self.law.filter(|power| *power != own.power);
+        let base = other.map_or(own, Law::of_power);
         Law {
             power: base.power,
             history: self.history.unwrap_or(base.history),

@@ -321,8 +321,8 @@ impl Law {
     /// Whether a state of equilibrium depends on the way to it: a force is remembered, and the stiffness with which it grew
     /// depends on the overlap, or what is remembered is reduced whenever the overlap shrinks, as in every oscillation.
     pub(crate) fn depends_on_path(&self) -> bool {
-        let stiffens = self.power != Power::Linear
-            || self.tangential_stiffening != TangentialStiffening::None;
+        let stiffens =
+            self.power != Power::Linear || self.tangential_stiffening != TangentialStiffening::None;
         self.history.is_rescaled() || self.history.keeps_force() && stiffens
     }
 

@@ -55,7 +55,7 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .shown("quantity")
     .text("reference", |row| row.study.reference().as_str())
     .means(
-        "`closed-form`; `integrated`: the equations of motion of contacts that slide; `twin`: the native code with the \
+        "`closed-form`; `integrated`: the equations of motion, integrated; `twin`: the native code with the \
          same convention, run by run",
     )
     .shown("reference")

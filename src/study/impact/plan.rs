@@ -2,9 +2,9 @@
 
 use super::extrapolate::DIVISIONS;
 use crate::code::Code;
-use crate::model::{ContactConvention, ContactTest, CoulombOperand, Impact, ImpactTarget, Power};
+use crate::model::{ContactConvention, ContactTest, CoulombOperand, Impact, ImpactTarget};
 use crate::runs::ImpactRun;
-use crate::theory::NormalImpact;
+use crate::theory::{NormalImpact, has_closed_form, normal_impact};
 
 /// Restitution in place of 1 for codes that refuse 1: its damping changes nothing by more than some 1e-9, a hundredth of
 /// the smallest tolerance, under any law of damping.
@@ -84,7 +84,7 @@ impl ImpactQuantity {
 pub enum Reference {
     /// A formula, perhaps with a quadrature.
     ClosedForm,
-    /// The equations of motion of a contact that slides, integrated.
+    /// The equations of motion, integrated.
     Integrated,
     /// The native code with the same convention, at the same time steps.
     Twin,
@@ -108,6 +108,8 @@ pub struct ImpactStudy {
     pub code: Code,
     /// The impact, under the convention of the code.
     pub impact: Impact,
+    /// Its normal motion.
+    pub normal: NormalImpact,
     /// What is measured.
     pub quantity: ImpactQuantity,
     /// Its runs, coarsest time step first.
@@ -126,7 +128,8 @@ impl ImpactStudy {
     /// the contact sticks until its spring has grown to the limit, and damping comes on top of it.
     pub fn reference(&self) -> Reference {
         match self.quantity.is_oblique() {
-            false => Reference::ClosedForm,
+            false if has_closed_form(&self.impact) => Reference::ClosedForm,
+            false => Reference::Integrated,
             true if sticks_at_first(&self.impact) => Reference::Twin,
             true => Reference::Integrated,
         }
@@ -145,15 +148,10 @@ impl ImpactStudy {
     }
 }
 
-/// Plans all impacts by `code`, whose convention is `convention`. The damping of an external code with another law than
-/// linear springs is its own: its impacts are planned without damping alone.
+/// Plans all impacts by `code`, whose convention is `convention`.
 pub fn plan_impacts(code: Code, convention: ContactConvention) -> Vec<ImpactStudy> {
     let elastic = elastic(code, &convention);
-    let own_damping = !code.accepts_any_convention() && convention.law.power != Power::Linear;
-    let with = |damped: &[f64]| -> Vec<f64> {
-        let damped = damped.iter().copied().filter(|_| !own_damping);
-        std::iter::once(elastic).chain(damped).collect()
-    };
+    let with = |damped: &[f64]| [&[elastic], damped].concat();
     let impact = |target, restitution, approach_speed| Impact {
         target,
         convention: ContactConvention {
@@ -213,15 +211,15 @@ fn sticks_at_first(impact: &Impact) -> bool {
 }
 
 fn speed_without_sticking(impact: &Impact) -> f64 {
-    let (law, normal) = (impact.law(), NormalImpact::of(impact));
-    let largest_friction = impact.friction * law.normal_stiffness * normal.greatest_overlap();
+    let (law, normal) = (impact.law(), normal_impact(impact));
+    let largest_friction = impact.friction * law.normal_stiffness * normal.greatest_overlap;
     let finest_step = time_step(&normal, DIVISIONS[DIVISIONS.len() - 1]);
     SLIDING_MARGIN * largest_friction / (law.tangential_stiffness * finest_step)
 }
 
 /// The time step at which the force of a normal impact, which begins in the middle of a step, also ends there.
 fn time_step(normal: &NormalImpact, division: u32) -> f64 {
-    normal.force_duration() / f64::from(division)
+    normal.force_duration / f64::from(division)
 }
 
 fn studies_of(
@@ -237,10 +235,10 @@ fn studies_of(
             ..code.declaration().convention
         },
     };
-    let normal = NormalImpact::of(&impact);
+    let normal = normal_impact(&impact);
     let runs = DIVISIONS.map(|division| {
         let time_step = time_step(&normal, division);
-        let steps = (LENGTH * normal.duration() / time_step).ceil() as u64 + FURTHER_STEPS;
+        let steps = (LENGTH * normal.duration / time_step).ceil() as u64 + FURTHER_STEPS;
         ImpactRun {
             target: impact.target,
             test: impact.test(asked, time_step, steps),
@@ -249,6 +247,7 @@ fn studies_of(
     quantities.iter().map(move |&quantity| ImpactStudy {
         code,
         impact,
+        normal,
         quantity,
         runs,
     })

@@ -7,7 +7,7 @@ use crate::model::ImpactTarget;
 use crate::runs::{ImpactReading, ImpactRun, Workload};
 use crate::series::Rebound;
 use crate::study::{Evaluation, Ground, Grounds, Judged, Study, tolerance};
-use crate::theory::{NormalImpact, sliding_change};
+use crate::theory::{damping_exponent, sliding_change};
 
 /// The largest coordinate of a body that touches, in r.
 const LARGEST_COORDINATE: f64 = 4.0;
@@ -162,8 +162,9 @@ impl ImpactQuantity {
 
 impl ImpactStudy {
     fn finding(&self, own: &[Rebound; 4], twin: Option<&[Rebound; 4]>) -> Option<ImpactFinding> {
-        let power = self.impact.convention.law.power.value();
-        let orders = orders(power, self.is_damped());
+        let law = self.impact.law();
+        let damping = self.is_damped().then(|| damping_exponent(&law));
+        let orders = orders(law.power.value(), damping);
         let values = own.map(|rebound| self.quantity.of(&rebound));
         let measured = extrapolate(values, orders);
         let twin = twin.map(|twin| twin.map(|rebound| self.quantity.of(&rebound)));
@@ -198,11 +199,11 @@ impl ImpactStudy {
 
     /// The exact value; `None` if the equations cannot be integrated.
     pub fn exact(&self) -> Option<f64> {
-        let normal = NormalImpact::of(&self.impact);
+        let normal = &self.normal;
         Some(match self.quantity {
-            ImpactQuantity::GreatestOverlap => normal.greatest_overlap(),
-            ImpactQuantity::Duration => normal.duration(),
-            ImpactQuantity::Restitution => normal.restitution(),
+            ImpactQuantity::GreatestOverlap => normal.greatest_overlap,
+            ImpactQuantity::Duration => normal.duration,
+            ImpactQuantity::Restitution => normal.restitution,
             ImpactQuantity::TangentialVelocity => sliding_change(&self.impact)?.tangential_velocity,
             ImpactQuantity::Spin => sliding_change(&self.impact)?.spin,
         })
@@ -214,9 +215,8 @@ impl ImpactStudy {
         if !self.quantity.is_oblique() {
             return 0.0;
         }
-        let normal = NormalImpact::of(&self.impact);
         let mass = self.impact.target.effective_mass();
-        let in_units = normal.slope_at_sign_change() / (6.0 * mass * normal.total_impulse());
+        let in_units = self.normal.slope_at_sign_change / (6.0 * mass * self.normal.total_impulse);
         let squares = self
             .runs
             .iter()
@@ -230,8 +230,7 @@ impl ImpactStudy {
 
     /// How much larger a relative error of coordinates or velocities is in the number.
     fn amplification(&self, exact: f64) -> f64 {
-        let of_overlap =
-            2.0 * LARGEST_COORDINATE / NormalImpact::of(&self.impact).greatest_overlap();
+        let of_overlap = 2.0 * LARGEST_COORDINATE / self.normal.greatest_overlap;
         match self.quantity.is_oblique() {
             true => of_overlap.max(2.0 * self.impact.sliding_speed / exact.abs()),
             false => of_overlap,

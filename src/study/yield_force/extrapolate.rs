@@ -337,7 +337,9 @@ mod tests {
             observed: Some(observed),
             allowance: 0.5,
         };
-        assert!(at_the_limit(1.5).is_expected_up_to(1.0) && at_the_limit(0.5).is_expected_up_to(1.0));
+        assert!(
+            at_the_limit(1.5).is_expected_up_to(1.0) && at_the_limit(0.5).is_expected_up_to(1.0)
+        );
         assert!(!at_the_limit(1.5 + 1e-9).is_expected_up_to(1.0));
     }
 }

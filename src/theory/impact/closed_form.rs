@@ -1,10 +1,11 @@
-//! The normal impact in closed form.
+//! The normal impact in closed form, where the damping ratio is the same at every overlap.
 //!
 //! With s = δ^((p+1)/2) in place of the overlap δ, and τ in place of the time, dt = 2/(p+1) s^(−q) dτ with
 //! q = (p−1)/(p+1), the equation m δ̈ = −K δᵖ − c δ^((p−1)/2) δ̇ is that of a damped linear oscillator,
 //! m s″ = −2/(p+1) (K s + c s′), and s′ is the speed dδ/dt (docs/theory.md, section 12.1).
 
-use crate::model::{Impact, TensileForce};
+use super::{NormalImpact, slope_without_force};
+use crate::model::{ContactLaw, Impact, TensileForce};
 use gauss_quad::{FiniteAboveNegOneF64, GaussJacobi};
 use std::f64::consts::PI;
 use std::num::NonZeroUsize;
@@ -13,36 +14,30 @@ use std::num::NonZeroUsize;
 /// up to more than 5.8 half lengths, so that the error of n nodes is below 5.8⁻²ⁿ: 12 nodes leave nothing but round-off.
 const NODES: NonZeroUsize = NonZeroUsize::new(12).expect("12 is not zero");
 
-/// The relative motion of two bodies along their normal, from the moment at which they touch. It must be damped less than
-/// critically; otherwise every number is not a number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalImpact {
-    /// K.
-    stiffness: f64,
-    /// p.
+/// The oscillator of an impact; a phase is its frequency times τ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Oscillator {
+    law: ContactLaw,
     power: f64,
-    /// Effective mass.
-    mass: f64,
     /// Speed of approach.
     speed: f64,
     tensile_force: TensileForce,
-    /// Decay of the oscillator in τ.
+    /// Decay in τ.
     decay: f64,
-    /// Its angular frequency.
+    /// Angular frequency.
     frequency: f64,
 }
 
-impl NormalImpact {
-    /// The normal motion of `impact`.
-    pub fn of(impact: &Impact) -> Self {
+impl Oscillator {
+    /// That of `impact`; its frequency is not a number if it is damped more than critically.
+    pub(super) fn of(impact: &Impact) -> Self {
         let law = impact.law();
         let (power, mass) = (law.power.value(), impact.target.effective_mass());
         let decay = law.damping_normal / ((power + 1.0) * mass);
         let undamped = 2.0 * law.normal_stiffness / ((power + 1.0) * mass);
         Self {
-            stiffness: law.normal_stiffness,
+            law,
             power,
-            mass,
             speed: impact.approach_speed,
             tensile_force: impact.convention.tensile_force,
             decay,
@@ -50,60 +45,36 @@ impl NormalImpact {
         }
     }
 
-    /// The largest overlap, in r.
-    pub fn greatest_overlap(&self) -> f64 {
-        self.overlap(libm::atan2(self.frequency, self.decay))
-    }
-
-    /// Speed of separation over speed of approach.
-    pub fn restitution(&self) -> f64 {
-        let end = match self.tensile_force {
-            TensileForce::MayPull => PI,
-            TensileForce::NeverPulls => self.force_changes_sign(),
-        };
-        -self.velocity(end) / self.speed
-    }
-
-    /// Time from the touch until the force is 0 for good, in √(m/k_n).
-    pub fn force_duration(&self) -> f64 {
-        match self.tensile_force {
-            TensileForce::MayPull => self.time_to_the_end(),
-            TensileForce::NeverPulls => self.time_to_the_end() - self.time_of_pulling(),
-        }
-    }
-
-    /// Time from the touch until the bodies overlap no more. Where they never pull, they fly apart freely at its end.
-    pub fn duration(&self) -> f64 {
-        let free = match self.tensile_force {
-            TensileForce::MayPull => 0.0,
-            TensileForce::NeverPulls => {
-                let release = self.force_changes_sign();
-                self.overlap(release) / -self.velocity(release)
-            }
-        };
-        self.force_duration() + free
-    }
-
-    /// ∫ |N| dt/m: what the normal force would change the speed by if it did not pull in the end.
-    pub fn total_impulse(&self) -> f64 {
-        let fastest = -self.velocity(self.force_changes_sign());
-        let lost = match self.tensile_force {
-            TensileForce::MayPull => fastest + self.velocity(PI),
-            TensileForce::NeverPulls => 0.0,
-        };
-        self.speed + fastest + lost
-    }
-
-    /// |dN/dt| where the force changes from pushing to pulling, in k_n r √(k_n/m); 0 where it never pulls.
-    pub fn slope_at_sign_change(&self) -> f64 {
+    /// Every number of the impact.
+    pub(super) fn impact(&self) -> NormalImpact {
         let release = self.force_changes_sign();
+        let (depth, fastest) = (self.overlap(release), -self.velocity(release));
+        let greatest_overlap = self.overlap(libm::atan2(self.frequency, self.decay));
+        let whole = self.time_to_the_end();
         match self.tensile_force {
-            TensileForce::NeverPulls => 0.0,
-            TensileForce::MayPull if self.decay == 0.0 => 0.0,
             TensileForce::MayPull => {
-                let steepening = libm::pow(self.overlap(release), self.power - 1.0);
-                let secant = 0.5 * (self.power + 1.0) * self.stiffness * steepening;
-                secant * -self.velocity(release)
+                let speed = -self.velocity(PI);
+                let pulls = self.decay > 0.0;
+                let slope = slope_without_force(&self.law, depth, fastest);
+                NormalImpact {
+                    greatest_overlap,
+                    restitution: speed / self.speed,
+                    force_duration: whole,
+                    duration: whole,
+                    total_impulse: self.speed + fastest + (fastest - speed),
+                    slope_at_sign_change: if pulls { slope } else { 0.0 },
+                }
+            }
+            TensileForce::NeverPulls => {
+                let force_duration = whole - self.time_of_pulling();
+                NormalImpact {
+                    greatest_overlap,
+                    restitution: fastest / self.speed,
+                    force_duration,
+                    duration: force_duration + depth / fastest,
+                    total_impulse: self.speed + fastest,
+                    slope_at_sign_change: 0.0,
+                }
             }
         }
     }
@@ -132,9 +103,10 @@ impl NormalImpact {
         self.speed * self.left(phase) * (libm::cos(phase) - slowing)
     }
 
-    /// δ at a phase.
+    /// δ at a phase, 0 where rounding takes it below.
     fn overlap(&self, phase: f64) -> f64 {
         let s = self.speed / self.frequency * self.left(phase) * libm::sin(phase);
+        let s = if s < 0.0 { 0.0 } else { s };
         libm::pow(s, 2.0 / (self.power + 1.0))
     }
 
@@ -177,10 +149,5 @@ impl NormalImpact {
             libm::pow(s, -self.singularity())
         });
         2.0 / (self.power + 1.0) * 0.5 * length / self.frequency * integral
-    }
-
-    /// Effective mass.
-    pub(super) fn mass(&self) -> f64 {
-        self.mass
     }
 }

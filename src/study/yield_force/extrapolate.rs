@@ -18,6 +18,16 @@ pub struct Extrapolation {
     pub order: ConvergenceOrder,
 }
 
+impl Extrapolation {
+    /// Uncertainty of an approach that is not quite of first order in the speed: the excess of the slowest run over the
+    /// limit, times the deviation of the observed order from 1. Contact 2–3 opens over some time, which makes the
+    /// approach less regular than that of a yield with c = 0.
+    pub(crate) fn wrong_order(&self, slowest: f64) -> f64 {
+        let order = self.order.observed.unwrap_or(ConvergenceOrder::EXPECTED);
+        (slowest - self.force).abs() * (order - ConvergenceOrder::EXPECTED).abs()
+    }
+}
+
 /// The order of convergence in the wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvergenceOrder {

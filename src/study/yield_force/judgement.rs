@@ -105,7 +105,13 @@ impl<'a> Reader<'a> {
         let Some((peak, allowance)) = peak.zip(peak_allowance(measurement, reference)) else {
             return self.find_no_yield();
         };
-        let peak_uncertainty = peak.budget.total() + allowance;
+        let slowest = self
+            .estimates
+            .get(SPEEDS.len() - 1)
+            .and_then(|run| run.peak);
+        let irregular = slowest.filter(|_| measurement.limit.rises_after_onset());
+        let irregular = irregular.map_or(0.0, |slowest| peak.wrong_order(slowest.force));
+        let peak_uncertainty = peak.budget.total() + allowance + irregular;
         self.finding.peak_uncertainty = Some(peak_uncertainty);
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
@@ -362,7 +368,7 @@ impl<'a> Reader<'a> {
     }
 
     fn doubt_order(&mut self, slip: &Extrapolation) {
-        let (expected, highest) = match self.measurement.limit.depends_on_preparation {
+        let (expected, highest) = match self.measurement.limit.needs_slow_ramp {
             true => ("1 to 2", ConvergenceOrder::OF_RAMPS),
             false => ("1", ConvergenceOrder::EXPECTED),
         };

@@ -86,6 +86,8 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
         Some(measured(row)?.budget.print_precision)
     })
     .means("half a unit in the last printed place")
+    .number("convention", "1", |row| Some(measured(row)?.budget.convention))
+    .means("uncertainty of the exact value where inertia or arm were measured, not declared")
     .number("tolerance", "1", |row| row.tolerance())
     .means("largest error that agrees")
     .shown_as("tolerance", one_digit)

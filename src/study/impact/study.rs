@@ -40,12 +40,14 @@ pub struct ImpactBudget {
     pub round_off: f64,
     /// Half a unit in the last printed place.
     pub print_precision: f64,
+    /// Uncertainty of the exact value where inertia or arm of the code were measured, not declared.
+    pub convention: f64,
 }
 
 impl ImpactBudget {
     /// The sum of the parts.
     pub fn total(&self) -> f64 {
-        self.time_step + self.sign_change + self.round_off + self.print_precision
+        self.time_step + self.sign_change + self.round_off + self.print_precision + self.convention
     }
 }
 
@@ -193,6 +195,7 @@ impl ImpactStudy {
                 },
                 round_off: self.round_off(weights(orders), exact),
                 print_precision: self.print_precision(own, weights(orders), exact),
+                convention: self.convention(),
             },
         })
     }
@@ -235,6 +238,21 @@ impl ImpactStudy {
             true => of_overlap.max(2.0 * self.impact.sliding_speed / exact.abs()),
             false => of_overlap,
         }
+    }
+
+    /// A torque with the arm R = r + r₁ δ changes the spin in proportion to R over the inertia.
+    fn convention(&self) -> f64 {
+        if self.quantity != ImpactQuantity::Spin {
+            return 0.0;
+        }
+        let settled = self.code.settled();
+        let arms = settled.arm_uncertainty;
+        let arm = match self.impact.target {
+            ImpactTarget::Pair => arms.pair.torque,
+            ImpactTarget::Floor => arms.floor.torque,
+        };
+        let inertia = settled.inertia_uncertainty / self.impact.convention.moment_of_inertia;
+        arm * self.normal.greatest_overlap + inertia
     }
 
     fn round_off(&self, weights: [f64; 4], exact: f64) -> f64 {

@@ -45,7 +45,10 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .number("declared_restitution", "1", |row| {
         row.study.impact.convention.restitution
     })
-    .means("restitution e_r of the task, which sets the damping: that of a single cylinder of mass m that may pull")
+    .means(
+        "restitution e_r of the task, which sets the damping: that of a single cylinder of mass m whose contact may pull and \
+         has one damping ratio at every overlap",
+    )
     .shown_as("e_r", rounded)
     .text("quantity", |row| row.study.quantity.as_str())
     .means(
@@ -113,8 +116,8 @@ pub(crate) fn impacts_markdown(judgements: &[ImpactJudgement], command: &str) ->
          force acts, and each number is extrapolated to none. Errors and uncertainties are relative to the exact value. \
          The tolerance is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {MAX_TOLERANCE:e}. Codes that refuse \
          the restitution 1 are given 1 - {:.0e} in its place.\n\n\
-         The declared restitution e_r is that of a cylinder of mass m whose contact may pull; a pair has half of that as its \
-         effective mass and the same damping, hence another restitution.\n\n",
+         The declared restitution e_r is that of a cylinder of mass m whose contact may pull and has one damping ratio at every \
+         overlap; a pair has half of that as its effective mass and the same damping, hence another restitution.\n\n",
         1.0 - NEARLY_ELASTIC
     );
     page += &impacts(judgements).shown().markdown();

@@ -130,7 +130,7 @@ fn a_law_and_its_parts_are_options_of_every_command_with_a_convention() {
         ("history", "force".into()),
         ("floor_ratio", 1.2.into()),
         ("floor_kappa", 0.9.into()),
-        ("tangential_stiffening", true.into()),
+        ("tangential_stiffening", "every".into()),
     ] {
         assert_eq!(hertz[key], value, "{key}");
     }

@@ -13,7 +13,10 @@ mod scalar;
 #[path = "hertz/unreduced.rs"]
 mod unreduced;
 
-use tristack::model::{Arms, ContactArms, ContactConvention, Law, Power, Stack, TangentialHistory};
+use tristack::model::{
+    Arms, ContactArms, ContactConvention, DampingGrowth, Law, Power, Stack, TangentialHistory,
+    TangentialStiffening,
+};
 
 /// A stack and its contacts, as plain numbers.
 #[derive(Debug, Clone, Copy)]
@@ -68,7 +71,11 @@ impl Problem {
                 history: self.history,
                 floor_ratio: self.floor_ratio,
                 floor_kappa: self.floor_kappa,
-                tangential_stiffening: self.stiffening,
+                tangential_stiffening: match self.stiffening {
+                    true => TangentialStiffening::Every,
+                    false => TangentialStiffening::None,
+                },
+                damping: DampingGrowth::ConstantRatio,
             })
         }
     }

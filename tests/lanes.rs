@@ -2,8 +2,9 @@
 
 use tristack::dem::{Checkpoint, LaneKind, LaneWidth, OpenRun, OpenRuns, RunQueue, compress_stack};
 use tristack::model::{
-    Case, ContactConvention, CoulombOperand, HistoryUpdate, Law, Power, Preparation, Protocol,
-    Sampling, Shortcuts, SideWalls, SlidingSpring, Stack, TangentialHistory, TensileForce,
+    Case, ContactConvention, CoulombOperand, DampingGrowth, HistoryUpdate, Law, Power, Preparation,
+    Protocol, Sampling, Shortcuts, SideWalls, SlidingSpring, Stack, TangentialHistory,
+    TangentialStiffening, TensileForce,
 };
 use tristack::series::{Series, SeriesError};
 
@@ -166,7 +167,14 @@ fn every_law_has_the_same_bits_in_lanes_of_every_width_and_from_checkpoints() {
                 history,
                 floor_ratio: 1.3,
                 floor_kappa: Some(2.0),
-                tangential_stiffening: history.keeps_force(),
+                tangential_stiffening: match history.keeps_force() {
+                    true => TangentialStiffening::Every,
+                    false => TangentialStiffening::Pairs,
+                },
+                damping: match history.is_rescaled() {
+                    true => DampingGrowth::Viscoelastic,
+                    false => DampingGrowth::ConstantRatio,
+                },
                 ..Law::of_power(power)
             };
             let mut cases = different_cases()[..5].to_vec();

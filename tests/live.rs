@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use tristack::code::{Code, FailureKind, Interrupt, RunContext};
 use tristack::dem::compress_stack;
-use tristack::model::{Case, Preparation, SideWalls, Stack};
+use tristack::model::{Case, Power, Preparation, SideWalls, Stack};
 use tristack::series::{Sample, Series, YieldEstimates};
 use tristack::study::yield_force::plan;
 
@@ -21,7 +21,7 @@ fn named(name: &str) -> Code {
 
 /// The external codes that are installed.
 fn installed() -> Vec<Code> {
-    common::installed(&Code::all()[1..])
+    common::installed(&Code::of_power(Power::Linear)[1..])
 }
 
 /// Below and above the critical friction, soft and stiff.

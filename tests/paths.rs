@@ -13,7 +13,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tristack::code::Code;
-use tristack::model::{Case, Stack};
+use tristack::model::{Case, Power, Stack};
 use tristack::study::yield_force::plan;
 
 /// If a name were executed, there would be a file of this name.
@@ -37,7 +37,7 @@ const NAMES: [&[u8]; 13] = [
 
 /// Native and the first variant of every code.
 fn live() -> Vec<Code> {
-    let codes = Code::all().into_iter();
+    let codes = Code::of_power(Power::Linear).into_iter();
     codes.filter(|code| code.is_first_variant()).collect()
 }
 

@@ -7,7 +7,7 @@ use tristack::code::{Code, FailureKind, Interrupt, ParameterFormat, RunContext, 
 use tristack::dem::{
     Cylinder, Facing, Material, PYRAMID_FLOOR, Packing, PlaneWall, Scene, run_pyramid,
 };
-use tristack::model::{ContactConvention, Pyramid, Stack};
+use tristack::model::{ContactConvention, Power, Pyramid, Stack};
 use tristack::study::cost::PyramidBench;
 
 const MIN_TOLERANCE: PlaneWall = PlaneWall {
@@ -196,7 +196,7 @@ fn asymmetry(pyramid: &Pyramid, cylinders: &[Cylinder]) -> f64 {
 
 /// The external codes that build pyramids.
 fn builders() -> Vec<Code> {
-    let codes = Code::all().into_iter().skip(1);
+    let codes = Code::of_power(Power::Linear).into_iter().skip(1);
     codes.filter(|code| code.builds_pyramids()).collect()
 }
 

@@ -1,7 +1,8 @@
 # encoding: utf-8
-"""Cylinders, walls and their contacts: YADE, ViscElPhys_Basic.
+"""Cylinders, walls and the engines that move them: YADE.
 
-Shared by stack.py and probe.py, so that the probe measures what the stack runs with.
+Shared by stack.py and probe.py, so that the probe measures what the stack runs with.  law.py
+says what a contact does.
 Units: radius = mass = normal contact stiffness = 1, hence time in sqrt(m/k_n).
 
 The floor y = 0 is one of FLOORS, and the kind matters: on a box or a facet the contact point
@@ -9,6 +10,7 @@ lies halfway into the overlap, as between cylinders, on a Wall it lies on the fa
 """
 import math
 
+import law
 from yade import *
 from yade.utils import box, facet, sphere, wall
 
@@ -24,15 +26,7 @@ class Scene:
 		O.reset()
 		O.dt = p['time_step']
 
-		# A contact puts its two materials in series, so each gets twice the contact's value:
-		# 1/(1/2k + 1/2k) = k.
-		contact = dict(
-		        kn=2 * p['normal_stiffness'],
-		        ks=2 * p['tangential_stiffness'],
-		        cn=2 * p['damping_normal'],
-		        cs=2 * p['damping_tangential'],
-		)
-		self.surface, self.rough, self.smooth = (O.materials.append(ViscElMat(**contact)) for _ in range(3))
+		self.surface, self.rough, self.smooth = (O.materials.append(law.material(p)) for _ in range(3))
 		# On its own YADE takes the smaller friction angle of a pair; name every pair instead.
 		friction_angle = MatchMaker(
 		        matches=(
@@ -55,8 +49,8 @@ class Scene:
 		                        Ig2_Facet_Sphere_ScGeom(),
 		                        Ig2_Wall_Sphere_ScGeom(),
 		                ],
-		                [Ip2_ViscElMat_ViscElMat_ViscElPhys(frictAngle=friction_angle)],
-		                [Law2_ScGeom_ViscElPhys_Basic()],
+		                [law.physics(p, friction_angle, self.surface)],
+		                [law.forces()],
 		        ),
 		        self.newton,
 		]

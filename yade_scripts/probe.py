@@ -3,7 +3,7 @@
 
     yade -n -x -j1 probe.py box|facet|wall DIR [DIR ...]
 
-with contacts.py and cases.py beside it.  The first argument says what the floor is made of.
+with contacts.py, law.py and cases.py beside it.  The first argument says what the floor is made of.
 Each DIR holds a parameters.json (an example is probe_parameters.json) and receives a
 probe.csv, which appears only when it is complete: one row for every step from 0 on.
 

@@ -4,7 +4,7 @@ ViscElPhys_Basic contacts.
 
     yade -n -x -j1 side_walls.py box|facet|wall DIR [DIR ...]
 
-with stack.py, contacts.py and cases.py beside it.  Arguments, units, compression and rows are
+with stack.py, contacts.py, law.py and cases.py beside it.  Arguments, units, compression and rows are
 those of stack.py, only the preparation is another one, that of arXiv:2511.06807 (supplement,
 section I.B).  An example of parameters.json is side_walls_parameters.json.
 

@@ -3,7 +3,7 @@
 
     yade -n -x -j1 stack.py box|facet|wall DIR [DIR ...]
 
-with contacts.py and cases.py beside it.  The first argument says what the floor is made of.
+with contacts.py, law.py and cases.py beside it.  The first argument says what the floor is made of.
 Each DIR holds a parameters.json (an example lies beside this script) and receives a
 series.csv, which appears only when it is complete.
 

@@ -3,13 +3,16 @@
 use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
+use super::options::{
+    CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
+};
 use super::out::Out;
 use super::progress::Reporter;
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
+use crate::model::Power;
 use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement};
@@ -31,6 +34,10 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     #[command(flatten)]
     stacks: StackSet,
+    /// Contact law: `linear` (the paper's), or `hertz`: styles of the codes with Hertz's normal force and a tangential
+    /// spring of Mindlin's stiffness; the quick profile has one style of each code, the standard one all
+    #[arg(long, value_parser = power, value_name = "LAW", default_value = "linear")]
+    law: Power,
     #[command(flatten)]
     codes: CodeOptions,
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
@@ -56,15 +63,20 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return explain(
             row,
             &arguments.stacks.others,
+            arguments.law,
             arguments.shortcuts,
             &arguments.run,
         );
     }
-    let codes = selected_codes(&arguments.codes.named)?;
+    let named = arguments.codes.of_power(arguments.law)?;
+    let codes = match named.is_empty() {
+        true => find_all(&arguments.stacks.codes(arguments.law)),
+        false => selected_codes(&named)?,
+    };
     settle(&codes, &arguments.run)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let mut measurements = arguments.stacks.measurements(&names)?;
+    let mut measurements = arguments.stacks.measurements(&names, arguments.law)?;
     if arguments.shortcuts {
         let shortened = measurements.into_iter().map(Measurement::shortened);
         measurements = shortened.collect();

@@ -6,7 +6,7 @@ use super::options::{RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
-use crate::model::Stack;
+use crate::model::{Power, Stack};
 use crate::output::explanation;
 use crate::runs::SelectedCode;
 use crate::study::Campaign;
@@ -44,13 +44,20 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
 pub(super) fn explain(
     row: &RowName,
     others: &StackOptions,
+    power: Power,
     shortcuts: bool,
     options: &RunOptions,
 ) -> Result<ExitStatus, CliError> {
-    let stack = others.stack(row.stack.floor_friction, row.stack.stiffness)?;
+    let power = match row.code.accepts_any_convention() {
+        true => power,
+        false => row.code.convention().law.power,
+    };
+    let stack = others.stack(row.stack.floor_friction, row.stack.stiffness, power)?;
+    let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
+    accepted.map_err(as_flag)?;
     let codes = [SelectedCode::find(row.code)];
     settle(&codes, options)?;
-    let measurement = plan(row.code, &stack, row.code.convention());
+    let measurement = plan(row.code, &stack, row.code.convention_of_power(power));
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

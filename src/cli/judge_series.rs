@@ -105,7 +105,6 @@ pub(super) fn run(
 }
 
 fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
-    let stack = arguments.stack.stack()?;
     let measured = arguments.passport.as_deref().map(passport).transpose()?;
     let convention = match measured {
         Some(measured) => ContactConvention::with_arms(measured.arms),
@@ -114,6 +113,7 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
             arguments.convention.of(Code::NATIVE)?
         }
     };
+    let stack = arguments.stack.stack(convention.law.power)?;
     let limit = quasistatic_limit(&stack, &convention);
     if limit.yield_force.is_none() {
         return Err(Box::new(no_yield(&stack, &convention, &limit)).into());

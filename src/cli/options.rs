@@ -4,8 +4,9 @@ pub(super) use super::code_names::CodeParser;
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::Code;
 use crate::model::{
-    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, Law,
+    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, Law, Material,
     PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Power, Stack, TangentialHistory,
+    TangentialStiffening,
 };
 use crate::output::{DataTable, json};
 use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
@@ -58,28 +59,120 @@ pub(super) struct CodeOptions {
     pub named: Vec<Code>,
 }
 
+impl CodeOptions {
+    /// The codes that are named, each of which must have a law of this power.
+    pub fn of_power(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
+        let mut named = self.named.iter();
+        let Some(other) = named.find(|code| !code.has_power(power)) else {
+            return Ok(self.named.clone());
+        };
+        let names: Vec<&str> = Code::of_power(power)
+            .into_iter()
+            .map(Code::as_str)
+            .collect();
+        Err(InvalidValue {
+            key: "--codes".to_owned(),
+            value: other.to_string(),
+            accepted: format!(
+                "codes of the same power as --law, among them {}: the {} of {other}",
+                names.join(", "),
+                other.convention().law
+            ),
+        })
+    }
+}
+
 /// The parameters of a stack other than floor friction and stiffness.
 #[derive(Debug, Clone, Args)]
 pub(super) struct StackOptions {
-    /// Stiffness ratio k_n/k_t
-    #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
-    pub kappa: f64,
+    /// Stiffness ratio k_n/k_t [default: 2.5; of laws that are not linear 17/14, that of Poisson's ratio 0.3]
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    kappa: Option<f64>,
     /// Friction between cylinders
     #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
     pub mu_d: f64,
 }
 
 impl StackOptions {
-    /// The checked stack with floor friction `mu` and this stiffness.
-    pub fn stack(&self, mu: f64, stiffness: f64) -> Result<Stack, InvalidValue> {
+    /// The stiffness ratio of pairs, in a law of this power.
+    pub fn kappa(&self, power: Power) -> f64 {
+        self.kappa.unwrap_or(match power {
+            Power::Linear => PAPER_STIFFNESS_RATIO,
+            _ => Material::USUAL_STIFFNESS_RATIO,
+        })
+    }
+
+    /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
+    pub fn stack(&self, mu: f64, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
         let stack = Stack {
             floor_friction: mu,
             cylinder_friction: self.mu_d,
             stiffness,
-            stiffness_ratio: self.kappa,
+            stiffness_ratio: self.kappa(power),
         };
         stack.validate().map_err(as_flag)?;
         Ok(stack)
+    }
+}
+
+/// The material of Hertz contacts, from which stiffness and stiffness ratio follow.
+#[derive(Debug, Clone, Args)]
+pub(super) struct MaterialOptions {
+    /// Young's modulus in m g/r^2 of equal bodies in Hertz's theory, in place of --stiffness
+    #[arg(
+        long,
+        value_name = "E",
+        group = "hardness",
+        requires = "poisson",
+        conflicts_with = "stiffness",
+        allow_negative_numbers = true
+    )]
+    youngs: Option<f64>,
+    /// Their Poisson's ratio, from 0 to 0.5, in place of --kappa
+    #[arg(
+        long,
+        value_name = "NU",
+        conflicts_with = "kappa",
+        allow_negative_numbers = true
+    )]
+    poisson: Option<f64>,
+}
+
+impl MaterialOptions {
+    /// The stiffness that the modulus gives; `None` without one.
+    fn stiffness(&self) -> Option<f64> {
+        let material = Material {
+            youngs_modulus: self.youngs?,
+            poisson_ratio: self.poisson?,
+        };
+        Some(material.pair_stiffness())
+    }
+
+    /// `others` with the stiffness ratio of the material, if there is one, in a law of this power.
+    fn over(&self, others: &StackOptions, power: Power) -> Result<StackOptions, InvalidValue> {
+        let Some(poisson_ratio) = self.poisson else {
+            return Ok(others.clone());
+        };
+        let refused = |flag, value, accepted| Err(InvalidValue::new(flag, value, accepted));
+        if power != Power::Hertz {
+            let accepted = "left out, unless --law is hertz";
+            return refused("--poisson", poisson_ratio, accepted);
+        }
+        if !(0.0..=0.5).contains(&poisson_ratio) {
+            return refused("--poisson", poisson_ratio, "a number from 0 to 0.5");
+        }
+        let modulus = self.youngs.unwrap_or(1.0);
+        if !(modulus > 0.0 && modulus.is_finite()) {
+            return refused("--youngs", modulus, "a number above 0");
+        }
+        let material = Material {
+            youngs_modulus: modulus,
+            poisson_ratio,
+        };
+        Ok(StackOptions {
+            kappa: Some(material.stiffness_ratio()),
+            ..others.clone()
+        })
     }
 }
 
@@ -87,20 +180,30 @@ impl StackOptions {
 #[derive(Debug, Clone, Args)]
 pub(super) struct OneStackOptions {
     /// Floor friction; a number or the word `critical`
-    #[arg(long, value_parser = friction, requires = "stiffness", allow_negative_numbers = true)]
+    #[arg(long, value_parser = friction, requires = "hardness", allow_negative_numbers = true)]
     mu: Option<f64>,
     /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g)
-    #[arg(long, value_name = "S", requires = "mu", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "S",
+        group = "hardness",
+        requires = "mu",
+        allow_negative_numbers = true
+    )]
     stiffness: Option<f64>,
     #[command(flatten)]
     others: StackOptions,
+    #[command(flatten)]
+    material: MaterialOptions,
 }
 
 impl OneStackOptions {
-    /// The checked stack.
-    pub fn stack(&self) -> Result<Stack, InvalidValue> {
-        let [mu, stiffness] = [self.mu, self.stiffness].map(|value| value.unwrap_or(f64::NAN));
-        self.others.stack(mu, stiffness)
+    /// The checked stack, in a law of this power.
+    pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
+        let others = self.material.over(&self.others, power)?;
+        let stiffness = self.stiffness.or_else(|| self.material.stiffness());
+        let [mu, stiffness] = [self.mu, stiffness].map(|value| value.unwrap_or(f64::NAN));
+        others.stack(mu, stiffness, power)
     }
 }
 
@@ -109,8 +212,9 @@ impl OneStackOptions {
 pub(super) struct StackListOptions {
     /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g); one or several, separated by commas
     #[arg(
+        id = "stiffness",
         long = "stiffness",
-        required = true,
+        required_unless_present = "youngs",
         value_name = "S1,S2",
         value_delimiter = ',',
         allow_negative_numbers = true
@@ -118,12 +222,18 @@ pub(super) struct StackListOptions {
     stiffnesses: Vec<f64>,
     #[command(flatten)]
     others: StackOptions,
+    #[command(flatten)]
+    material: MaterialOptions,
 }
 
 impl StackListOptions {
-    /// The checked stacks of every combination of friction and stiffness; the friction varies fastest.
-    pub fn stacks(&self, frictions: &[f64]) -> Result<Vec<Stack>, InvalidValue> {
-        let count = frictions.len().saturating_mul(self.stiffnesses.len());
+    /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
+    /// fastest.
+    pub fn stacks(&self, frictions: &[f64], power: Power) -> Result<Vec<Stack>, InvalidValue> {
+        let others = self.material.over(&self.others, power)?;
+        let material = self.material.stiffness();
+        let stiffnesses: Vec<f64> = self.stiffnesses.iter().copied().chain(material).collect();
+        let count = frictions.len().saturating_mul(stiffnesses.len());
         if count > MOST_STACKS {
             return Err(InvalidValue {
                 key: "--mu, --stiffness".to_owned(),
@@ -131,9 +241,10 @@ impl StackListOptions {
                 accepted: format!("at most {MOST_STACKS} combinations"),
             });
         }
-        let stacks = self.stiffnesses.iter().flat_map(|&stiffness| {
+        let stacks = stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
-            frictions.map(move |&mu| self.others.stack(mu, stiffness))
+            let others = &others;
+            frictions.map(move |&mu| others.stack(mu, stiffness, power))
         });
         stacks.collect()
     }
@@ -174,13 +285,14 @@ pub(super) struct LawOptions {
     /// Stiffness ratio k_n/k_t of the floor [default: as --kappa]
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
     floor_kappa: Option<f64>,
-    /// Multiply the tangential stiffness by 2/(2 - overlap)
-    #[arg(long)]
-    tangential_stiffening: bool,
+    /// Multiply the tangential stiffness of these contacts by 2/(2 - overlap)
+    #[arg(long, value_parser = stiffening(), value_name = "CONTACTS", num_args = 0..=1, require_equals = true,
+        default_missing_value = "every")]
+    tangential_stiffening: Option<TangentialStiffening>,
 }
 
 /// Reads `--law`.
-fn power(text: &str) -> Result<Power, String> {
+pub(super) fn power(text: &str) -> Result<Power, String> {
     let named = match text {
         "linear" => Ok(Power::Linear),
         "hertz" => Ok(Power::Hertz),
@@ -196,12 +308,21 @@ fn power(text: &str) -> Result<Power, String> {
 
 /// Reads `--history`.
 fn history() -> impl TypedValueParser<Value = TangentialHistory> {
-    let words = TangentialHistory::ALL.map(TangentialHistory::as_str);
-    PossibleValuesParser::new(words).map(|word| {
-        let histories = TangentialHistory::ALL.into_iter();
-        let named = histories
-            .into_iter()
-            .find(|history| history.as_str() == word);
+    one_of(TangentialHistory::ALL, TangentialHistory::as_str)
+}
+
+/// Reads `--tangential-stiffening`.
+fn stiffening() -> impl TypedValueParser<Value = TangentialStiffening> {
+    one_of(TangentialStiffening::ALL, TangentialStiffening::as_str)
+}
+
+/// Reads one of `all` by its word.
+fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    word: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(word)).map(move |given| {
+        let named = all.into_iter().find(|value| word(*value) == given);
         named.expect("one of the possible values")
     })
 }
@@ -215,7 +336,10 @@ impl LawOptions {
             history: self.history.unwrap_or(base.history),
             floor_ratio: self.floor_ratio.unwrap_or(base.floor_ratio),
             floor_kappa: self.floor_kappa.or(base.floor_kappa),
-            tangential_stiffening: self.tangential_stiffening || base.tangential_stiffening,
+            tangential_stiffening: self
+                .tangential_stiffening
+                .unwrap_or(base.tangential_stiffening),
+            damping: base.damping,
         }
     }
 }
@@ -361,10 +485,10 @@ fn directory_from(variable: &str) -> Option<PathBuf> {
     value.map(PathBuf::from)
 }
 
-/// The codes named, each of which must be installed; all codes if none is named.
+/// The codes named, each of which must be installed; every code with the paper's law if none is named.
 pub(super) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(find_all(&Code::all()));
+        return Ok(find_all(&Code::of_power(Power::Linear)));
     }
     let mut names = named.to_vec();
     names.sort();

@@ -102,7 +102,10 @@ fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>
         }
         rows.clone_from(&plan.rows);
     }
-    for measurement in arguments.stacks.measurements(&[code])? {
+    for measurement in arguments
+        .stacks
+        .measurements(&[code], code.convention().law.power)?
+    {
         let row = PlannedRow::of(&measurement);
         if !rows.contains(&row) {
             rows.push(row);

@@ -5,6 +5,7 @@ use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
 };
+use crate::model::Power;
 use crate::output::{forecast_text, forecasts};
 use clap::{ArgGroup, Args};
 
@@ -89,7 +90,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         mu: arguments.mu,
         mu_uncertainty: arguments.mu_uncertainty,
         mu_d: arguments.stack.mu_d,
-        kappa: arguments.stack.kappa,
+        kappa: arguments.stack.kappa(Power::Linear),
     };
     let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
     let people = || forecast_text(&found[0]);

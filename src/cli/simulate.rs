@@ -249,12 +249,17 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         let case = Case::read_with(path, |written| completed(written, code))?;
         let protocol = &case.protocol;
         code.check_convention(&case.convention)?;
+        code.check_stiffness_ratio(case.stack.stiffness_ratio)?;
         code.check_preparation(&protocol.preparation)?;
         code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
-    let stack = arguments.stack.stack()?;
     let convention = arguments.convention.of(arguments.code())?;
+    let stack = arguments.stack.stack(convention.law.power)?;
+    let accepted = arguments
+        .code()
+        .check_stiffness_ratio(stack.stiffness_ratio);
+    accepted.map_err(as_flag)?;
     let limit = quasistatic_limit(&stack, &convention);
     let mut protocol = planned(&limit, &stack, &convention, arguments.speed, arguments.dt)?;
     let accepted = arguments.code().check_shortcuts(arguments.shortcuts);

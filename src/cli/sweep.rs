@@ -117,7 +117,13 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;
-    let stacks = arguments.stack.stacks(&arguments.mu.0)?;
+    let stacks = arguments
+        .stack
+        .stacks(&arguments.mu.0, convention.law.power)?;
+    for stack in &stacks {
+        let accepted = arguments.code.check_stiffness_ratio(stack.stiffness_ratio);
+        accepted.map_err(as_flag)?;
+    }
     let layout = Layout::tables("sweep.json", &["sweep.csv"]);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let settings = arguments.run.settings()?;

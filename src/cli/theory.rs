@@ -28,7 +28,9 @@ pub(super) struct Arguments {
 /// Prints the predictions for every combination of friction and stiffness.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.convention.of(Code::NATIVE)?;
-    let stacks = arguments.stack.stacks(&arguments.mu)?;
+    let stacks = arguments
+        .stack
+        .stacks(&arguments.mu, convention.law.power)?;
     let predictions: Vec<Predictions> = stacks
         .iter()
         .map(|stack| Predictions::new(stack, &convention))

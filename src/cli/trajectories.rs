@@ -8,7 +8,7 @@ use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::InvalidValue;
+use crate::model::{InvalidValue, Power};
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
 use crate::study::trajectory::{
@@ -82,7 +82,10 @@ fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
     if !named.contains(&Code::NATIVE) {
         return Ok(());
     }
-    let others = Code::all().into_iter().skip(1).map(Code::as_str);
+    let others = Code::of_power(Power::Linear)
+        .into_iter()
+        .skip(1)
+        .map(Code::as_str);
     Err(InvalidValue {
         key: "--codes".to_owned(),
         value: Code::NATIVE.to_string(),

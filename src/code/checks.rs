@@ -18,7 +18,6 @@ impl Definition {
         }
         self.check_texts()?;
         self.convention.validate()?;
-        self.check_law()?;
         self.check_files()?;
         self.check_columns()?;
         self.check_command()
@@ -38,19 +37,6 @@ impl Definition {
             }
         }
         Ok(())
-    }
-
-    /// Refuses laws whose coefficients decks are not given.
-    fn check_law(&self) -> Result<(), InvalidValue> {
-        let law = self.convention.law;
-        match law.is_linear() {
-            true => Ok(()),
-            false => Err(refused(
-                "convention.law",
-                law,
-                "linear springs, of which decks are given the coefficients",
-            )),
-        }
     }
 
     /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or

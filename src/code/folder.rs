@@ -21,12 +21,15 @@ macro_rules! folder {
 }
 
 /// The only place that names the built-in folders. Their order is that of tables and figures.
-pub(super) static BUILT_IN: [BuiltIn; 4] = [
+pub(super) static BUILT_IN: [BuiltIn; 7] = [
     folder!("src/code/native", "code.toml"),
     folder!("liggghts_inputs", "code.toml" "stack.in" "side_walls.in" "probe.in" "pyramid.in" "contacts.in"
         "top_wall.in" "wall.stl" "side_wall.stl"),
-    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "cases.py"),
+    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "law.py" "cases.py"),
     folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
+    folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in"),
+    folder!("yade_scripts/hertz", "code.toml" "law.py"),
+    folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in"),
 ];
 
 /// A folder with a manifest.

@@ -17,6 +17,30 @@ pub(crate) struct Parameter {
     pub meaning: &'static str,
     /// The tasks that have it.
     pub tasks: &'static [TaskKind],
+    /// The laws with which they have it.
+    pub laws: Laws,
+}
+
+/// The laws with which a task has a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Laws {
+    /// Every law.
+    Every,
+    /// Every law but the paper's linear one.
+    NotLinear,
+    /// Hertz's, at a stiffness ratio from 1 to 1.5.
+    Material,
+}
+
+impl Laws {
+    /// The condition in words; `None` of every law.
+    pub fn limits(self) -> Option<&'static str> {
+        match self {
+            Self::Every => None,
+            Self::NotLinear => Some("laws other than linear alone"),
+            Self::Material => Some("power 1.5 at a stiffness ratio from 1 to 1.5 alone"),
+        }
+    }
 }
 
 use TaskKind::{Motion, Pyramid as Pile, SideWalls, Stack};
@@ -35,15 +59,18 @@ const SPEED: &str = "r √(k_n/m)";
 const DAMPING: &str = "√(m k_n)";
 
 macro_rules! parameters {
-    ($($name:literal, $unit:expr, $tasks:expr, $meaning:literal;)*) => {
+    ($($name:literal, $unit:expr, $tasks:ident $(where $laws:ident)?, $meaning:literal;)*) => {
         /// Every parameter of every task.
         pub(crate) static PARAMETERS: &[Parameter] = &[$(Parameter {
             name: $name,
             unit: $unit,
             meaning: $meaning,
             tasks: $tasks,
+            laws: parameters!(@laws $($laws)?),
         }),*];
     };
+    (@laws) => { Laws::Every };
+    (@laws $laws:ident) => { Laws::$laws };
 }
 
 parameters! {
@@ -53,6 +80,13 @@ parameters! {
     "moment_of_inertia", "m r²", EVERY, "moment of inertia of a cylinder about its axis";
     "normal_stiffness", "k_n", EVERY, "stiffness of every contact along its normal, those of the walls included: 1";
     "tangential_stiffness", "k_n", EVERY, "stiffness of the tangential spring of every contact with friction";
+    "normal_power", "1", EVERY where NotLinear, "exponent p of the normal force: normal_stiffness overlap^p; tangential_stiffness and damping are those at an overlap of r, and grow with its powers p - 1 and, in the convention of most codes, (p - 1)/2";
+    "floor_normal_stiffness", "k_n", EVERY where NotLinear, "normal_stiffness of the floor and of other walls";
+    "floor_tangential_stiffness", "k_n", EVERY where NotLinear, "tangential_stiffness of the floor";
+    "floor_damping_normal", DAMPING, EVERY where NotLinear, "damping_normal of the floor and of other walls";
+    "floor_damping_tangential", DAMPING, EVERY where NotLinear, "damping_tangential of the floor";
+    "youngs_modulus", "k_n/r", EVERY where Material, "Young's modulus of equal spheres for which Hertz's force between two of them is normal_stiffness overlap^1.5";
+    "poisson_ratio", "1", EVERY where Material, "their Poisson's ratio, with which Mindlin's stiffness between two of them is tangential_stiffness overlap^0.5";
     "restitution", "1", EVERY, "restitution that the damping of both springs gives";
     "damping_normal", DAMPING, EVERY, "force of the dashpot beside the normal spring, over the speed of approach";
     "damping_tangential", DAMPING, EVERY, "force of the dashpot beside the tangential spring, over the speed of sliding";
@@ -117,7 +151,7 @@ impl TaskKind {
         json!({
             "type": "object",
             "properties": described.collect::<Map<_, _>>(),
-            "required": own.iter().map(|one| one.name).collect::<Vec<_>>(),
+            "required": own.iter().filter(|one| one.laws == Laws::Every).map(|one| one.name).collect::<Vec<_>>(),
         })
     }
 }

@@ -48,6 +48,9 @@ pub struct Definition {
     /// The files of each kind of task; a kind that is missing is refused by the code.
     #[serde(default)]
     pub(super) tasks: BTreeMap<TaskKind, TaskFiles>,
+    /// Kinds of tasks that are not inherited from the code that is extended.
+    #[serde(default)]
+    pub(super) without: Vec<TaskKind>,
     /// The contact convention of the code; a key that is left out is measured by the probe.
     #[serde(default)]
     pub(super) convention: ContactConvention,
@@ -314,6 +317,18 @@ pub(crate) enum Angle {
 pub(super) struct Refused {
     /// Coefficients of restitution.
     pub(super) restitution: Option<RefusedValues>,
+    /// Stiffness ratios k_n/k_t.
+    pub(super) stiffness_ratio: Option<RefusedOutside>,
+}
+
+/// The values that are accepted, and the reason.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RefusedOutside {
+    /// The lowest and the highest value that is accepted.
+    pub(super) outside: [f64; 2],
+    /// Why it cannot take others.
+    pub(super) because: String,
 }
 
 /// The values, and the reason.

@@ -2,8 +2,7 @@
 
 use super::manifest_error::refused;
 use crate::model::{
-    Case, ContactConvention, ContactLaw, ContactTest, InvalidValue, PreparationSteps, Pyramid,
-    Stack,
+    Case, ContactConvention, ContactTest, InvalidValue, Material, PreparationSteps, Pyramid, Stack,
 };
 use serde_json::{Map, Value, json};
 
@@ -38,13 +37,34 @@ pub(super) fn of_case(case: &Case) -> Value {
 
 fn of_stack(convention: &ContactConvention, stack: &Stack) -> Value {
     let (mu, mu_d) = (stack.floor_friction, stack.cylinder_friction);
-    of_contacts(convention.law(stack.stiffness_ratio), mu, mu_d)
+    of_contacts(convention, stack.stiffness_ratio, mu, mu_d)
 }
 
-fn of_contacts(law: ContactLaw, mu: f64, mu_d: f64) -> Value {
+fn of_contacts(convention: &ContactConvention, stiffness_ratio: f64, mu: f64, mu_d: f64) -> Value {
     merged([
-        json!(law),
+        json!(convention.law(stiffness_ratio)),
         json!({ "floor_friction": mu, "cylinder_friction": mu_d }),
+        of_law(convention, stiffness_ratio),
+    ])
+}
+
+/// What a deck needs beyond the coefficients of a pair where the law is not the paper's.
+fn of_law(convention: &ContactConvention, stiffness_ratio: f64) -> Value {
+    let law = &convention.law;
+    if law.is_linear() {
+        return json!({});
+    }
+    let wall = convention.wall_law(stiffness_ratio);
+    let material = Material::of_pairs(law.power, stiffness_ratio);
+    merged([
+        json!({
+            "normal_power": law.power,
+            "floor_normal_stiffness": wall.normal_stiffness,
+            "floor_tangential_stiffness": wall.tangential_stiffness,
+            "floor_damping_normal": wall.damping_normal,
+            "floor_damping_tangential": wall.damping_tangential,
+        }),
+        material.map_or(json!({}), |material| json!(material)),
     ])
 }
 
@@ -78,7 +98,7 @@ pub(super) fn of_contact_test(test: &ContactTest) -> Value {
     let (mu, mu_d) = (test.floor_friction, test.cylinder_friction);
     let [one, two] = &test.initial_motions;
     merged([
-        of_contacts(test.convention.law(test.stiffness_ratio), mu, mu_d),
+        of_contacts(&test.convention, test.stiffness_ratio, mu, mu_d),
         json!({
             "time_step": test.time_step,
             "steps": test.steps,

@@ -2,10 +2,10 @@
 
 use super::convention::{Declaration, Settled};
 use super::folder::{BUILT_IN, Folder};
-use super::manifest::{Definition, Integration, Mark, RefusedValues, TaskKind};
+use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
 use super::search_path::SEARCH_PATH;
-use crate::model::{ContactConvention, InvalidValue, Preparation};
+use crate::model::{ContactConvention, InvalidValue, Law, Power, Preparation};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -50,6 +50,18 @@ impl Code {
     /// Every code: the built-in ones, and those of the folders that were given.
     pub fn all() -> Vec<Self> {
         (0..registry().definitions.len()).map(Self).collect()
+    }
+
+    /// Every code whose normal force grows with this power of the overlap; that of the native code with any.
+    pub fn of_power(power: Power) -> Vec<Self> {
+        let mut codes = Self::all();
+        codes.retain(|code| code.has_power(power));
+        codes
+    }
+
+    /// Whether its normal force grows with this power of the overlap.
+    pub(crate) fn has_power(self, power: Power) -> bool {
+        self.accepts_any_convention() || self.convention().law.power == power
     }
 
     /// The code with the given `name`.
@@ -142,6 +154,18 @@ impl Code {
         self.settled().convention
     }
 
+    /// Its convention with a law of this power: the usual one if the convention is part of the case, else its own.
+    pub(crate) fn convention_of_power(self, power: Power) -> ContactConvention {
+        let own = self.convention();
+        match self.accepts_any_convention() {
+            true => ContactConvention {
+                law: Law::of_power(power),
+                ..own
+            },
+            false => own,
+        }
+    }
+
     /// Properties of its time integration.
     pub(crate) fn integration(self) -> Integration {
         Integration {
@@ -223,6 +247,20 @@ impl Code {
             let key = format!("convention.{key}");
             Err(refused(&key, value, format!("{own} for {self}")))
         })
+    }
+
+    /// Refuses a stiffness ratio that the code cannot have.
+    pub(crate) fn check_stiffness_ratio(self, asked: f64) -> Result<(), InvalidValue> {
+        let limits = &self.definition().refused.stiffness_ratio;
+        let refusal = limits
+            .as_ref()
+            .and_then(|RefusedOutside { outside, because }| {
+                let [least, most] = *outside;
+                let accepted = format!("a number from {least} to {most} for {self}: {because}");
+                let is_inside = (least..=most).contains(&asked);
+                (!is_inside).then(|| refused("stack.stiffness_ratio", asked, accepted))
+            });
+        refusal.map_or(Ok(()), Err)
     }
 
     /// Refuses a preparation for which the code has no deck.

@@ -24,6 +24,9 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     /// The contact convention that the code must have.
     fn convention(&self) -> &ContactConvention;
 
+    /// The stiffness ratio κ of pairs.
+    fn stiffness_ratio(&self) -> f64;
+
     /// Upper bound of its run time, in steps of a stack.
     fn steps(&self) -> u64;
 
@@ -62,6 +65,10 @@ impl Task for Case {
         &self.convention
     }
 
+    fn stiffness_ratio(&self) -> f64 {
+        self.stack.stiffness_ratio
+    }
+
     fn steps(&self) -> u64 {
         self.total_steps()
     }
@@ -91,6 +98,10 @@ impl Task for ContactTest {
         &self.convention
     }
 
+    fn stiffness_ratio(&self) -> f64 {
+        self.stiffness_ratio
+    }
+
     fn steps(&self) -> u64 {
         self.steps
     }
@@ -118,6 +129,10 @@ impl Task for Pyramid {
 
     fn convention(&self) -> &ContactConvention {
         &self.convention
+    }
+
+    fn stiffness_ratio(&self) -> f64 {
+        self.groups.stiffness_ratio
     }
 
     /// As if every cylinder took as long as a whole stack.
@@ -182,13 +197,14 @@ impl ParameterFile {
 }
 
 impl Code {
-    /// Refuses a task under another convention than that of the code. Micro-tests are asked for under the declaration,
+    /// Refuses a task under another convention than that of the code, or with a stiffness ratio that it cannot have. Micro-tests are asked for under the declaration,
     /// whatever they have shown.
     pub(super) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
         match task.kind() {
             TaskKind::Motion => self.check_declaration(task.convention()),
             _ => self.check_convention(task.convention()),
-        }
+        }?;
+        self.check_stiffness_ratio(task.stiffness_ratio())
     }
 
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.

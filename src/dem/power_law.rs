@@ -94,7 +94,7 @@ impl<R: Real> ContactModel<R> for PowerLaw<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Law, Power, TangentialHistory};
+    use crate::model::{Law, Power, TangentialHistory, TangentialStiffening};
 
     const TIME_STEP: f64 = 0.1;
 
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn a_stiffened_spring_is_stiffer_by_the_distance_of_the_centres() {
         let stiffened = Law {
-            tangential_stiffening: true,
+            tangential_stiffening: TangentialStiffening::Every,
             ..Law::HERTZ
         };
         let [plain, stiff] = [Law::HERTZ, stiffened].map(|law| forces(law, 0.01, &[0.1, 0.1])[0]);

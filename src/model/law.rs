@@ -12,7 +12,7 @@
 //! η = −2 ln e_r √((p+1)/(2p)) √(m k/(π² + ln² e_r))
 //!
 //! of either stiffness k, which gives a free collision the restitution e_r whatever its speed (docs/theory.md,
-//! section 11.1).
+//! section 11.1), or viscoelastic: it has this size at an overlap of r, and grows like the stiffness.
 
 use super::validity::{InvalidValue, within};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -169,6 +169,57 @@ impl fmt::Display for TangentialHistory {
     }
 }
 
+/// The contacts whose tangential stiffness is multiplied by 2/(2 − δ).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TangentialStiffening {
+    /// None.
+    None,
+    /// Those between cylinders.
+    Pairs,
+    /// Those with walls as well.
+    Every,
+}
+
+impl TangentialStiffening {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::None, Self::Pairs, Self::Every];
+
+    /// The word of case files and options.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Pairs => "pairs",
+            Self::Every => "every",
+        }
+    }
+}
+
+/// How the damping coefficients grow with the overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DampingGrowth {
+    /// Like the root of the stiffness: the damping ratio, and hence the restitution, is the same at every overlap.
+    #[default]
+    ConstantRatio,
+    /// Like the stiffness.
+    Viscoelastic,
+}
+
+impl DampingGrowth {
+    /// The word of case files.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::ConstantRatio => "constant-ratio",
+            Self::Viscoelastic => "viscoelastic",
+        }
+    }
+
+    fn is_usual(&self) -> bool {
+        *self == Self::ConstantRatio
+    }
+}
+
 /// How contact forces grow with the overlap, and what tangential springs remember meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "WrittenLaw")]
@@ -182,8 +233,11 @@ pub struct Law {
     /// Stiffness ratio k_n/k_t of walls; without it, that of pairs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floor_kappa: Option<f64>,
-    /// Whether k_t is multiplied by 2/(2 − δ), the distance of undeformed centres over that at the overlap δ.
-    pub tangential_stiffening: bool,
+    /// The contacts whose k_t is multiplied by 2/(2 − δ), the distance of undeformed centres over that at the overlap δ.
+    pub tangential_stiffening: TangentialStiffening,
+    /// Growth of the damping, which the quasi-static limit does not see.
+    #[serde(skip_serializing_if = "DampingGrowth::is_usual")]
+    pub damping: DampingGrowth,
 }
 
 /// [`Law`] as a case file spells it.
@@ -198,8 +252,10 @@ struct WrittenLaw {
     floor_ratio: Option<f64>,
     /// Stiffness ratio k_n/k_t of walls; left out, it is that of pairs.
     floor_kappa: Option<f64>,
-    /// Whether k_t is multiplied by 2/(2 − δ), the distance of undeformed centres over that at the overlap δ.
-    tangential_stiffening: bool,
+    /// The contacts whose k_t is multiplied by 2/(2 − δ), the distance of undeformed centres over that at the overlap δ.
+    tangential_stiffening: TangentialStiffening,
+    /// Growth of the damping with the overlap.
+    damping: DampingGrowth,
 }
 
 impl Default for WrittenLaw {
@@ -209,7 +265,8 @@ impl Default for WrittenLaw {
             history: TangentialHistory::Displacement,
             floor_ratio: None,
             floor_kappa: None,
-            tangential_stiffening: false,
+            tangential_stiffening: TangentialStiffening::None,
+            damping: DampingGrowth::ConstantRatio,
         }
     }
 }
@@ -222,6 +279,7 @@ impl From<WrittenLaw> for Law {
             floor_ratio: written.floor_ratio.unwrap_or(plain.floor_ratio),
             floor_kappa: written.floor_kappa,
             tangential_stiffening: written.tangential_stiffening,
+            damping: written.damping,
             ..plain
         }
     }
@@ -250,7 +308,8 @@ impl Law {
                 _ => 1.0,
             },
             floor_kappa: None,
-            tangential_stiffening: false,
+            tangential_stiffening: TangentialStiffening::None,
+            damping: DampingGrowth::ConstantRatio,
         }
     }
 
@@ -262,19 +321,28 @@ impl Law {
     /// Whether a state of equilibrium depends on the order in which contacts were pressed and sheared: a force is
     /// remembered, and the stiffness with which it grew depends on the overlap.
     pub(crate) fn depends_on_order(&self) -> bool {
-        let stiffens = self.power != Power::Linear || self.tangential_stiffening;
+        let stiffens =
+            self.power != Power::Linear || self.tangential_stiffening != TangentialStiffening::None;
         self.history.keeps_force() && stiffens
     }
 
     /// The contact of two cylinders at their stiffness ratio κ.
     pub(super) fn of_pairs(&self, stiffness_ratio: f64, restitution: f64) -> ContactLaw {
-        ContactLaw::new(self, 1.0, stiffness_ratio, restitution)
+        let stiffens = self.tangential_stiffening != TangentialStiffening::None;
+        ContactLaw::new(self, 1.0, stiffness_ratio, restitution, stiffens)
     }
 
     /// The contact of a cylinder and a wall, κ being the stiffness ratio of pairs.
     pub(super) fn of_walls(&self, stiffness_ratio: f64, restitution: f64) -> ContactLaw {
         let stiffness_ratio = self.floor_kappa.unwrap_or(stiffness_ratio);
-        ContactLaw::new(self, self.floor_ratio, stiffness_ratio, restitution)
+        let stiffens = self.tangential_stiffening == TangentialStiffening::Every;
+        ContactLaw::new(
+            self,
+            self.floor_ratio,
+            stiffness_ratio,
+            restitution,
+            stiffens,
+        )
     }
 
     /// The lowest ratio k_n/k_t of any contact at any overlap, κ being that of pairs.
@@ -282,7 +350,8 @@ impl Law {
         let lowest = self
             .floor_kappa
             .map_or(stiffness_ratio, |floor| floor.min(stiffness_ratio));
-        lowest / stiffening(self.tangential_stiffening, LARGEST_OVERLAP)
+        let stiffens = self.tangential_stiffening != TangentialStiffening::None;
+        lowest / stiffening(stiffens, LARGEST_OVERLAP)
     }
 
     /// Every value in its range, or the first one that is not.
@@ -310,8 +379,15 @@ impl fmt::Display for Law {
             write!(formatter, ", floor kappa {floor_kappa}")?;
         }
         match self.tangential_stiffening {
-            true => formatter.write_str(", tangential stiffening"),
-            false => Ok(()),
+            TangentialStiffening::None => {}
+            TangentialStiffening::Pairs => {
+                formatter.write_str(", tangential stiffening of pairs")?
+            }
+            TangentialStiffening::Every => formatter.write_str(", tangential stiffening")?,
+        }
+        match self.damping {
+            DampingGrowth::ConstantRatio => Ok(()),
+            DampingGrowth::Viscoelastic => formatter.write_str(", viscoelastic damping"),
         }
     }
 }
@@ -345,6 +421,9 @@ pub struct ContactLaw<N = f64> {
     /// Whether k_t is multiplied by 2/(2 − δ).
     #[serde(skip)]
     pub stiffens: bool,
+    /// Growth of η_n and η_t.
+    #[serde(skip)]
+    pub damping: DampingGrowth,
     /// What the tangential spring remembers.
     #[serde(skip)]
     pub history: TangentialHistory,
@@ -373,6 +452,7 @@ impl<N> ContactLaw<N> {
             damping_tangential: number(self.damping_tangential),
             power: self.power,
             stiffens: self.stiffens,
+            damping: self.damping,
             history: self.history,
         }
     }
@@ -394,11 +474,14 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
             damping_tangential: self.damping_tangential,
         };
         if let Some(factor) = self.power.steepened(overlap, &root) {
-            let root = root(factor);
+            let growth = match self.damping {
+                DampingGrowth::ConstantRatio => root(factor),
+                DampingGrowth::Viscoelastic => factor,
+            };
             own.secant = own.secant * factor;
             own.tangential_stiffness = own.tangential_stiffness * factor;
-            own.damping_normal = own.damping_normal * root;
-            own.damping_tangential = own.damping_tangential * root;
+            own.damping_normal = own.damping_normal * growth;
+            own.damping_tangential = own.damping_tangential * growth;
         }
         if self.stiffens {
             let factor = stiffening(overlap);
@@ -411,7 +494,7 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
 
 impl ContactLaw {
     /// A contact whose normal force is K δᵖ, of stiffness ratio κ and restitution e_r.
-    fn new(law: &Law, scale: f64, stiffness_ratio: f64, restitution: f64) -> Self {
+    fn new(law: &Law, scale: f64, stiffness_ratio: f64, restitution: f64, stiffens: bool) -> Self {
         let power = law.power.value();
         let stiffness = power * scale;
         let tangential_stiffness = stiffness / stiffness_ratio;
@@ -422,7 +505,8 @@ impl ContactLaw {
             damping_normal: damping(stiffness),
             damping_tangential: damping(tangential_stiffness),
             power: law.power,
-            stiffens: law.tangential_stiffening,
+            stiffens,
+            damping: law.damping,
             history: law.history,
         }
     }
@@ -579,7 +663,7 @@ mod tests {
     #[test]
     fn steepening_is_the_logarithmic_slope_of_the_tangential_stiffness() {
         for power in Power::ALL {
-            for tangential_stiffening in [false, true] {
+            for tangential_stiffening in TangentialStiffening::ALL {
                 let law = Law {
                     tangential_stiffening,
                     ..Law::of_power(power)
@@ -609,7 +693,7 @@ mod tests {
         assert_eq!(floor.tangential_stiffness, 3.0 * floor.normal_stiffness);
         assert_eq!(law.lowest_stiffness_ratio(2.0), 0.5);
         let stiffened = Law {
-            tangential_stiffening: true,
+            tangential_stiffening: TangentialStiffening::Every,
             ..law
         };
         assert_eq!(stiffened.lowest_stiffness_ratio(0.4), 0.2);
@@ -655,11 +739,12 @@ mod tests {
             history: TangentialHistory::Force,
             floor_ratio: 1.0,
             floor_kappa: Some(2.0),
-            tangential_stiffening: true,
+            tangential_stiffening: TangentialStiffening::Every,
+            damping: DampingGrowth::Viscoelastic,
         };
         let shown = law.to_string();
         assert!(shown.starts_with("law power 1.25, force history, floor ratio 1, floor kappa 2"));
-        assert!(shown.ends_with("tangential stiffening"));
+        assert!(shown.ends_with("tangential stiffening, viscoelastic damping"));
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod contact_test;
 mod convention;
 mod digest;
 mod law;
+mod material;
 mod protocol;
 mod pyramid;
 mod shortcuts;
@@ -30,7 +31,11 @@ pub use convention::{
     TensileForce,
 };
 pub use digest::sha256_hex;
-pub use law::{ContactCoefficients, ContactLaw, Law, Power, TangentialHistory};
+pub use law::{
+    ContactCoefficients, ContactLaw, DampingGrowth, Law, Power, TangentialHistory,
+    TangentialStiffening,
+};
+pub use material::Material;
 pub(crate) use protocol::smooth_step;
 pub use protocol::{Preparation, PreparationSteps, Protocol, Sampling, Schedule};
 pub use pyramid::Pyramid;

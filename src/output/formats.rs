@@ -121,9 +121,14 @@ fn task() -> DataTable<'static> {
     );
     for parameter in PARAMETERS {
         let kinds: Vec<&str> = parameter.tasks.iter().map(|kind| kind.as_str()).collect();
-        let meaning = match kinds.len() == TaskKind::ALL.len() {
+        let mut notes = Vec::new();
+        if kinds.len() < TaskKind::ALL.len() {
+            notes.push(kinds.join(", "));
+        }
+        notes.extend(parameter.laws.limits().map(str::to_owned));
+        let meaning = match notes.is_empty() {
             true => parameter.meaning.to_owned(),
-            false => format!("{} ({})", parameter.meaning, kinds.join(", ")),
+            false => format!("{} ({})", parameter.meaning, notes.join("; ")),
         };
         columns = columns
             .number(parameter.name, parameter.unit, |()| f64::NAN)

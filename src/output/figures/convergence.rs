@@ -6,6 +6,7 @@ use super::codes;
 use super::panel::{Anchor, Panel, Point, Stroke};
 use super::style::{GUIDE, THIN, THIN_DASHED};
 use crate::code::Code;
+use crate::model::Power;
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
 
@@ -33,7 +34,7 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
         PAPER_TIME_STEP, PAPER_TIME_STEP
     );
     peaks.key_at(0.03, 0.02);
-    for code in Code::all() {
+    for code in Code::of_power(Power::Linear) {
         if study.time_steps.iter().any(|point| point.code == code) {
             codes::name(&mut peaks, code);
         }
@@ -98,7 +99,7 @@ fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
 
 /// The runs of every code.
 fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
-    for code in Code::all() {
+    for code in Code::of_power(Power::Linear) {
         let mut points = runs(code);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
         codes::runs(panel, stroke, code, &points);

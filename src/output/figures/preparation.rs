@@ -6,6 +6,7 @@ use super::codes;
 use super::panel::{Anchor, Panel};
 use super::style::{EXACT, GUIDE, THIN};
 use crate::code::Code;
+use crate::model::Power;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
 /// c(A) and F(A) of every code with a deck for side walls, at the first stack of the study.
@@ -28,7 +29,7 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
         force.level(EXACT, exact);
         force.words_on("gravity ramp, exact", exact);
     }
-    for code in Code::all() {
+    for code in Code::of_power(Power::Linear) {
         let rows = || study.rows_of(code, code).filter(|row| row.push.is_some());
         if rows().next().is_none() {
             continue;

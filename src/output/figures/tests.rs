@@ -3,7 +3,7 @@
 use super::style::Mark;
 use super::*;
 use crate::code::{Code, Interrupt};
-use crate::model::Stack;
+use crate::model::{Power, Stack};
 use crate::paper::reproduction::{
     Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, TheoryPoint, snapshots,
 };
@@ -66,7 +66,7 @@ fn preparation() -> PreparationStudy {
 
 /// Every code at every friction, with LAMMPS having failed.
 fn judgements() -> Vec<Judgement> {
-    let codes = Code::all().into_iter();
+    let codes = Code::of_power(Power::Linear).into_iter();
     let rows = codes.flat_map(|code| {
         let force = (code != Code::named("lammps").unwrap()).then_some(4.0);
         FRICTIONS.map(|mu| judgement(code, mu, force))

@@ -251,8 +251,8 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means("K of the floor over K of cylinders")
             .number("floor_kappa", "1", move |row| law(row).floor_kappa)
             .means("stiffness ratio of the floor; absent where it is that of cylinders")
-            .text("tangential_stiffening", move |row| law(row).tangential_stiffening)
-            .means("whether k_t is multiplied by 2/(2 − overlap)")
+            .text("tangential_stiffening", move |row| law(row).tangential_stiffening.as_str())
+            .means("contacts whose k_t is multiplied by 2/(2 − overlap): none, those of pairs, or every one")
     }
 
     /// The code of a row.

@@ -1,7 +1,7 @@
 //! Curves of theory over the whole range of the figures.
 
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 
@@ -110,7 +110,7 @@ pub fn curves() -> Curves {
 pub(crate) fn codes_by_arms() -> Vec<Vec<Code>> {
     let arms = |code: Code| code.convention().arms;
     let mut groups: Vec<Vec<Code>> = Vec::new();
-    for code in Code::all() {
+    for code in Code::of_power(Power::Linear) {
         let own = groups.iter_mut().find(|group| arms(group[0]) == arms(code));
         match own {
             Some(group) => group.push(code),

@@ -96,7 +96,7 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
 /// The passport of `code`, of which the probe has shown `findings`.
 pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
     let measured = &findings.measured;
-    let others = Code::all()
+    let others = Code::of_power(code.convention().law.power)
         .into_iter()
         .filter(|other| other.is_built_in() && !other.accepts_any_convention() && *other != code);
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {

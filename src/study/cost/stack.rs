@@ -3,7 +3,7 @@
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget, TimedRuns, convention};
 use crate::code::{Code, RunContext};
-use crate::model::{Case, Preparation, Protocol, Sampling, Stack};
+use crate::model::{Case, Power, Preparation, Protocol, Sampling, Stack};
 use crate::runs::RunSummary;
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{Measurement, extrapolate, plan};
@@ -58,7 +58,7 @@ pub struct StackCost {
 
 /// The codes that are installed, of each the first variant.
 pub(crate) fn installed_codes() -> Vec<Code> {
-    let codes = Code::all().into_iter();
+    let codes = Code::of_power(Power::Linear).into_iter();
     let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
     installed.collect()
 }

@@ -3,7 +3,7 @@
 use super::memory::{Processes, with_peak};
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext};
 use crate::files::FileError;
-use crate::model::{Case, ContactConvention};
+use crate::model::{Case, ContactConvention, Power};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -140,7 +140,10 @@ pub(super) fn convention(code: Code) -> ContactConvention {
     if code != Code::NATIVE {
         return own;
     }
-    let others = Code::all().into_iter().skip(1).map(Code::convention);
+    let others = Code::of_power(Power::Linear)
+        .into_iter()
+        .skip(1)
+        .map(Code::convention);
     let mut others = others.filter(|other| other.arms == own.arms);
     others.next().unwrap_or(own)
 }

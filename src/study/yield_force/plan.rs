@@ -312,10 +312,11 @@ fn rounded(value: f64) -> f64 {
 mod tests {
     use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
     use super::*;
+    use crate::model::Power;
 
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
-        for stack in crate::study::yield_force::Profile::Quick.stacks() {
+        for stack in crate::study::yield_force::Profile::Quick.stacks(Power::Linear) {
             let measurement = plan(
                 Code::named("yade").unwrap(),
                 &stack,
@@ -349,7 +350,7 @@ mod tests {
     #[test]
     fn walls_of_the_figure_are_gentle_as_they_are() {
         let profile = crate::study::yield_force::Profile::Standard;
-        for plan in profile.measurements(&Code::all()) {
+        for plan in profile.measurements(&Code::of_power(Power::Linear)) {
             let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
             let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
             let expected = SPEEDS.map(|speed| rounded(speed * scale));

@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::output::DataTable;
 use crate::output::number::{digits, percent};
 use crate::output::table::Columns;
@@ -164,7 +164,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
     })
     .means("exact quasi-static limit under the paper's convention")
     .shown_as("exact limit", digits::<7>);
-    for code in Code::all() {
+    for code in Code::of_power(Power::Linear) {
         columns = columns
             .number(code.as_str(), "m g", move |theory| {
                 let stack = &theory.stack;

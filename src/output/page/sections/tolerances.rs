@@ -2,6 +2,7 @@
 
 use super::super::document::{Block, Section};
 use crate::code::Code;
+use crate::model::Power;
 use crate::output::number::{friction, one_digit};
 use crate::output::table::Columns;
 use crate::output::{DataTable, crosscheck};
@@ -23,7 +24,7 @@ pub(super) struct Agreement {
 impl Agreement {
     /// One for every code with rows among `judgements`.
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
-        let codes = Code::all().into_iter();
+        let codes = Code::of_power(Power::Linear).into_iter();
         let all = codes.map(|code| {
             let rows = judgements.iter();
             let rows: Vec<_> = rows.filter(|row| row.code == code).collect();

@@ -5,8 +5,7 @@ use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::Code;
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, Law, Material,
-    PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Power, Stack, TangentialHistory,
-    TangentialStiffening,
+    PAPER_CYLINDER_FRICTION, Power, Stack, TangentialHistory, TangentialStiffening,
 };
 use crate::output::{DataTable, json};
 use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
@@ -96,10 +95,8 @@ pub(super) struct StackOptions {
 impl StackOptions {
     /// The stiffness ratio of pairs, in a law of this power.
     pub fn kappa(&self, power: Power) -> f64 {
-        self.kappa.unwrap_or(match power {
-            Power::Linear => PAPER_STIFFNESS_RATIO,
-            _ => Material::USUAL_STIFFNESS_RATIO,
-        })
+        self.kappa
+            .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
     }
 
     /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.

@@ -21,6 +21,13 @@ pub const EXPONENT: &str = "_stiffness_exponent";
 /// Name of that exponent of the tangential stiffness, without the kind of contact.
 pub const TANGENTIAL_EXPONENT: &str = "tangential_stiffness_exponent";
 
+/// Name of the exponent of the normal force, without the kind of contact.
+pub const FORCE_EXPONENT: &str = "normal_force_exponent";
+
+/// Names of the exponents with which damping grows with the overlap, without the kind of contact.
+pub const NORMAL_DAMPING_EXPONENT: &str = "normal_damping_exponent";
+pub const TANGENTIAL_DAMPING_EXPONENT: &str = "tangential_damping_exponent";
+
 /// Ends the name of the coefficient c with which a surface that turns by d in a step moves by d + c d³.
 pub const CUBED_TURN: &str = "cubed_turn";
 /// Turn of a step up to which such a coefficient has to be known well enough, larger than those of stacks.
@@ -48,9 +55,10 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// That a stiffness changes with the overlap, in words, if it is this that was found.
+    /// That a stiffness which is meant to be constant changes with the overlap, in words, if it is this that was found.
     pub fn growth(&self) -> Option<String> {
         let stiffness = self.property.strip_suffix(EXPONENT)?;
+        self.declared.filter(|declared| *declared == 0.0)?;
         let (kind, direction) = stiffness.split_once('_')?;
         let k = if direction == "normal" { "k_n" } else { "k_t" };
         let exponent = self.measured?;

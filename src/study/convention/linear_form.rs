@@ -1,7 +1,9 @@
 //! The linear form in which the law of a sticking contact is fitted to its rows.
 
+use super::beside::fit_beside;
 use super::contact_frame::ContactRow;
 use super::regression::{Measured, deviations, fit_rows};
+use super::shape::{Growth, Memory};
 
 /// Fraction of Coulomb's limit up to which rows count as sticking.
 const CERTAINLY_STICKING: f64 = 0.5;
@@ -23,8 +25,12 @@ const ROUNDS: usize = 3;
 /// What a law has beyond its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Form {
-    /// The stiffness grows with this power of the overlap.
-    pub exponent: f64,
+    /// Growth of the stiffness.
+    pub stiffness: Growth,
+    /// Growth of the damping.
+    pub damping: Growth,
+    /// What the spring remembers.
+    pub memory: Memory,
     /// Whether the motion of a surface has a term of third order in the angle by which it turns in a step.
     pub third_order: bool,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
@@ -32,9 +38,11 @@ pub struct Form {
 }
 
 impl Form {
-    /// A constant stiffness, a surface that moves by R ω dt, a spring that keeps its length.
+    /// Constant coefficients, a surface that moves by R ω dt, a spring that keeps its length.
     pub const PLAIN: Self = Self {
-        exponent: 0.0,
+        stiffness: Growth::NONE,
+        damping: Growth::NONE,
+        memory: Memory::DISPLACEMENT,
         third_order: false,
         transport: 0.0,
     };
@@ -46,23 +54,26 @@ impl Form {
         }
     }
 
+    /// How many coefficients are fitted to `motions`, with the initial forces of their springs.
+    pub fn columns(self, motions: &[&[ContactRow]]) -> usize {
+        self.coefficients() + motions.len()
+    }
+
     /// The coefficients that fit `motions`, and the initial forces of their springs; `radius` is R at vanishing overlap.
     pub fn fit(self, motions: &[&[ContactRow]], radius: f64) -> Vec<Measured> {
-        let columns = self.coefficients() + motions.len();
-        fit_rows(&self.terms(motions, radius), columns)
+        fit_rows(&self.terms(motions, radius), self.columns(motions))
     }
 
     /// What the best fit leaves of the forces ([`deviations`]).
     pub fn deviations(self, motions: &[&[ContactRow]], radius: f64) -> Option<(f64, f64)> {
-        let columns = self.coefficients() + motions.len();
-        deviations(&self.terms(motions, radius), columns)
+        deviations(&self.terms(motions, radius), self.columns(motions))
     }
 
     /// The transport that fits best beside all coefficients. What rounding leaves adds up in a spring, so that a whole motion
     /// counts as one number in its uncertainty.
     pub fn fit_transport(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
-        let with = |transport| Self { transport, ..self };
-        let found = fit_beside(self.transport, 1.0, with, motions, radius);
+        let with = |[transport]: [f64; 1]| Self { transport, ..self }.terms(motions, radius);
+        let [found] = fit_beside([self.transport], 1.0, ROUNDS, self.columns(motions), with).others;
         let rows: usize = motions.iter().map(|rows| rows.len()).sum();
         let alike = (rows as f64 / motions.len() as f64).sqrt();
         Measured::new(found.value, found.uncertainty * alike)
@@ -70,12 +81,39 @@ impl Form {
 
     /// The exponent that fits best beside all coefficients, near that of the form.
     pub fn fit_exponent(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
-        let with = |exponent| Self { exponent, ..self };
-        fit_beside(self.exponent, EXPONENT_STEP, with, motions, radius)
+        let with = |[exponent]: [f64; 1]| self.with_exponent(exponent).terms(motions, radius);
+        let start = [self.stiffness.exponent];
+        let [found] = fit_beside(start, EXPONENT_STEP, ROUNDS, self.columns(motions), with).others;
+        found
+    }
+
+    /// The same with another exponent of the stiffness.
+    pub fn with_exponent(self, exponent: f64) -> Self {
+        let stiffness = Growth {
+            exponent,
+            ..self.stiffness
+        };
+        Self { stiffness, ..self }
+    }
+
+    /// The factor with which a displacement enters what the spring remembers.
+    pub fn remembered(self, row: &ContactRow) -> f64 {
+        libm::pow(self.stiffness.at(row.overlap), self.memory.force_share)
+    }
+
+    /// The factor with which what the spring remembers gives its force, beside k_t at an overlap of 1.
+    pub fn exerted(self, row: &ContactRow) -> f64 {
+        let share = 1.0 - self.memory.force_share;
+        libm::pow(self.stiffness.at(row.overlap), share)
+    }
+
+    /// The factor by which what the spring remembers changes between two rows.
+    pub fn carried(self, before: &ContactRow, row: &ContactRow) -> f64 {
+        self.memory.rescaled(before, row) * carried(before, row, self.transport)
     }
 
     /// Terms and force of every row.
-    fn terms(self, motions: &[&[ContactRow]], radius: f64) -> Vec<(Vec<f64>, f64)> {
+    pub fn terms(self, motions: &[&[ContactRow]], radius: f64) -> Vec<(Vec<f64>, f64)> {
         let coefficients = self.coefficients();
         let mut rows = Vec::new();
         for (index, motion) in motions.iter().enumerate() {
@@ -83,19 +121,22 @@ impl Form {
             let mut initial = 1.0;
             let mut before: Option<&ContactRow> = None;
             for row in *motion {
-                let factor = before.map_or(1.0, |before| carried(before, row, self.transport));
+                let factor = before.map_or(1.0, |before| self.carried(before, row));
                 let speeds = speeds(row);
+                let entering = row.time_step * self.remembered(row);
                 for (sum, speed) in growth.iter_mut().zip(speeds) {
-                    *sum = *sum * factor - speed * row.time_step;
+                    *sum = *sum * factor - speed * entering;
                 }
                 initial *= factor;
-                let stiffer = libm::pow(row.overlap, self.exponent);
+                let stiffer = self.exerted(row);
+                let damped = self.damping.at(row.overlap);
                 let [across, spin, spin_overlap, cubed, cubed_overlap] =
                     growth.map(|spring| spring * stiffer);
                 // Translation and spin are coupled by the contact force itself; the damping of each cannot
                 // be told apart, and belongs to the radius of the torque.
-                let damping = -(speeds[0] + radius * speeds[1]);
-                let mut terms = vec![across, spin, spin_overlap, damping, -speeds[2]];
+                let damping = -(speeds[0] + radius * speeds[1]) * damped;
+                let damping_overlap = -speeds[2] * damped;
+                let mut terms = vec![across, spin, spin_overlap, damping, damping_overlap];
                 terms.extend([cubed, cubed_overlap]);
                 terms.truncate(coefficients);
                 terms.resize(coefficients + motions.len(), 0.0);
@@ -106,34 +147,6 @@ impl Form {
         }
         rows
     }
-}
-
-/// The number that fits best beside all coefficients of the form `with` it, by Gauss–Newton from `start`; the slope is that
-/// over one `step`.
-fn fit_beside(
-    start: f64,
-    step: f64,
-    with: impl Fn(f64) -> Form,
-    motions: &[&[ContactRow]],
-    radius: f64,
-) -> Measured {
-    let columns = with(start).coefficients() + motions.len();
-    let mut found = Measured::new(start, f64::INFINITY);
-    for _ in 0..ROUNDS {
-        let mut rows = with(found.value).terms(motions, radius);
-        let coefficients = fit_rows(&rows, columns);
-        let moved = with(found.value + step).terms(motions, radius);
-        for ((terms, _), (moved, _)) in rows.iter_mut().zip(moved) {
-            let changes = moved.iter().zip(&*terms).zip(&coefficients);
-            let change: f64 = changes
-                .map(|((moved, own), found)| (moved - own) * found.value)
-                .sum();
-            terms.push(change / step);
-        }
-        let change = fit_rows(&rows, columns + 1)[columns];
-        found = Measured::new(found.value + change.value, change.uncertainty);
-    }
-    found
 }
 
 /// v_t, −ω and −ω δ, whose combination with 1, R(0) and r₁ is w; −ω³ dt² and −ω³ dt² δ.
@@ -174,7 +187,7 @@ pub fn versine(before: &ContactRow, row: &ContactRow) -> f64 {
     0.5 * (apart[0] * apart[0] + apart[1] * apart[1])
 }
 
-/// The factor by which the spring changes its length between two rows.
+/// The factor by which a change of the normal between two rows changes the length of the spring.
 pub fn carried(before: &ContactRow, row: &ContactRow, transport: f64) -> f64 {
     1.0 + transport * versine(before, row)
 }

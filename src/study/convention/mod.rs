@@ -4,6 +4,7 @@
 //! motion; stiffness, damping and arms from linear regression of the reported forces on the reported motion. If the law
 //! is right, only rounding remains.
 
+mod beside;
 mod clock;
 mod contact_frame;
 mod experiments;
@@ -16,15 +17,18 @@ mod micro_tests;
 mod normal;
 mod passport;
 mod plan;
+mod power;
 mod probe;
 mod properties;
 mod regression;
 mod settle;
 mod settled;
+mod shape;
 mod sliding;
+mod spring_shape;
 mod tangential;
 
-pub(crate) use finding::Finding;
+pub use finding::Finding;
 pub use finding::TOLERANCE;
 pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};
 pub(crate) use measured::{

@@ -5,6 +5,8 @@ use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
 use super::normal::{self, NormalLaw, pull};
+use super::power::NormalPower;
+use super::properties::{growing_properties, power_properties};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
 use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
@@ -60,15 +62,29 @@ impl Plan {
             .iter()
             .map(|(test, motion)| contact_rows(self.kind, test, motion, clock))
             .collect();
-        let (coarse, fine) = (rows[STICKING].concat(), rows[REFINED].concat());
-        let normal = NormalLaw::read(&coarse, &fine, clock.mass.value);
         let turning = (self.kind == ContactKind::Pair).then_some(turning);
-        let test = &self.tests[0];
-        let declared = test.convention.law(test.stiffness_ratio);
-        let stiffness = declared.tangential_stiffness;
+        let (sticking, refined) = (&rows[STICKING], &rows[REFINED]);
+        let (normal, tangential) = if self.convention.law.is_linear() {
+            let (coarse, fine) = (sticking.concat(), refined.concat());
+            let normal = NormalLaw::read(&coarse, &fine, clock.mass.value);
+            let test = &self.tests[0];
+            let declared = test.convention.law(test.stiffness_ratio);
+            let stiffness = declared.tangential_stiffness;
+            let tangential = TangentialLaw::read(sticking, refined, turning, stiffness);
+            (Normal::Linear(normal), tangential)
+        } else {
+            let mass = self.kind.effective_mass(clock.mass.value);
+            let normal = NormalPower::read(&[sticking.concat(), refined.concat()].concat(), mass);
+            let stiffening = normal.stiffening();
+            let tangential = TangentialLaw::read_growing(sticking, refined, turning, stiffening);
+            (Normal::Power(normal), tangential)
+        };
         Laws {
-            pull: pull(&rows[SEPARATING], &normal),
-            tangential: TangentialLaw::read(&rows[STICKING], &rows[REFINED], turning, stiffness),
+            pull: match &normal {
+                Normal::Linear(law) => pull(&rows[SEPARATING], law),
+                Normal::Power(law) => law.pull(&rows[SEPARATING]),
+            },
+            tangential,
             normal,
             rows,
             plan: self,
@@ -82,10 +98,18 @@ fn rounded(spin: f64) -> f64 {
     format!("{spin:.10e}").parse().unwrap_or(spin)
 }
 
+/// The normal law of one kind, in the form in which it is asked for.
+enum Normal {
+    /// Linear, with any other as a deviation.
+    Linear(NormalLaw),
+    /// Any power of the overlap.
+    Power(NormalPower),
+}
+
 /// The laws of one kind.
 pub struct Laws {
     plan: Plan,
-    normal: NormalLaw,
+    normal: Normal,
     pull: Measured,
     tangential: TangentialLaw,
     rows: Vec<Vec<ContactRow>>,
@@ -132,7 +156,7 @@ impl Laws {
     /// The limit in units of the damping force, at the slip threshold.
     fn limit_over_damping(&self, row: usize, ratio: f64) -> f64 {
         let row = &self.rows[GENTLE][row];
-        let damping = self.tangential.damping.value * self.tangential.surface_speed(row);
+        let damping = self.tangential.damping_at(row) * self.tangential.surface_speed(row);
         row.friction * row.normal_force * ratio / damping.abs()
     }
 
@@ -140,19 +164,36 @@ impl Laws {
     pub fn properties(&self, near_slip: &[TestedMotion], clock: &Clock) -> Vec<Property> {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
-        let mut properties = normal_properties(kind, &self.normal, self.pull, test);
-        let growing = || normal::growth(&self.rows[STICKING].concat());
-        properties.extend(growth(&properties[0], growing));
+        let mut properties = match &self.normal {
+            Normal::Linear(law) => {
+                let mut own = normal_properties(kind, law, self.pull, test);
+                let growing = || normal::growth(&self.rows[STICKING].concat());
+                own.extend(growth(&own[0], growing));
+                own
+            }
+            Normal::Power(law) => power_properties(kind, law, self.pull, test),
+        };
         if kind == ContactKind::Wall {
             properties.extend(self.wall_properties());
             return properties;
         }
         let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
-        properties.extend(tangential_properties(kind, &self.tangential, test));
+        properties.extend(match &self.normal {
+            Normal::Linear(_) => tangential_properties(kind, &self.tangential, test),
+            Normal::Power(law) => growing_properties(kind, &self.tangential, law, test),
+        });
         let test = &self.plan.tests[SLIDING];
         properties.extend(sliding_properties(kind, &sliding, share, test));
         properties
+    }
+
+    /// The normal stiffness at an overlap of r, if the law is any power.
+    pub fn power_stiffness(&self) -> Option<Measured> {
+        match &self.normal {
+            Normal::Linear(_) => None,
+            Normal::Power(law) => Some(law.stiffness),
+        }
     }
 
     /// Friction and reported force of the top wall, which is frictionless and reports the force that it exerts.

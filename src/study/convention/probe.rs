@@ -53,7 +53,19 @@ pub fn probe<E>(
         unread = others;
         properties.extend(laws.properties(own, &clock));
     }
+    properties.extend(floor_ratio(&laws, declared));
     let properties = properties.into_iter();
     let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
     Ok(properties.collect())
+}
+
+/// K of the floor over K of pairs, where the law is any power.
+fn floor_ratio(laws: &[Laws; 3], declared: &Declaration) -> Option<Property> {
+    let of = |kind: ContactKind| {
+        let index = CONTACT_KINDS.iter().position(|own| *own == kind)?;
+        laws[index].power_stiffness()
+    };
+    let ratio = of(ContactKind::Floor)?.over(of(ContactKind::Pair)?);
+    let declared = declared.convention.law.floor_ratio;
+    Some(Property::new("floor_ratio", ratio, declared))
 }

@@ -1,12 +1,17 @@
 //! Every measured property beside the declared one.
 
 use super::experiments::ContactKind;
-use super::finding::{CUBED_TURN, EXPONENT, Property, TANGENTIAL_EXPONENT, TOLERANCE};
+use super::finding::{CUBED_TURN, EXPONENT, Property, TOLERANCE};
+use super::finding::{
+    FORCE_EXPONENT, NORMAL_DAMPING_EXPONENT, TANGENTIAL_DAMPING_EXPONENT, TANGENTIAL_EXPONENT,
+};
 use super::normal::NormalLaw;
+use super::power::NormalPower;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
-use crate::model::{ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};
+use crate::model::{ContactLaw, ContactTest, CoulombOperand, HistoryUpdate};
+use crate::model::{SlidingSpring, TensileForce};
 
 /// Alternatives of a convention, each with the value of the property that shows it: the share of the damping in the
 /// operand.
@@ -65,6 +70,53 @@ pub fn normal_properties(
     at(kind, rows)
 }
 
+/// Properties of a normal force of any power at `kind`. Codes damp such contacts in ways of their own, which
+/// no manifest declares and no limit depends on: the damping is measured alone.
+pub fn power_properties(
+    kind: ContactKind,
+    law: &NormalPower,
+    pull: Measured,
+    test: &ContactTest,
+) -> Vec<Property> {
+    let declared = declared_law(kind, test);
+    let power = declared.power.value();
+    let pulls = shown(&TENSILE_FORCES, &test.convention.tensile_force);
+    let damping = undeclared(
+        kind,
+        [
+            ("normal_damping", law.damping),
+            (NORMAL_DAMPING_EXPONENT, law.damping_exponent),
+        ],
+    );
+    let before = [
+        (FORCE_EXPONENT, law.exponent, power),
+        ("normal_stiffness", law.stiffness, declared.normal_stiffness),
+    ];
+    let after = [
+        ("overlap_lead", law.overlap_lead, 0.0),
+        ("damping_velocity_lag", law.velocity_lag, 0.5),
+        ("pull", pull, pulls),
+    ];
+    let before = at(kind, before).into_iter();
+    before.chain(damping).chain(at(kind, after)).collect()
+}
+
+/// The law that `test` asks for at `kind`.
+fn declared_law(kind: ContactKind, test: &ContactTest) -> ContactLaw {
+    match kind {
+        ContactKind::Pair => test.convention.law(test.stiffness_ratio),
+        ContactKind::Floor | ContactKind::Wall => test.convention.wall_law(test.stiffness_ratio),
+    }
+}
+
+/// The rows of `measured` without a declared value.
+fn undeclared(kind: ContactKind, measured: [(&str, Measured); 2]) -> [Property; 2] {
+    measured.map(|(name, measured)| Property {
+        declared: None,
+        ..Property::at(kind, name, measured, f64::NAN)
+    })
+}
+
 /// The exponent with which a `stiffness` that is not as declared grows with the overlap, if `growing` finds one.
 pub fn growth(stiffness: &Property, growing: impl Fn() -> Option<Measured>) -> Option<Property> {
     let name = stiffness.name.strip_suffix("_stiffness")?;
@@ -84,7 +136,7 @@ pub fn tangential_properties(
     test: &ContactTest,
 ) -> Vec<Property> {
     let convention = &test.convention;
-    let declared = convention.law(test.stiffness_ratio);
+    let declared = declared_law(kind, test);
     let (stiffness, damping) = (declared.tangential_stiffness, declared.damping_tangential);
     let arms = match kind {
         ContactKind::Pair => convention.arms.pair,
@@ -107,6 +159,69 @@ pub fn tangential_properties(
         ..Property::at(kind, CUBED_TURN, own, 0.0)
     });
     at(kind, rows).into_iter().chain(third_order).collect()
+}
+
+/// Properties of a sticking contact at `kind` beside a `normal` force of any power.
+pub fn growing_properties(
+    kind: ContactKind,
+    law: &TangentialLaw,
+    normal: &NormalPower,
+    test: &ContactTest,
+) -> Vec<Property> {
+    let Some(shape) = law.shape else {
+        return Vec::new();
+    };
+    let declared = declared_law(kind, test);
+    let exponent = declared.power.value() - 1.0;
+    let stiffening = share(declared.stiffens);
+    let ratio = declared.power.value() * declared.normal_stiffness / declared.tangential_stiffness;
+    let stiffness = [
+        (TANGENTIAL_EXPONENT, shape.stiffness_exponent, exponent),
+        ("tangential_stiffening", shape.stiffening, stiffening),
+        ("stiffness_ratio", stiffness_ratio(normal, law), ratio),
+    ];
+    let memory = [
+        (
+            "history_force_share",
+            shape.force_share,
+            share(declared.history.keeps_force()),
+        ),
+        (
+            "history_rescaling",
+            shape.rescaling,
+            share(declared.history.is_rescaled()),
+        ),
+    ];
+    let [damping, damping_exponent] = undeclared(
+        kind,
+        [
+            ("tangential_damping", law.damping),
+            (TANGENTIAL_DAMPING_EXPONENT, shape.damping_exponent),
+        ],
+    );
+    let others = tangential_properties(kind, law, test).into_iter();
+    let others = others.map(|own| match own.name == damping.name {
+        true => damping.clone(),
+        false => own,
+    });
+    // A stiffness that is the same at every overlap leaves displacement and force no difference.
+    let memory = memory.into_iter().filter(|(_, measured, _)| {
+        measured.value.is_finite() || !shape.stiffness_exponent.value.is_finite()
+    });
+    let own = at(kind, stiffness).into_iter().chain(at(kind, memory));
+    own.chain(others).chain([damping_exponent]).collect()
+}
+
+/// 1 for yes, 0 for no.
+fn share(yes: bool) -> f64 {
+    f64::from(u8::from(yes))
+}
+
+/// κ = p K/k_t.
+fn stiffness_ratio(normal: &NormalPower, law: &TangentialLaw) -> Measured {
+    let (p, k) = (normal.exponent, normal.stiffness);
+    let uncertainty = (p.value * k.uncertainty).hypot(k.value * p.uncertainty);
+    Measured::new(p.value * k.value, uncertainty).over(law.stiffness)
 }
 
 /// Properties of a sliding contact at `kind`; `operand_damping` is the share of the damping in the Coulomb operand.

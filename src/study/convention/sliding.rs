@@ -1,7 +1,6 @@
 //! The contact at Coulomb's limit: friction, operand, damping, and the length of the spring.
 
 use super::contact_frame::ContactRow;
-use super::linear_form::carried;
 use super::regression::{Measured, fit};
 use super::tangential::TangentialLaw;
 
@@ -35,7 +34,7 @@ impl SlidingLaw {
         let sliding = rows.iter().zip(&slides).filter(|(_, slides)| **slides);
         let terms: Vec<([f64; 2], f64)> = sliding
             .map(|(row, _)| {
-                let damping = law.damping.value * law.surface_speed(row).abs();
+                let damping = law.damping_at(row) * law.surface_speed(row).abs();
                 ([row.normal_force, damping], row.tangential_force.abs())
             })
             .collect();
@@ -80,9 +79,7 @@ fn memory(
     let contrast = |[_, followed, frozen]: &[f64; 3]| (frozen - followed).abs();
     let widest = lengths.max_by(|left, right| contrast(left).total_cmp(&contrast(right)));
     widest.map_or(Measured::UNKNOWN, |[length, followed, frozen]| {
-        let noise = (law.stiffness.uncertainty / law.stiffness.value
-            + law.damping.uncertainty / law.damping.value)
-            * followed.abs();
+        let noise = law.open_share() * followed.abs();
         Measured::new(length - followed, noise).over(Measured::new(frozen - followed, noise))
     })
 }
@@ -91,16 +88,14 @@ fn memory(
 /// it followed the limit, and as it was before, carried on as the contact turned.
 fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> [f64; 3] {
     let [before, last, next] = [0, stretch.len() - 2, stretch.len() - 1].map(|at| &stretch[at]);
-    let factor = carried(last, next, law.transport.value);
+    let factor = law.carried(last, next);
     let sliding = stretch[..=stretch.len() - 2].windows(2);
-    let turned: f64 = sliding
-        .map(|two| carried(&two[0], &two[1], law.transport.value))
-        .product();
-    let counted = operand_damping * law.damping.value * law.surface_speed(last);
+    let turned: f64 = sliding.map(|two| law.carried(&two[0], &two[1])).product();
+    let counted = operand_damping * law.damping_at(last) * law.surface_speed(last);
     [
-        (-law.spring_force(next) / law.stiffness_at(next) - law.spring_growth(next)) / factor,
-        -(last.tangential_force + counted) / law.stiffness_at(last),
-        -law.spring_force(before) / law.stiffness_at(before) * turned,
+        (law.length(next, law.spring_force(next)) - law.growth_of_length(next)) / factor,
+        law.length(last, last.tangential_force + counted),
+        law.length(before, law.spring_force(before)) * turned,
     ]
 }
 
@@ -112,7 +107,7 @@ pub fn largest_operand(
     operand_damping: f64,
 ) -> Option<(usize, f64)> {
     let ratio = |row: &ContactRow| {
-        let damping = law.damping.value * law.surface_speed(row);
+        let damping = law.damping_at(row) * law.surface_speed(row);
         let operand = law.spring_force(row) - operand_damping * damping;
         operand.abs() / (row.friction * row.normal_force)
     };

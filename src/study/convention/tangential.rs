@@ -7,6 +7,8 @@ use super::linear_form::{DAMPING, DAMPING_SPIN_OVERLAP, Form, SPRING, SPRING_SPI
 use super::linear_form::{SPRING_SPIN_CUBED, SPRING_SPIN_OVERLAP};
 use super::linear_form::{as_long_as, carried, cubed_turns, sticking, versine};
 use super::regression::{Measured, fit};
+use super::shape::Growth;
+use super::spring_shape::SpringShape;
 
 /// Rounds in which the transport and the other coefficients are fitted in turn; each gains some two digits.
 const ROUNDS: usize = 8;
@@ -14,14 +16,17 @@ const ROUNDS: usize = 8;
 /// f_t = −k_t u − η_t w, where the spring u grows by w dt a step and w = v_t − R ω, R = r + r₁ δ.
 ///
 /// Codes differ from it in two ways that are looked for: k_t may grow with a power of the overlap, and a surface that
-/// turns by d in a step may move by R (d + c d³).
+/// turns by d in a step may move by R (d + c d³). Where the normal force is not linear, η_t grows too, and more than a
+/// displacement may be remembered ([`Form`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialLaw {
     /// k_t; if it grows, at an overlap of 1.
     pub stiffness: Measured,
-    /// The power of the overlap with which k_t grows, if it does.
+    /// The power of the overlap with which k_t grows, if it does beside a linear normal force.
     pub exponent: Option<Measured>,
-    /// η_t.
+    /// Growth and memory beside a normal force that is not linear.
+    pub shape: Option<SpringShape>,
+    /// η_t; if it grows, at an overlap of 1.
     pub damping: Measured,
     /// R at vanishing overlap, from the torque.
     pub radius: Measured,
@@ -35,6 +40,8 @@ pub struct TangentialLaw {
     pub damping_arm: Measured,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: Measured,
+    /// The form of the best fit.
+    form: Form,
 }
 
 impl TangentialLaw {
@@ -74,6 +81,46 @@ impl TangentialLaw {
         law
     }
 
+    /// The same beside a normal force that is not linear, whose stiffness has the growth `normal`.
+    pub fn read_growing(
+        gentle: &[Vec<ContactRow>],
+        refined: &[Vec<ContactRow>],
+        turning: Option<&[ContactRow]>,
+        normal: Growth,
+    ) -> Self {
+        let [gentle, refined] = [gentle, refined].map(sticking_rows);
+        let (radius, arm) = arms_of_torque(&gentle);
+        let motions = small_turns(&gentle, &refined);
+        let fitted = |form: Form, motions: &[&[ContactRow]]| {
+            let (shape, coefficients, form) = SpringShape::fit(form, motions, radius.value);
+            let law = Self::of_coefficients(&coefficients, form, (radius, arm));
+            Self {
+                shape: Some(shape),
+                transport: shape.transport,
+                ..law
+            }
+        };
+        let start = SpringShape::start(normal, &motions, radius.value);
+        let cubed = Form {
+            third_order: true,
+            ..start
+        };
+        let (law, further) = (fitted(start, &motions), fitted(cubed, &motions));
+        let left = |law: &Self| Some(law.form.deviations(&motions, radius.value)?.0);
+        let explains = left(&further).zip(left(&law));
+        if explains.is_some_and(|(with, without)| with < EXPLAINED * without) {
+            // Where a contact turns far in a step, another term of third order may hold.
+            let transport = further.form.fit_transport(&motions, radius.value);
+            return Self {
+                transport,
+                ..further
+            };
+        }
+        let turning = turning.map(sticking).into_iter();
+        let all: Vec<&[ContactRow]> = motions.iter().copied().chain(turning).collect();
+        fitted(law.form, &all)
+    }
+
     /// The law of the same form that fits with `transport`.
     fn with_transport(
         &self,
@@ -99,15 +146,26 @@ impl TangentialLaw {
         exponent: Option<Measured>,
         (radius, torque_arm): (Measured, Measured),
     ) -> Self {
-        let form = Form {
-            exponent: exponent.map_or(0.0, |power| power.value),
-            ..form
-        };
+        let form = form.with_exponent(exponent.map_or(0.0, |power| power.value));
         let found = form.fit(motions, radius.value);
+        Self {
+            exponent,
+            ..Self::of_coefficients(&found, form, (radius, torque_arm))
+        }
+    }
+
+    /// The law with the coefficients `found` of a form.
+    fn of_coefficients(
+        found: &[Measured],
+        form: Form,
+        (radius, torque_arm): (Measured, Measured),
+    ) -> Self {
         let third_order = || found[SPRING_SPIN_CUBED].over(found[SPRING_SPIN]);
         Self {
             stiffness: found[SPRING],
-            exponent,
+            exponent: None,
+            shape: None,
+            form,
             damping: found[DAMPING],
             radius,
             torque_arm,
@@ -134,9 +192,9 @@ impl TangentialLaw {
             return None;
         }
         let radius = self.radius.value;
-        let with = |exponent| Form { exponent, ..form };
-        let found = exponent(|exponent| with(exponent).deviations(motions, radius))?;
-        Some(with(found.value).fit_exponent(motions, radius))
+        let found = exponent(|exponent| form.with_exponent(exponent).deviations(motions, radius))?;
+        let form = form.with_exponent(found.value);
+        Some(form.fit_exponent(motions, radius))
     }
 
     fn radius_at(&self, row: &ContactRow) -> f64 {
@@ -155,18 +213,36 @@ impl TangentialLaw {
         self.surface_speed(row) * row.time_step - further
     }
 
-    /// k_t at the overlap of a row.
-    pub fn stiffness_at(&self, row: &ContactRow) -> f64 {
-        self.stiffness.value * self.stiffer(row)
-    }
-
-    fn stiffer(&self, row: &ContactRow) -> f64 {
-        libm::pow(row.overlap, self.exponent.map_or(0.0, |power| power.value))
+    /// η_t at the overlap of a row.
+    pub fn damping_at(&self, row: &ContactRow) -> f64 {
+        self.damping.value * self.form.damping.at(row.overlap)
     }
 
     /// Force of the spring, −k_t u, in a row that sticks.
     pub fn spring_force(&self, row: &ContactRow) -> f64 {
-        row.tangential_force + self.damping.value * self.surface_speed(row)
+        row.tangential_force + self.damping_at(row) * self.surface_speed(row)
+    }
+
+    /// What a spring of the force `force` remembers in a row: the length that a constant stiffness has.
+    pub fn length(&self, row: &ContactRow, force: f64) -> f64 {
+        -force / (self.stiffness.value * self.form.exerted(row))
+    }
+
+    /// The growth of that in the step that leads to a row.
+    pub fn growth_of_length(&self, row: &ContactRow) -> f64 {
+        self.spring_growth(row) * self.form.remembered(row)
+    }
+
+    /// The factor by which it changes between two rows beside its growth.
+    pub fn carried(&self, before: &ContactRow, row: &ContactRow) -> f64 {
+        self.form.carried(before, row)
+    }
+
+    /// The part of such a length that its coefficients leave open.
+    pub fn open_share(&self) -> f64 {
+        self.stiffness.uncertainty / self.stiffness.value
+            + self.damping.uncertainty / self.damping.value
+            + self.shape.map_or(0.0, |shape| shape.open())
     }
 
     /// Fits the transport to one motion with a stretched spring, all other coefficients being known, by Gauss–Newton
@@ -176,7 +252,7 @@ impl TangentialLaw {
             return Measured::UNKNOWN;
         };
         let (mut initial, mut transport) = (
-            self.spring_force(first) / self.stiffer(first),
+            self.spring_force(first) / self.form.exerted(first),
             self.transport.value,
         );
         let mut found = Measured::UNKNOWN;
@@ -188,8 +264,8 @@ impl TangentialLaw {
                 let factor = carried(before, row, transport);
                 by_transport = by_transport * factor + versine(before, row) * spring;
                 by_initial *= factor;
-                spring = spring * factor - self.stiffness.value * self.spring_growth(row);
-                let stiffer = self.stiffer(row);
+                spring = spring * factor - self.stiffness.value * self.growth_of_length(row);
+                let stiffer = self.form.exerted(row);
                 let by = [by_initial, by_transport].map(|by| by * stiffer);
                 terms.push((by, self.spring_force(row) - spring * stiffer));
             }

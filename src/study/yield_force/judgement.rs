@@ -280,8 +280,8 @@ impl<'a> Reader<'a> {
         if let Some(run) = runs.iter().find(|run| !run.absent.is_empty()) {
             self.grounds.doubt_what_is_not_tested(&run.absent);
         }
-        let prepared_alike = runs.get(..SPEEDS.len()).unwrap_or_default();
-        let begun = prepared_alike.iter().map(|run| run.start);
+        let by_speed = runs.get(..SPEEDS.len()).unwrap_or_default();
+        let begun = by_speed.iter().map(|run| run.start);
         let (Some(rest), Some(begun), Some(Some(hastened))) = (
             self.measurement.limit.rest,
             begun.collect::<Option<Vec<_>>>(),
@@ -295,7 +295,7 @@ impl<'a> Reader<'a> {
         }
         for (run, start) in (1..).zip(&begun) {
             for (index, name) in ["x2", "y1", "y2"].into_iter().enumerate() {
-                let shift = (start[index] - hastened[index]).abs();
+                let shift = (begun[MIDDLE_RUN][index] - hastened[index]).abs();
                 let bound = SAFETY_OF_REST * shift + self.rest_accuracy();
                 let size = (start[index] - rest[index]).abs();
                 if size.is_nan() || size > bound {
@@ -419,7 +419,8 @@ impl<'a> Reader<'a> {
 }
 
 /// Damping along the gravity ramp leaves the stack away from rest by an amount that falls with the duration of the ramp,
-/// so that half of it shifts the start by at least as much as the whole is away from rest; twice that is allowed.
+/// so that half of it shifts the start by at least as much as the whole is away from rest; twice that is allowed, as the
+/// fastest run needs where ramps slow down with the wall: its ramp is the halved one.
 const SAFETY_OF_REST: f64 = 2.0;
 
 /// Note on rows without an onset under the wall.

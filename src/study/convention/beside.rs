@@ -1,0 +1,117 @@
+//! Least squares in a few numbers on which forces do not depend linearly, beside coefficients on which they do.
+
+use super::regression::{Measured, deviations, fit_rows};
+
+/// Terms and target of every row.
+pub type Rows = Vec<(Vec<f64>, f64)>;
+
+/// Part of the targets below which the effect of a number is that of rounding.
+const NEGLIGIBLE: f64 = 1e-9;
+/// Growth of the squared deviations from which a step is too long.
+const WORSE: f64 = 4.0;
+/// How often such a step is halved.
+const HALVINGS: usize = 8;
+
+/// The best fit.
+pub struct Beside<const N: usize> {
+    /// The numbers; unknown where they have no effect.
+    pub others: [Measured; N],
+    /// The numbers of the best fit, those of its start where they have no effect.
+    pub at: [f64; N],
+    /// The coefficients.
+    pub coefficients: Vec<Measured>,
+}
+
+/// Fits the numbers by Gauss–Newton from `start`, beside the coefficients of the `terms` that they give, so many `columns`. Slopes are those
+/// over one `step`. Uncertainties are those of all together.
+pub fn fit_beside<const N: usize>(
+    start: [f64; N],
+    step: f64,
+    rounds: usize,
+    columns: usize,
+    terms: impl Fn([f64; N]) -> Rows,
+) -> Beside<N> {
+    let mut found = Beside {
+        others: [Measured::UNKNOWN; N],
+        at: start,
+        coefficients: vec![Measured::UNKNOWN; columns],
+    };
+    for _ in 0..rounds {
+        let mut rows = terms(found.at);
+        let before = left(&rows, columns);
+        let slopes = slopes(&rows, columns, found.at, step, &terms);
+        for slope in slopes.iter().flatten() {
+            for ((terms, _), slope) in rows.iter_mut().zip(slope) {
+                terms.push(*slope);
+            }
+        }
+        let added = slopes.iter().flatten().count();
+        let fitted = fit_rows(&rows, columns + added);
+        let (coefficients, changes) = fitted.split_at(columns);
+        let mut changes = changes.iter().copied();
+        let changes = slopes.map(|slope| slope.and_then(|_| changes.next()));
+        let share = shortened(found.at, &changes, before, |at| left(&terms(at), columns));
+        found.coefficients = coefficients.to_vec();
+        for (index, change) in changes.iter().enumerate() {
+            let Some(change) = change else {
+                found.others[index] = Measured::UNKNOWN;
+                continue;
+            };
+            found.at[index] += share * change.value;
+            found.others[index] = Measured::new(found.at[index], change.uncertainty);
+        }
+    }
+    found
+}
+
+/// The slope of the fitted forces over each number, where it has an effect.
+fn slopes<const N: usize>(
+    rows: &Rows,
+    columns: usize,
+    at: [f64; N],
+    step: f64,
+    terms: &impl Fn([f64; N]) -> Rows,
+) -> [Option<Vec<f64>>; N] {
+    let coefficients = fit_rows(rows, columns);
+    let targets: f64 = rows.iter().map(|(_, target)| target * target).sum();
+    std::array::from_fn(|index| {
+        let mut moved = at;
+        moved[index] += step;
+        let moved = terms(moved);
+        let slope = rows.iter().zip(&moved).map(|((own, _), (moved, _))| {
+            let changes = moved.iter().zip(own).zip(&coefficients);
+            let change: f64 = changes
+                .map(|((moved, own), found)| (moved - own) * found.value)
+                .sum();
+            change / step
+        });
+        let slope: Vec<f64> = slope.collect();
+        let size: f64 = slope.iter().map(|own| own * own).sum();
+        (size > NEGLIGIBLE * NEGLIGIBLE * targets).then_some(slope)
+    })
+}
+
+/// The share of the changes that is taken: all, or so little that the deviations do not grow much from those `before`.
+fn shortened<const N: usize>(
+    at: [f64; N],
+    changes: &[Option<Measured>; N],
+    before: f64,
+    left: impl Fn([f64; N]) -> f64,
+) -> f64 {
+    let mut share = 1.0;
+    for _ in 0..HALVINGS {
+        let moved = std::array::from_fn(|index| {
+            at[index] + changes[index].map_or(0.0, |change| share * change.value)
+        });
+        if left(moved) < WORSE * before {
+            break;
+        }
+        share *= 0.5;
+    }
+    share
+}
+
+/// Mean square of what the best coefficients leave of the targets.
+fn left(rows: &Rows, columns: usize) -> f64 {
+    deviations(rows, columns).map_or(f64::INFINITY, |(mean, _)| mean)
+}

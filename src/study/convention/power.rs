@@ -1,0 +1,106 @@
+//! The normal law of any power: exponent, stiffness, and how the damping grows with the overlap.
+
+use super::beside::{Rows, fit_beside};
+use super::contact_frame::ContactRow;
+use super::regression::{Measured, deviations};
+use super::shape::Growth;
+
+/// Exponents of the force from which the search begins.
+const POWERS: [f64; 5] = [1.0, 1.25, 1.5, 1.75, 2.0];
+/// Growths of the damping from which it begins, in units of that of the stiffness p − 1: constant damping, constant
+/// damping ratio, viscoelastic damping.
+const DAMPINGS: [f64; 3] = [0.0, 0.5, 1.0];
+/// Step over which slopes are taken, and steps of Gauss–Newton, of which each gains at least two digits.
+const STEP: f64 = 1e-4;
+const ROUNDS: usize = 8;
+/// K and η_n.
+const COEFFICIENTS: usize = 2;
+
+/// f_n = K δᵖ(t + o dt) − η_n δˢ v_n(t − λ dt).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalPower {
+    /// p.
+    pub exponent: Measured,
+    /// K.
+    pub stiffness: Measured,
+    /// η_n at an overlap of 1.
+    pub damping: Measured,
+    /// s.
+    pub damping_exponent: Measured,
+    /// o, lead of the overlap in the force over the reported one, in steps.
+    pub overlap_lead: Measured,
+    /// λ, lag of the velocity in the force behind the reported overlap, in steps.
+    pub velocity_lag: Measured,
+    /// p and s of the best fit.
+    at: [f64; 2],
+}
+
+impl NormalPower {
+    /// Fits rows with two time steps; `mass` is the effective mass of the contact.
+    pub fn read(rows: &[ContactRow], mass: f64) -> Self {
+        let pressed: Vec<&ContactRow> = rows.iter().filter(|row| row.normal_force > 0.0).collect();
+        let with = |numbers| terms(&pressed, mass, numbers);
+        let found = fit_beside(start(&with), STEP, ROUNDS, COEFFICIENTS, with);
+        let [exponent, damping_exponent, overlap_lead, velocity_lag] = found.others;
+        Self {
+            exponent,
+            stiffness: found.coefficients[0],
+            damping: found.coefficients[1],
+            damping_exponent,
+            overlap_lead,
+            velocity_lag,
+            at: [found.at[0], found.at[1]],
+        }
+    }
+
+    /// Growth of the stiffness dN/dδ, as the best fit has it.
+    pub fn stiffening(&self) -> Growth {
+        Growth {
+            exponent: self.at[0] - 1.0,
+            ..Growth::NONE
+        }
+    }
+
+    /// The part of a pulling normal force that is exerted, in the first row of a fast separation.
+    pub fn pull(&self, rows: &[ContactRow]) -> Measured {
+        let Some(row) = rows.first() else {
+            return Measured::UNKNOWN;
+        };
+        let [p, s] = self.at.map(|exponent| libm::pow(row.overlap, exponent));
+        let (spring, damping) = (
+            self.stiffness.value * p,
+            self.damping.value * s * row.separation_speed,
+        );
+        let log = libm::log(row.overlap).abs();
+        let open = |own: Measured, exponent: Measured, part: f64| {
+            (own.uncertainty / own.value.abs() + exponent.uncertainty * log) * part.abs()
+        };
+        let uncertainty = open(self.stiffness, self.exponent, spring)
+            + open(self.damping, self.damping_exponent, damping);
+        Measured::new(row.normal_force, 0.0).over(Measured::new(spring - damping, uncertainty))
+    }
+}
+
+/// The exponents from which the search begins: those of the table that fit best, of a code that is timed as usual.
+fn start(with: &impl Fn([f64; 4]) -> Rows) -> [f64; 4] {
+    let left = |numbers: &[f64; 4]| {
+        deviations(&with(*numbers), COEFFICIENTS).map_or(f64::INFINITY, |(mean, _)| mean)
+    };
+    let powers = POWERS
+        .iter()
+        .flat_map(|&power| DAMPINGS.map(|damping| [power, damping * (power - 1.0), 0.0, 0.5]));
+    let best = powers.min_by(|one, other| left(one).total_cmp(&left(other)));
+    best.unwrap_or([1.0, 0.0, 0.0, 0.5])
+}
+
+/// Terms and force of every row, at p, s, o and λ.
+fn terms(rows: &[&ContactRow], mass: f64, [p, s, lead, lag]: [f64; 4]) -> Rows {
+    let terms = rows.iter().map(|row| {
+        let earlier = (0.5 - lag) * row.time_step;
+        let speed = row.separation_speed + earlier * row.normal_force / mass;
+        let overlap = row.overlap - lead * row.time_step * row.separation_speed;
+        let damping = -speed * libm::pow(overlap, s);
+        (vec![libm::pow(overlap, p), damping], row.normal_force)
+    });
+    terms.collect()
+}

@@ -28,7 +28,7 @@ pub(super) static BUILT_IN: [BuiltIn; 7] = [
     folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "law.py" "cases.py"),
     folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
     folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in"),
-    folder!("yade_scripts/hertz", "code.toml" "law.py"),
+    folder!("yade_scripts/hertz", "code.toml" "law.py" "probe.py"),
     folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in"),
 ];
 

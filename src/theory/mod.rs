@@ -2,6 +2,7 @@
 
 mod arms;
 mod closing;
+mod cycle;
 mod events;
 mod floor_slip;
 mod limit;
@@ -17,6 +18,7 @@ mod small_displacement;
 
 pub use arms::limit_uncertainty;
 use closing::closing_limit;
+pub use cycle::{CycleOrder, cycle_work};
 pub use events::Event;
 pub use floor_slip::{floor_slip_force, floor_slip_forces};
 pub use limit::Limit;

@@ -13,6 +13,7 @@ use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, PyramidRun, Series};
 use tristack::study::MIN_TOLERANCE;
 use tristack::study::convention::{Findings, passport, probe_all};
+use tristack::study::impact::plan_impacts;
 use tristack::study::preparation::plan_preparation;
 use tristack::study::regimes::{SurveyPlan, survey};
 use tristack::study::trajectory::plan_trajectory;
@@ -435,6 +436,8 @@ fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
         assert_not_judged(&campaign.carry_out(vec![trajectory]));
         let preparation = plan_preparation(native, native, &stack, Some(0.0));
         assert_not_judged(&campaign.carry_out(vec![preparation]));
+        let impact = plan_impacts(native, convention).swap_remove(0);
+        assert_not_judged(&campaign.carry_out(vec![impact]));
         let survey = survey(&SurveyPlan::new(&[], &[stack]), &campaign).expect("a survey");
         let verdicts: Vec<Verdict> = survey.verdicts().collect();
         assert_eq!(verdicts, [Verdict::Inconclusive]);

@@ -13,7 +13,10 @@ use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::Power;
-use crate::output::{budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json};
+use crate::output::{
+    budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json, laws_markdown,
+    laws_svg,
+};
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement};
 use crate::study::{Campaign, Verdict};
@@ -40,7 +43,7 @@ pub(super) struct Arguments {
     law: Power,
     #[command(flatten)]
     codes: CodeOptions,
-    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv
+    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv, with other laws laws.md and laws.svg as well
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
@@ -91,9 +94,19 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 
 /// The files that [`publish`] writes.
 pub(super) fn layout() -> Layout {
-    let files = ["crosscheck.csv", "budget.csv", "crosscheck.md"];
+    let files = [
+        "crosscheck.csv",
+        "budget.csv",
+        "crosscheck.md",
+        LAWS,
+        LAWS_FIGURE,
+    ];
     Layout::tables("crosscheck.json", &files)
 }
+
+/// The page on what contact laws do, and its figure.
+const LAWS: &str = "laws.md";
+const LAWS_FIGURE: &str = "laws.svg";
 
 /// Prints the rows, and writes them if there is a directory.
 pub(super) fn publish(
@@ -106,12 +119,18 @@ pub(super) fn publish(
     let people = || crosscheck_text(judgements);
     let printed = format.print(&tables, command, people);
     let written = out.write(|| {
-        vec![
+        let mut files = vec![
             ("crosscheck.csv", tables[0].csv()),
             ("budget.csv", budget(judgements).csv()),
             ("crosscheck.json", json(&tables, command)),
             ("crosscheck.md", crosscheck_markdown(judgements, command)),
-        ]
+        ];
+        let is_linear = |row: &Judgement| row.study.convention.law.power == Power::Linear;
+        if !judgements.iter().any(is_linear) {
+            files.push((LAWS, laws_markdown(judgements, LAWS_FIGURE, command)));
+            files.push((LAWS_FIGURE, laws_svg(judgements)));
+        }
+        files
     });
     printed.max(written)
 }

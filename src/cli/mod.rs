@@ -10,6 +10,7 @@ mod crosscheck;
 mod error;
 mod explain;
 mod guard;
+mod impacts;
 mod interrupt;
 mod judge;
 mod judge_series;
@@ -61,6 +62,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Crosscheck(crosscheck::Arguments),
     Trajectories(trajectories::Arguments),
+    Impacts(impacts::Arguments),
     Codes(codes::Arguments),
     Check(check::Arguments),
     Probe(probe::Arguments),
@@ -118,6 +120,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Sweep(arguments) => sweep::run(&arguments, command),
         Command::Crosscheck(arguments) => crosscheck::run(&arguments, command),
         Command::Trajectories(arguments) => trajectories::run(&arguments, command),
+        Command::Impacts(arguments) => impacts::run(&arguments, command),
         Command::Codes(arguments) => codes::run(&arguments, command),
         Command::Check(arguments) => check::run(&arguments, command),
         Command::Probe(arguments) => probe::run(&arguments, command),

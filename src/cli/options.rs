@@ -5,8 +5,7 @@ use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::Code;
 use crate::model::{
     Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, InvalidValue, Law, Material,
-    PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO, Power, Stack, TangentialHistory,
-    TangentialStiffening,
+    PAPER_CYLINDER_FRICTION, Power, Stack, TangentialHistory, TangentialStiffening,
 };
 use crate::output::{DataTable, json};
 use crate::runs::{Recorded, SelectedCode, Settings, Sharing, Store, in_parallel};
@@ -96,10 +95,8 @@ pub(super) struct StackOptions {
 impl StackOptions {
     /// The stiffness ratio of pairs, in a law of this power.
     pub fn kappa(&self, power: Power) -> f64 {
-        self.kappa.unwrap_or(match power {
-            Power::Linear => PAPER_STIFFNESS_RATIO,
-            _ => Material::USUAL_STIFFNESS_RATIO,
-        })
+        self.kappa
+            .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
     }
 
     /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
@@ -328,9 +325,15 @@ fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
 }
 
 impl LawOptions {
-    /// `own` with the given parts; a given power brings the other parts that are usual with it.
+    /// The power, if it is given.
+    pub fn power(&self) -> Option<Power> {
+        self.law
+    }
+
+    /// `own` with the given parts; another power brings the other parts that are usual with it.
     fn over(&self, own: Law) -> Law {
-        let base = self.law.map_or(own, Law::of_power);
+        let other = self.law.filter(|power| *power != own.power);
+        let base = other.map_or(own, Law::of_power);
         Law {
             power: base.power,
             history: self.history.unwrap_or(base.history),

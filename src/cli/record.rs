@@ -6,6 +6,7 @@ use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Run};
+use crate::model::Power;
 use crate::model::shown;
 use crate::paper::reproduction::summaries_to_record;
 use crate::runs::{
@@ -23,7 +24,7 @@ use std::path::Path;
 enum Set {
     /// The answers to `tristack probe`.
     Probe,
-    /// The quick profile of `tristack crosscheck`.
+    /// The quick profile of `tristack crosscheck`, under the law of the code.
     Crosscheck,
     /// The series of `tristack trajectories`.
     Trajectories,
@@ -107,7 +108,12 @@ fn make(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<(), RunError> {
-    let wanted = |set: Set| only.is_none_or(|only| only == set);
+    // Trajectories and the report have the paper's stacks.
+    let is_paper = selected.name.has_power(Power::Linear);
+    let wanted = |set: Set| {
+        let asked = only.is_none_or(|only| only == set);
+        asked && (is_paper || matches!(set, Set::Probe | Set::Crosscheck))
+    };
     if wanted(Set::Probe) {
         let codes = std::slice::from_ref(selected);
         let records = probe_records(codes, settings, progress).into_iter();
@@ -136,7 +142,9 @@ fn quick_profile(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<RunSummary>, RunError> {
-    let plans = Profile::Quick.measurements(&[selected.name]);
+    let power = selected.name.convention().law.power;
+    let stacks = Profile::Quick.stacks(power);
+    let plans = Profile::Quick.measurements_of(&stacks, &[selected.name], power);
     let workloads: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
     let codes = std::slice::from_ref(selected);
     let results = read_all(&workloads, codes, settings, progress);

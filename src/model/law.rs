@@ -321,12 +321,14 @@ impl Law {
         *self == Self::LINEAR
     }
 
-    /// Whether a state of equilibrium depends on the order in which contacts were pressed and sheared: a force is
-    /// remembered, and the stiffness with which it grew depends on the overlap.
-    pub(crate) fn depends_on_order(&self) -> bool {
-        let stiffens =
-            self.power != Power::Linear || self.tangential_stiffening != TangentialStiffening::None;
-        self.history.keeps_force() && stiffens
+    /// Whether gravity must be applied slowly: a force is remembered while the stiffness with which it grew depends on the
+    /// overlap, what is remembered is reduced whenever the overlap shrinks, or oscillations at small overlaps hardly die
+    /// away.
+    pub(crate) fn needs_slow_ramp(&self) -> bool {
+        let steepens = self.power != Power::Linear;
+        let stiffens = steepens || self.tangential_stiffening != TangentialStiffening::None;
+        let dies_slowly = steepens && self.damping == DampingGrowth::Viscoelastic;
+        self.history.is_rescaled() || self.history.keeps_force() && stiffens || dies_slowly
     }
 
     /// The contact of two cylinders at their stiffness ratio κ.

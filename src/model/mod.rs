@@ -10,6 +10,7 @@ mod case_file;
 mod contact_test;
 mod convention;
 mod digest;
+mod impact;
 mod law;
 mod material;
 mod protocol;
@@ -31,6 +32,7 @@ pub use convention::{
     TensileForce,
 };
 pub use digest::sha256_hex;
+pub use impact::{Impact, ImpactTarget};
 pub use law::{
     ContactCoefficients, ContactLaw, DampingGrowth, Law, Power, TangentialHistory,
     TangentialStiffening,

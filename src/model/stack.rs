@@ -1,7 +1,7 @@
 //! The dimensionless groups of the problem.
 
-use super::ContactConvention;
 use super::validity::{InvalidValue, positive, within};
+use super::{ContactConvention, Material, Power};
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -86,6 +86,14 @@ impl Stack {
             cylinder_friction: PAPER_CYLINDER_FRICTION,
             stiffness,
             stiffness_ratio: PAPER_STIFFNESS_RATIO,
+        }
+    }
+
+    /// κ where none is asked for, in a law of this power: the paper's, or that of Poisson's ratio 0.3.
+    pub fn usual_stiffness_ratio(power: Power) -> f64 {
+        match power {
+            Power::Linear => PAPER_STIFFNESS_RATIO,
+            _ => Material::USUAL_STIFFNESS_RATIO,
         }
     }
 

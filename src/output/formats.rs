@@ -3,9 +3,9 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, bench, boundaries, budget, check, crosscheck, forecasts, inventory, judged_series,
-    largest_forces, measured_convention, planned_runs, probe, pyramids, regimes, scaling,
-    simulations, theory, trajectories,
+    arm_effects, bench, boundaries, budget, check, crosscheck, forecasts, impacts, inventory,
+    judged_series, largest_forces, measured_convention, planned_runs, probe, pyramids, regimes,
+    scaling, simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::series::{Column, MotionRow, Sample};
@@ -70,6 +70,7 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         crosscheck(&[]),
         budget(&[]),
         trajectories(&[]),
+        impacts(&[]),
         check(&[]),
         probe(&[]),
         measured_convention(&[]),

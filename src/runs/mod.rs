@@ -2,6 +2,7 @@
 //! that carries out all other runs.
 
 mod entry;
+mod impacts;
 mod observations;
 mod parallel;
 mod probe_record;
@@ -11,6 +12,7 @@ mod store;
 mod summary;
 
 pub use entry::read_entry;
+pub use impacts::{ImpactReading, ImpactRun};
 pub(crate) use parallel::in_parallel;
 pub use probe_record::{Answer, ProbeRecord};
 pub(crate) use recorded::RecordedError;

@@ -178,6 +178,8 @@ struct Stack<'a> {
     start: f64,
     /// Largest frequency of the stack with all its contacts.
     frequency: f64,
+    /// k_n over the stiffness of contacts at rest, from 1 on: rounding of a force moves soft contacts so much further.
+    softness: f64,
     schedule: Schedule,
     rounding: Rounding,
     reported: Reported,
@@ -194,6 +196,7 @@ impl<'a> Stack<'a> {
             wall_law: convention.wall_law(ratio),
             start: samples.first().map_or(0.0, |first| first.y1),
             frequency: case.stack.highest_frequency(convention),
+            softness: case.stack.time_scale(convention).powi(2),
             schedule: case.protocol.schedule(),
             rounding: Rounding::read(samples),
             reported: Reported::of(samples),
@@ -322,7 +325,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found,
             expected,
-            bound: 4.0 * self.rounded(sample) + 2.0 * self.printed(),
+            bound: 4.0 * self.softness * self.rounded(sample) + 2.0 * self.printed(),
         }
     }
 

@@ -12,6 +12,7 @@ mod motion;
 mod pair_contact;
 mod polynomial;
 mod pyramid_run;
+mod rebound;
 mod reported;
 mod samples;
 
@@ -27,5 +28,6 @@ pub use mechanics::{Deviation, Law, Mechanics};
 pub use motion::{BodyRow, Motion, MotionRow};
 pub(crate) use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;
+pub use rebound::Rebound;
 pub(crate) use reported::not_tested;
 pub use samples::{Sample, Series, SeriesError};

@@ -7,6 +7,7 @@ pub mod check;
 pub mod convention;
 pub mod cost;
 mod elsewhere;
+pub mod impact;
 mod mechanics;
 mod pipeline;
 pub mod preparation;

@@ -23,7 +23,7 @@ pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Li
     Limit {
         event: Event::ContactCloses,
         time_scale: stack.time_scale(convention),
-        depends_on_preparation: convention.law.depends_on_order(),
+        needs_slow_ramp: convention.law.needs_slow_ramp(),
         ..limit
     }
 }

@@ -42,9 +42,9 @@ pub struct Limit {
     /// √(m/k) of the stack at rest, in √(m/k_n), from 1 on: what is slow for it takes so many times longer than with
     /// linear springs.
     pub time_scale: f64,
-    /// Whether it depends on the way in which gravity was applied: to the gravity ramp, on which all bodies get heavier
-    /// together and slowly.
-    pub depends_on_preparation: bool,
+    /// Whether a run reaches it only if gravity was applied slowly: what springs remember depends on the way, and the limit
+    /// is that of a gravity ramp, on which all bodies get heavier together; or oscillations die away slowly.
+    pub needs_slow_ramp: bool,
     /// Why there is no yield force.
     pub reason: Option<String>,
 }
@@ -98,7 +98,7 @@ impl Limit {
             pair_ratio: point.map(|point| point.pair_ratio),
             rest: (settled.is_finite() && !own_weight).then(|| path.point(settled).positions()),
             time_scale: 1.0,
-            depends_on_preparation: false,
+            needs_slow_ramp: false,
             reason: (!yields).then(|| explanation(event, own_weight)),
         }
     }

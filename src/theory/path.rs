@@ -236,7 +236,7 @@ pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     let slip = locate(&path, Event::FloorSlip, stack);
     Limit {
         time_scale: stack.time_scale(convention),
-        depends_on_preparation: convention.law.depends_on_order(),
+        needs_slow_ramp: convention.law.needs_slow_ramp(),
         ..Limit::of(&path, slip, stack)
     }
 }

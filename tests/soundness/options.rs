@@ -39,6 +39,7 @@ pub fn seeds() -> Vec<Seed> {
         "regimes|--points|13|--kappa|2.5|--jobs|1",
         "bench|--codes|native|--repeats|3|--pyramids",
         "trajectories|--codes|lammps",
+        "impacts|--codes|native|--law|hertz|--history|force|--out|impacts",
         "plan|--code|lammps|--mu|0.2,0.3|--stiffness|1e2|--out|away",
         "judge|away|--code-version|7.2|--out|verdict",
         "judge|--series|v4.csv|v2.csv|v1.csv|--speeds|4e-4,2e-4,1e-4|--mu|0.3|--stiffness|1e2|--coarse-step|c.csv",

@@ -5,6 +5,7 @@ mod codes;
 mod convergence;
 mod drawing;
 mod force_series;
+mod laws;
 mod model_form;
 mod panel;
 mod performance;
@@ -18,6 +19,7 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
+pub(crate) use laws::laws_svg;
 pub(crate) use performance::performance_svg;
 pub(crate) use regimes::regimes_svg;
 pub use stack::{StackPanel, representative_panels, run_svg};

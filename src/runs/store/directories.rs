@@ -10,10 +10,11 @@ use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Path, PathBuf};
 
 /// The directories in a store, each of which may be absent.
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "runs",
     "probes",
     "observations",
+    "impacts",
     "sessions",
     "work",
     "checkpoints",

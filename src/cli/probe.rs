@@ -100,6 +100,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             .growth()
             .into_iter()
             .chain(finding.time_step_effect())
+            .chain(finding.energy_made())
         {
             tell!("{}: {remark}", finding.code);
         }

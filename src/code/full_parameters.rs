@@ -132,6 +132,15 @@ parameters! {
     "vx2", SPEED, TEST, "its horizontal velocity";
     "vy2", SPEED, TEST, "its vertical velocity";
     "spin2", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
+    "leg_steps", "1", TEST where NotLinear, "steps of each of the four legs in which cylinder 1 is moved as prescribed, without rotation, and cylinder 2 held, from rest at step 0; 0 where both move freely";
+    "leg1_vx1", SPEED, TEST where NotLinear, "horizontal velocity of cylinder 1 in leg 1";
+    "leg1_vy1", SPEED, TEST where NotLinear, "its vertical velocity there";
+    "leg2_vx1", SPEED, TEST where NotLinear, "horizontal velocity of cylinder 1 in leg 2";
+    "leg2_vy1", SPEED, TEST where NotLinear, "its vertical velocity there";
+    "leg3_vx1", SPEED, TEST where NotLinear, "horizontal velocity of cylinder 1 in leg 3";
+    "leg3_vy1", SPEED, TEST where NotLinear, "its vertical velocity there";
+    "leg4_vx1", SPEED, TEST where NotLinear, "horizontal velocity of cylinder 1 in leg 4";
+    "leg4_vy1", SPEED, TEST where NotLinear, "its vertical velocity there";
     "half_width", "r", PILE, "distance of the side walls from the middle; cylinders.data has the starting positions";
     "timed_steps", "1", PILE, "steps whose duration is measured, the last ones";
 }

@@ -2,7 +2,8 @@
 
 use super::manifest_error::refused;
 use crate::model::{
-    Case, ContactConvention, ContactTest, InvalidValue, Material, PreparationSteps, Pyramid, Stack,
+    Case, ContactConvention, ContactTest, Drive, InvalidValue, Material, PreparationSteps, Pyramid,
+    Stack,
 };
 use serde_json::{Map, Value, json};
 
@@ -108,7 +109,26 @@ pub(super) fn of_contact_test(test: &ContactTest) -> Value {
         }),
         json!({ "x1": one.x, "y1": one.y, "vx1": one.vx, "vy1": one.vy, "spin1": one.spin }),
         json!({ "x2": two.x, "y2": two.y, "vx2": two.vx, "vy2": two.vy, "spin2": two.spin }),
+        of_drive(test),
     ])
+}
+
+/// The legs of a prescribed motion, which decks of the linear law do not know; no steps where both cylinders are free.
+fn of_drive(test: &ContactTest) -> Value {
+    if test.convention.law.is_linear() {
+        return json!({});
+    }
+    let free = Drive {
+        leg_steps: 0,
+        legs: [[0.0; 2]; 4],
+    };
+    let Drive { leg_steps, legs } = test.drive.unwrap_or(free);
+    let mut own = json!({ "leg_steps": leg_steps });
+    for (number, [vx, vy]) in (1..).zip(legs) {
+        own[format!("leg{number}_vx1")] = vx.into();
+        own[format!("leg{number}_vy1")] = vy.into();
+    }
+    own
 }
 
 /// The parameters of a pyramid.

@@ -43,6 +43,7 @@ pub fn witness_test(convention: ContactConvention) -> ContactTest {
         wall_height: 1.97,
         wall_speed: 0.001,
         initial_motions: [first, second],
+        drive: None,
     }
 }
 

@@ -4,7 +4,7 @@ use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::power_law::PowerLaw;
 use super::scene::{Cylinder, Scene};
 use super::wall::{Facing, PlaneWall};
-use crate::model::{ContactTest, InitialMotion};
+use crate::model::{ContactTest, Drive, InitialMotion};
 use crate::series::{Motion, MotionRow, SeriesError};
 
 const BODIES: [usize; 2] = [0, 1];
@@ -48,12 +48,26 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     scene.cylinder_friction = test.cylinder_friction;
     scene.moment_of_inertia = test.convention.moment_of_inertia;
     let rows = (0..=test.steps).map(|step| {
+        if let Some(drive) = &test.drive {
+            scene.cylinders = driven(test, drive, step);
+        }
         scene.evaluate_forces();
         let row = row(&scene, step);
         scene.advance();
         row
     });
     Motion::new(rows.collect(), test.steps)
+}
+
+/// The cylinders at a step of a prescribed motion.
+fn driven(test: &ContactTest, drive: &Drive, step: u64) -> [Cylinder; 2] {
+    let [one, other] = test.initial_motions;
+    let [distance, velocity] = drive.motion_at(step, test.time_step);
+    let moved = Cylinder {
+        velocity,
+        ..Cylinder::at(one.x + distance[0], one.y + distance[1])
+    };
+    [moved, Cylinder::at(other.x, other.y)]
 }
 
 fn launched(initial_motion: &InitialMotion) -> Cylinder {

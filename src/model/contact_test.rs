@@ -19,8 +19,19 @@ pub struct InitialMotion {
     pub spin: f64,
 }
 
-/// Two cylinders above the floor and below the top wall, without gravity, moving freely for some steps.
-/// They are placed so that one contact is closed: with the floor, with the wall, or with each other.
+/// How cylinder 1 is moved where its motion is prescribed: in four legs of as many steps, without rotation. The other
+/// cylinder is held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drive {
+    /// Steps of a leg.
+    pub leg_steps: u64,
+    /// Velocity of each leg.
+    pub legs: [[f64; 2]; 4],
+}
+
+/// Two cylinders above the floor and below the top wall, without gravity, moving for some steps, freely unless they are
+/// driven. They are placed so that one contact is closed: with the floor, with the wall, or with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactTest {
@@ -42,6 +53,28 @@ pub struct ContactTest {
     pub wall_speed: f64,
     /// How the two cylinders start.
     pub initial_motions: [InitialMotion; 2],
+    /// How cylinder 1 is moved; left out, both move freely.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive: Option<Drive>,
+}
+
+impl Drive {
+    /// Distance from the start at a step, and velocity in the step that leads to it, which is none at step 0.
+    pub(crate) fn motion_at(&self, step: u64, time_step: f64) -> [[f64; 2]; 2] {
+        let (mut distance, mut velocity) = ([0.0; 2], [0.0; 2]);
+        for (leg, own) in (0..).zip(&self.legs) {
+            let before = leg * self.leg_steps;
+            let made = step.saturating_sub(before).min(self.leg_steps) as f64;
+            let is_on_it = (before + 1..=before + self.leg_steps).contains(&step);
+            for axis in 0..2 {
+                distance[axis] += made * own[axis] * time_step;
+                if is_on_it {
+                    velocity[axis] = own[axis];
+                }
+            }
+        }
+        [distance, velocity]
+    }
 }
 
 impl ContactTest {
@@ -72,5 +105,26 @@ impl InitialMotion {
             vy: 0.0,
             spin: 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drive_makes_one_leg_after_the_other_and_rests_before_and_after() {
+        let drive = Drive {
+            leg_steps: 2,
+            legs: [[1.0, 0.5], [0.0, -2.0], [-1.0, 0.0], [0.0, 4.0]],
+        };
+        let at = |step: u64| drive.motion_at(step, 0.5);
+        assert_eq!(at(0), [[0.0; 2]; 2]);
+        assert_eq!(at(1), [[0.5, 0.25], [1.0, 0.5]]);
+        assert_eq!(at(2), [[1.0, 0.5], [1.0, 0.5]]);
+        assert_eq!(at(3), [[1.0, -0.5], [0.0, -2.0]]);
+        assert_eq!(at(5), [[0.5, -1.5], [-1.0, 0.0]]);
+        assert_eq!(at(8), [[0.0, 2.5], [0.0, 4.0]]);
+        assert_eq!(at(9), [[0.0, 2.5], [0.0; 2]]);
     }
 }

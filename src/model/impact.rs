@@ -101,6 +101,7 @@ impl Impact {
             wall_height: WALL_HEIGHT,
             wall_speed: 0.0,
             initial_motions,
+            drive: None,
         }
     }
 

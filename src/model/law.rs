@@ -207,6 +207,9 @@ pub enum DampingGrowth {
 }
 
 impl DampingGrowth {
+    /// Every growth.
+    pub const ALL: [Self; 2] = [Self::ConstantRatio, Self::Viscoelastic];
+
     /// The word of case files.
     pub const fn as_str(self) -> &'static str {
         match self {

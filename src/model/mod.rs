@@ -25,7 +25,7 @@ pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
 pub use case::{Case, CaseError};
 pub use case_file::{PartialCase, PartialProtocol};
-pub use contact_test::{ContactTest, InitialMotion};
+pub use contact_test::{ContactTest, Drive, InitialMotion};
 pub(crate) use convention::CYLINDER_INERTIA;
 pub use convention::{
     ContactConvention, CoulombOperand, HistoryUpdate, PAPER_RESTITUTION, SlidingSpring,

@@ -116,6 +116,7 @@ mod tests {
             wall_height: 9.0,
             wall_speed: 0.0,
             initial_motions: [InitialMotion::at(0.0, 2.0), InitialMotion::at(6.0, 2.0)],
+            drive: None,
         };
         PlannedRun {
             directory: directory.to_owned(),

@@ -2,6 +2,7 @@
 
 mod arms;
 mod closing;
+mod cycle;
 mod events;
 mod floor_slip;
 mod impact;
@@ -18,6 +19,7 @@ mod small_displacement;
 
 pub use arms::limit_uncertainty;
 use closing::closing_limit;
+pub use cycle::{CycleOrder, cycle_work};
 pub use events::Event;
 pub use floor_slip::{floor_slip_force, floor_slip_forces};
 pub use impact::{NormalImpact, SlidingChange, integrated_impact, normal_impact, sliding_change};

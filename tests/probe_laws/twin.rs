@@ -16,8 +16,8 @@ pub struct Twin {
     pub tangential_exponent: f64,
     /// Exponents of η_n and η_t.
     pub damping_exponents: [f64; 2],
-    /// Power of 2/(2 − δ) in k_t.
-    pub stiffening: f64,
+    /// Power of 2/(2 − δ) in k_t, of pairs and of walls.
+    pub stiffening: [f64; 2],
     /// Share of the stiffness that is remembered: 0 of a displacement, 1 of a force.
     pub force_share: f64,
     /// Power of the ratio of the contact radii that multiplies what is remembered when they shrink.
@@ -56,7 +56,7 @@ impl Twin {
             power,
             tangential_exponent: power - 1.0,
             damping_exponents: [0.5 * (power - 1.0); 2],
-            stiffening: share(own.stiffens),
+            stiffening: laws.each_ref().map(|law| share(law.stiffens)),
             force_share: share(own.history.keeps_force()),
             rescaling: share(own.history.is_rescaled()),
             arm: test.convention.arms.pair.torque,
@@ -75,7 +75,7 @@ impl ContactModel<f64> for Twin {
         let kind = usize::from(contact.counterpart == Counterpart::Wall);
         let ([k, kt], [en, et]) = (self.stiffness[kind], self.damping[kind]);
         let overlap = contact.overlap;
-        let stretch = libm::pow(2.0 / (2.0 - overlap), self.stiffening);
+        let stretch = libm::pow(2.0 / (2.0 - overlap), self.stiffening[kind]);
         let kt = kt * libm::pow(overlap, self.tangential_exponent) * stretch;
         let en = en * libm::pow(overlap, self.damping_exponents[0]);
         let et = et * libm::pow(overlap, self.damping_exponents[1]) * stretch.sqrt();

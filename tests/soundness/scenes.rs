@@ -59,5 +59,6 @@ pub fn short_test() -> ContactTest {
             },
             InitialMotion::at(6.0, 2.0),
         ],
+        drive: None,
     }
 }

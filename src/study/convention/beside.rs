@@ -115,3 +115,37 @@ fn shortened<const N: usize>(
 fn left(rows: &Rows, columns: usize) -> f64 {
     deviations(rows, columns).map_or(f64::INFINITY, |(mean, _)| mean)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_found_beside_its_coefficient_and_one_without_effect_is_unknown() {
+        let points = [0.02, 0.05, 0.1, 0.2, 0.3];
+        let noise = [1e-9, -1e-9, 1e-9, 1e-9, -1e-9];
+        let terms = |[exponent, _]: [f64; 2]| -> Rows {
+            let rows = points.iter().zip(noise).map(|(&x, noise)| {
+                let force = 3.0 * libm::pow(x, 1.5) + noise;
+                (vec![libm::pow(x, exponent)], force)
+            });
+            rows.collect()
+        };
+        let found = fit_beside([1.0, 0.7], 1e-4, 8, 1, terms);
+        let [exponent, idle] = found.others;
+        assert!((exponent.value - 1.5).abs() <= exponent.uncertainty);
+        assert!(exponent.uncertainty < 1e-6);
+        let coefficient = found.coefficients[0];
+        assert!((coefficient.value - 3.0).abs() <= coefficient.uncertainty);
+        assert_eq!(found.at[1].to_bits(), 0.7f64.to_bits());
+        assert!(idle.value.is_nan());
+    }
+
+    #[test]
+    fn without_rows_nothing_is_known() {
+        let found = fit_beside([1.0], 1e-4, 2, 3, |_| Rows::new());
+        assert_eq!(found.coefficients.len(), 3);
+        let all = found.coefficients.iter().chain(&found.others);
+        assert!(all.map(|own| own.value).all(f64::is_nan));
+    }
+}

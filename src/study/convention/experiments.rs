@@ -1,6 +1,7 @@
 //! The micro-tests: initial motions of two cylinders in which one contact shows its law.
 
-use crate::model::{ContactConvention, ContactTest, InitialMotion};
+use crate::model::{ContactConvention, ContactTest, Drive, InitialMotion};
+use crate::theory::CycleOrder;
 
 /// The contact that is tested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,8 +46,8 @@ impl ContactKind {
 const RESTITUTION: f64 = 0.9;
 /// k_n/k_t below 1: the tangential spring reaches the limit while the normal force still rises.
 const STIFFNESS_RATIO: f64 = 0.5;
-/// The same where forces grow with a power of the overlap: that of Mindlin's law at ν = 1/3, which codes that ask for
-/// Poisson's ratio can have, too. There the normal force is weaker than the linear one, and the limit lower.
+/// The same where forces grow with a power of the overlap: that of Mindlin's law at ν = 1/3, since some codes compute it
+/// from Poisson's ratio.
 const MINDLIN_RATIO: f64 = 1.25;
 /// Friction high enough that a contact in gentle motion sticks.
 const ROUGH: f64 = 0.9;
@@ -157,6 +158,13 @@ const TURNING: Start = Start {
     ..AT_REST
 };
 
+/// Overlaps between which contacts are driven, and tangential displacement.
+pub const LOW: f64 = 0.05;
+pub const HIGH: f64 = 0.2;
+pub const SHEAR: f64 = 3e-4;
+/// Steps of a leg of such a cycle.
+const LEG_STEPS: u64 = 50;
+
 /// Gentle motions, the same with half the time step, from which the times to which forces belong follow, a separation,
 /// and a motion that slides (not along the wall, which is frictionless).
 pub fn common(kind: ContactKind, convention: &ContactConvention) -> Vec<ContactTest> {
@@ -186,6 +194,56 @@ pub fn near_slip(kind: ContactKind, convention: &ContactConvention, spin: f64) -
         ..AT_REST
     };
     test(kind, convention, start)
+}
+
+/// A cycle of the given order between the overlaps [`LOW`] and [`HIGH`], without damping.
+pub fn driven(kind: ContactKind, convention: &ContactConvention, order: CycleOrder) -> ContactTest {
+    let start = Start {
+        overlap: LOW,
+        steps: 4 * LEG_STEPS,
+        ..AT_REST
+    };
+    let free = test(kind, convention, start);
+    let duration = LEG_STEPS as f64 * start.time_step;
+    let [press, shear] = [(HIGH - LOW) / duration, SHEAR / duration];
+    // The contact of a pair turns while it is sheared along a chord, and is pressed and released along its new normal.
+    let is_pair = kind == ContactKind::Pair;
+    let mut angle = if is_pair { PAIR_ANGLE } else { 0.0 };
+    let turn = |overlap: f64| match is_pair {
+        true => 2.0 * libm::asin(0.5 * SHEAR / (2.0 - overlap)),
+        false => 0.0,
+    };
+    let mut leg = |away: f64, along: f64, turns: f64| {
+        let halfway = angle - 0.5 * turns;
+        let normal = [libm::sin(halfway), libm::cos(halfway)];
+        angle -= turns;
+        in_the_plane(normal, away, along)
+    };
+    let legs = match order {
+        CycleOrder::ShearedFirst => [
+            leg(0.0, shear, turn(LOW)),
+            leg(-press, 0.0, 0.0),
+            leg(0.0, -shear, -turn(HIGH)),
+            leg(press, 0.0, 0.0),
+        ],
+        CycleOrder::PressedFirst => [
+            leg(-press, 0.0, 0.0),
+            leg(0.0, shear, turn(HIGH)),
+            leg(press, 0.0, 0.0),
+            leg(0.0, -shear, -turn(LOW)),
+        ],
+    };
+    ContactTest {
+        convention: ContactConvention {
+            restitution: 1.0,
+            ..free.convention
+        },
+        drive: Some(Drive {
+            leg_steps: LEG_STEPS,
+            legs,
+        }),
+        ..free
+    }
 }
 
 /// The motion of a pair that turns.
@@ -221,6 +279,7 @@ fn test(kind: ContactKind, convention: &ContactConvention, start: Start) -> Cont
         wall_height: WALL_HEIGHT,
         wall_speed: if kind == ContactKind::Wall { 0.02 } else { 0.0 },
         initial_motions,
+        drive: None,
     }
 }
 

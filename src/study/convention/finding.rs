@@ -28,6 +28,10 @@ pub const FORCE_EXPONENT: &str = "normal_force_exponent";
 pub const NORMAL_DAMPING_EXPONENT: &str = "normal_damping_exponent";
 pub const TANGENTIAL_DAMPING_EXPONENT: &str = "tangential_damping_exponent";
 
+/// Names of the work of closed cycles, without the kind of contact.
+pub const SHEARED_FIRST: &str = "cycle_work_sheared_first";
+pub const PRESSED_FIRST: &str = "cycle_work_pressed_first";
+
 /// Ends the name of the coefficient c with which a surface that turns by d in a step moves by d + c d³.
 pub const CUBED_TURN: &str = "cubed_turn";
 /// Turn of a step up to which such a coefficient has to be known well enough, larger than those of stacks.
@@ -66,6 +70,25 @@ impl Finding {
         Some(format!(
             "{kind} {k} {changes} with the overlap (like overlap^{exponent:.2})"
         ))
+    }
+
+    /// That a contact gives back more energy than it was given, in words, if it is this that was found.
+    pub fn energy_made(&self) -> Option<String> {
+        let name = self.property.as_str();
+        let (kind, order) = [
+            (SHEARED_FIRST, "sheared, pressed, sheared back and released"),
+            (PRESSED_FIRST, "pressed, sheared, released and sheared back"),
+        ]
+        .into_iter()
+        .find_map(|(end, order)| Some((name.strip_suffix(end)?, order)))?;
+        let (work, open) = self.measured.zip(self.uncertainty)?;
+        (work < -open).then(|| {
+            let kind = kind.trim_end_matches('_');
+            let share = -100.0 * work;
+            format!(
+                "{kind}: a contact that is {order} gives back more energy than it was given, {share:.1} % of what its spring holds"
+            )
+        })
     }
 
     /// Why it is unknown, where that is known.

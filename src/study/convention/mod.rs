@@ -7,6 +7,7 @@
 mod beside;
 mod clock;
 mod contact_frame;
+mod cycle;
 mod experiments;
 mod finding;
 mod growth;

@@ -3,14 +3,15 @@
 use super::finding::{Finding, TOLERANCE};
 use super::measured::{Findings, contradicting};
 use crate::code::{Code, ConventionKey, Settled};
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{Arms, ContactConvention, DampingGrowth, Law, Material, Stack};
 use crate::study::Verdict;
 use crate::theory::{limit_uncertainty, quasistatic_limit};
 
 /// Name and version of the format.
 pub const PASSPORT: &str = "tristack/passport/1";
 
-/// Frictions and stiffnesses of the stacks of a passport: below and above the critical friction, and stiff.
+/// Frictions and stiffnesses of the stacks of a passport: below and above the critical friction, and stiff. Their stiffness
+/// ratio is the usual one of the law.
 const STACKS: [(f64, f64); 3] = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e4)];
 
 /// What a probe says about a code, for its author and for its readers.
@@ -102,9 +103,10 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {
         let same = others
             .clone()
-            .filter(|other| is_same(measured, *other, keys));
+            .filter(|other| has_same_limit(code, *other) && is_same(measured, *other, keys));
         same.collect()
     };
+    let damping = code.convention().law.damping;
     Passport {
         code,
         findings,
@@ -114,9 +116,21 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
         effects: STACKS
             .map(|(friction, stiffness)| effects(Stack::paper(friction, stiffness), measured))
             .into(),
-        twins: alike(|key| key != ConventionKey::VelocityLag),
+        twins: alike(|key| key != ConventionKey::VelocityLag)
+            .into_iter()
+            .filter(|other| other.convention().law.damping == damping)
+            .collect(),
         same_arms: alike(ConventionKey::moves_limit),
     }
+}
+
+/// Whether the laws of two codes have the same limit: they are the same but for their damping.
+fn has_same_limit(code: Code, other: Code) -> bool {
+    let [own, theirs] = [code, other].map(|code| Law {
+        damping: DampingGrowth::default(),
+        ..code.convention().law
+    });
+    own == theirs
 }
 
 /// Whether `measured` is the convention of the `other` code in all `keys`.
@@ -156,8 +170,19 @@ fn measured_key(code: Code, findings: &Findings, key: ConventionKey) -> Measured
 }
 
 fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
+    let law = measured.convention.law;
+    let stack = Stack {
+        stiffness_ratio: match law.is_linear() {
+            true => stack.stiffness_ratio,
+            false => Material::USUAL_STIFFNESS_RATIO,
+        },
+        ..stack
+    };
     let force = |arms: Arms| {
-        let convention = ContactConvention::with_arms(arms);
+        let convention = ContactConvention {
+            law,
+            ..ContactConvention::with_arms(arms)
+        };
         quasistatic_limit(&stack, &convention).yield_force
     };
     let arms = measured.convention.arms;

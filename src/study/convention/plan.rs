@@ -188,6 +188,11 @@ impl Laws {
         properties
     }
 
+    /// The tangential law.
+    pub fn tangential(&self) -> &TangentialLaw {
+        &self.tangential
+    }
+
     /// The normal stiffness at an overlap of r, if the law is any power.
     pub fn power_stiffness(&self) -> Option<Measured> {
         match &self.normal {

@@ -72,11 +72,11 @@ impl NormalPower {
             self.damping.value * s * row.separation_speed,
         );
         let log = libm::log(row.overlap).abs();
-        let open = |own: Measured, exponent: Measured, part: f64| {
+        let left = |own: Measured, exponent: Measured, part: f64| {
             (own.uncertainty / own.value.abs() + exponent.uncertainty * log) * part.abs()
         };
-        let uncertainty = open(self.stiffness, self.exponent, spring)
-            + open(self.damping, self.damping_exponent, damping);
+        let uncertainty = left(self.stiffness, self.exponent, spring)
+            + left(self.damping, self.damping_exponent, damping);
         Measured::new(row.normal_force, 0.0).over(Measured::new(spring - damping, uncertainty))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::contact_frame::contact_rows;
+use super::cycle;
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
 use super::plan::{Laws, Plan, TestedMotion};
@@ -29,19 +30,28 @@ pub fn probe<E>(
     let turning = experiments::turning(convention);
     let mut tests: Vec<ContactTest> = plans.iter().flat_map(Plan::tests).copied().collect();
     tests.push(turning);
+    let free = tests.len();
+    tests.extend(cycle::tests(convention));
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
-    let clock = Clock::read(&outcomes);
+    let (outcomes, driven) = outcomes.split_at(free);
+    let clock = Clock::read(outcomes);
     let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
         contact_rows(ContactKind::Pair, test, motion, &clock)
     });
-    let mut unread = outcomes.as_slice();
+    let mut unread = outcomes;
     let laws = plans.map(|plan| {
         let (own, others) = unread.split_at(plan.tests().len());
         unread = others;
         plan.read(own, &turning, &clock)
     });
 
+    let of = |kind: ContactKind| {
+        let index = CONTACT_KINDS.iter().position(|own| *own == kind)?;
+        Some(&laws[index])
+    };
+    let cycles = cycle::properties(driven, |kind| of(kind).map(Laws::tangential));
+    let floor_ratio = floor_ratio(of, declared);
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
     let tests = near_slip.concat();
     let motions = run(&tests)?;
@@ -53,18 +63,18 @@ pub fn probe<E>(
         unread = others;
         properties.extend(laws.properties(own, &clock));
     }
-    properties.extend(floor_ratio(&laws, declared));
+    properties.extend(floor_ratio.into_iter().chain(cycles));
     let properties = properties.into_iter();
     let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
     Ok(properties.collect())
 }
 
 /// K of the floor over K of pairs, where the law is any power.
-fn floor_ratio(laws: &[Laws; 3], declared: &Declaration) -> Option<Property> {
-    let of = |kind: ContactKind| {
-        let index = CONTACT_KINDS.iter().position(|own| *own == kind)?;
-        laws[index].power_stiffness()
-    };
+fn floor_ratio<'a>(
+    laws: impl Fn(ContactKind) -> Option<&'a Laws>,
+    declared: &Declaration,
+) -> Option<Property> {
+    let of = |kind| laws(kind)?.power_stiffness();
     let ratio = of(ContactKind::Floor)?.over(of(ContactKind::Pair)?);
     let declared = declared.convention.law.floor_ratio;
     Some(Property::new("floor_ratio", ratio, declared))

@@ -10,7 +10,7 @@ use super::power::NormalPower;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
-use crate::model::{ContactLaw, ContactTest, CoulombOperand, HistoryUpdate};
+use crate::model::{ContactLaw, ContactTest, CoulombOperand, DampingGrowth, HistoryUpdate};
 use crate::model::{SlidingSpring, TensileForce};
 
 /// Alternatives of a convention, each with the value of the property that shows it: the share of the damping in the
@@ -70,8 +70,8 @@ pub fn normal_properties(
     at(kind, rows)
 }
 
-/// Properties of a normal force of any power at `kind`. Codes damp such contacts in ways of their own, which
-/// no manifest declares and no limit depends on: the damping is measured alone.
+/// Properties of a normal force of any power at `kind`. Damping that grows otherwise than any manifest can
+/// declare is measured alone: no limit depends on it.
 pub fn power_properties(
     kind: ContactKind,
     law: &NormalPower,
@@ -81,40 +81,78 @@ pub fn power_properties(
     let declared = declared_law(kind, test);
     let power = declared.power.value();
     let pulls = shown(&TENSILE_FORCES, &test.convention.tensile_force);
-    let damping = undeclared(
-        kind,
-        [
-            ("normal_damping", law.damping),
-            (NORMAL_DAMPING_EXPONENT, law.damping_exponent),
-        ],
-    );
-    let before = [
-        (FORCE_EXPONENT, law.exponent, power),
-        ("normal_stiffness", law.stiffness, declared.normal_stiffness),
-    ];
+    let damping = GrowingDamping {
+        names: ["normal_damping", NORMAL_DAMPING_EXPONENT],
+        coefficient: law.damping,
+        exponent: law.damping_exponent,
+        stiffness_exponent: Measured::new(law.exponent.value - 1.0, law.exponent.uncertainty),
+        declared: (declared.damping_normal, declared.damping, power - 1.0),
+    };
+    let damping = damping.rows(kind);
+    let exponent = Property::at(kind, FORCE_EXPONENT, law.exponent, power);
+    // That of the top wall, which may be a body of another kind than the floor, is in no limit.
+    let stiffness = declared.normal_stiffness;
+    let stiffness = Property {
+        declared: (kind != ContactKind::Wall).then_some(stiffness),
+        ..Property::at(kind, "normal_stiffness", law.stiffness, stiffness)
+    };
     let after = [
         ("overlap_lead", law.overlap_lead, 0.0),
         ("damping_velocity_lag", law.velocity_lag, 0.5),
         ("pull", pull, pulls),
     ];
-    let before = at(kind, before).into_iter();
+    let before = [exponent, stiffness].into_iter();
     before.chain(damping).chain(at(kind, after)).collect()
 }
 
 /// The law that `test` asks for at `kind`.
-fn declared_law(kind: ContactKind, test: &ContactTest) -> ContactLaw {
+pub fn declared_law(kind: ContactKind, test: &ContactTest) -> ContactLaw {
     match kind {
         ContactKind::Pair => test.convention.law(test.stiffness_ratio),
         ContactKind::Floor | ContactKind::Wall => test.convention.wall_law(test.stiffness_ratio),
     }
 }
 
-/// The rows of `measured` without a declared value.
-fn undeclared(kind: ContactKind, measured: [(&str, Measured); 2]) -> [Property; 2] {
-    measured.map(|(name, measured)| Property {
-        declared: None,
-        ..Property::at(kind, name, measured, f64::NAN)
-    })
+/// Damping that grows with the overlap, beside a stiffness that does.
+struct GrowingDamping {
+    names: [&'static str; 2],
+    coefficient: Measured,
+    exponent: Measured,
+    stiffness_exponent: Measured,
+    /// Coefficient, growth, and exponent of the stiffness.
+    declared: (f64, DampingGrowth, f64),
+}
+
+impl GrowingDamping {
+    /// Coefficient and exponent, beside the declared ones unless no manifest can declare such a growth, or such a body: the
+    /// top wall may be of another kind than the floor.
+    fn rows(&self, kind: ContactKind) -> [Property; 2] {
+        let (coefficient, growth, stiffness_exponent) = self.declared;
+        let open = self.exponent.uncertainty + self.stiffness_exponent.uncertainty;
+        let found = |growth: DampingGrowth| {
+            let exponent = share_of_stiffness(growth) * self.stiffness_exponent.value;
+            (self.exponent.value - exponent).abs() <= open.max(TOLERANCE)
+        };
+        let mut growths = DampingGrowth::ALL.into_iter();
+        let can_be_declared = kind != ContactKind::Wall && growths.any(found);
+        let exponent = share_of_stiffness(growth) * stiffness_exponent;
+        let rows = [(self.coefficient, coefficient), (self.exponent, exponent)];
+        std::array::from_fn(|index| {
+            let (measured, declared) = rows[index];
+            Property {
+                declared: can_be_declared.then_some(declared),
+                ..Property::at(kind, self.names[index], measured, declared)
+            }
+        })
+    }
+}
+
+/// The exponent of the damping over that of the stiffness.
+fn share_of_stiffness(growth: DampingGrowth) -> f64 {
+    match growth {
+        DampingGrowth::ConstantRatio => 0.5,
+        DampingGrowth::Viscoelastic => 1.0,
+    }
 }
 
 /// The exponent with which a `stiffness` that is not as declared grows with the overlap, if `growing` finds one.
@@ -192,13 +230,14 @@ pub fn growing_properties(
             share(declared.history.is_rescaled()),
         ),
     ];
-    let [damping, damping_exponent] = undeclared(
-        kind,
-        [
-            ("tangential_damping", law.damping),
-            (TANGENTIAL_DAMPING_EXPONENT, shape.damping_exponent),
-        ],
-    );
+    let damping = GrowingDamping {
+        names: ["tangential_damping", TANGENTIAL_DAMPING_EXPONENT],
+        coefficient: law.damping,
+        exponent: shape.damping_exponent,
+        stiffness_exponent: shape.stiffness_exponent,
+        declared: (declared.damping_tangential, declared.damping, exponent),
+    };
+    let [damping, damping_exponent] = damping.rows(kind);
     let others = tangential_properties(kind, law, test).into_iter();
     let others = others.map(|own| match own.name == damping.name {
         true => damping.clone(),

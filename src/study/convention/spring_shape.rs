@@ -81,7 +81,7 @@ impl SpringShape {
 
     /// What the known numbers of the shape leave open of a force, relatively, at the overlaps of micro-tests: their
     /// logarithms and those of their ratios are below 4.
-    pub fn open(&self) -> f64 {
+    pub fn uncertainty(&self) -> f64 {
         let numbers = [
             self.stiffness_exponent,
             self.stiffening,
@@ -90,8 +90,8 @@ impl SpringShape {
             self.force_share,
             self.rescaling,
         ];
-        let open = numbers.iter().map(|own| own.uncertainty);
-        4.0 * open.filter(|open| open.is_finite()).sum::<f64>()
+        let uncertainties = numbers.iter().map(|own| own.uncertainty);
+        4.0 * uncertainties.filter(|own| own.is_finite()).sum::<f64>()
     }
 }
 

@@ -213,6 +213,11 @@ impl TangentialLaw {
         self.surface_speed(row) * row.time_step - further
     }
 
+    /// k_t at an overlap.
+    pub fn stiffness_at(&self, overlap: f64) -> f64 {
+        self.stiffness.value * self.form.stiffness.at(overlap)
+    }
+
     /// η_t at the overlap of a row.
     pub fn damping_at(&self, row: &ContactRow) -> f64 {
         self.damping.value * self.form.damping.at(row.overlap)
@@ -242,7 +247,7 @@ impl TangentialLaw {
     pub fn open_share(&self) -> f64 {
         self.stiffness.uncertainty / self.stiffness.value
             + self.damping.uncertainty / self.damping.value
-            + self.shape.map_or(0.0, |shape| shape.open())
+            + self.shape.map_or(0.0, |shape| shape.uncertainty())
     }
 
     /// Fits the transport to one motion with a stretched spring, all other coefficients being known, by Gauss–Newton

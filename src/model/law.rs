@@ -420,7 +420,7 @@ pub struct ContactLaw<N = f64> {
     /// p.
     #[serde(skip)]
     pub power: Power,
-    /// Whether k_t is multiplied by 2/(2 − δ).
+    /// Whether k_t and η_t are multiplied by 2/(2 − δ).
     #[serde(skip)]
     pub stiffens: bool,
     /// Growth of η_n and η_t.
@@ -488,7 +488,8 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
         if self.stiffens {
             let factor = stiffening(overlap);
             own.tangential_stiffness = own.tangential_stiffness * factor;
-            own.damping_tangential = own.damping_tangential * root(factor);
+            // The surfaces count as moving so many times as far, for the dashpot as for the spring.
+            own.damping_tangential = own.damping_tangential * factor;
         }
         own
     }

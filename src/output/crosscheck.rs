@@ -99,7 +99,7 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
         .means("order of convergence in the wall speed, if above the noise")
         .shown_as("observed order", |order| format!("{order:.3}"))
         .number("expected_order", "1", |_| ConvergenceOrder::EXPECTED)
-        .means("what it must be; up to 2 where gravity must be applied slowly (springs that remember forces or are rescaled, viscoelastic damping)")
+        .means("what it must be; from 1/2 to 2 where gravity must be applied slowly (springs that remember forces or are rescaled, viscoelastic damping)")
         .shown("expected")
         .rows(judgements.iter().filter_map(|row| Some((row, row.slip()?))))
 }

@@ -331,6 +331,32 @@ fn a_contact_that_sticks_at_first_is_compared_with_a_twin() {
     }
 }
 
+/// A remembered force that follows the limit less the damping falls below it where the damping fades.
+#[test]
+fn a_contact_that_sticks_again_is_compared_with_a_twin() {
+    let fading = ContactConvention {
+        law: Law {
+            history: TangentialHistory::Force,
+            damping: DampingGrowth::Viscoelastic,
+            ..Law::HERTZ
+        },
+        sliding_spring: SlidingSpring::FollowsLimit,
+        ..ContactConvention::PAPER
+    };
+    let studies = plan_impacts(Code::NATIVE, fading);
+    let twins = studies
+        .iter()
+        .filter(|own| own.reference() == Reference::Twin);
+    assert_eq!(twins.clone().count(), 4);
+    for study in twins {
+        let (verdict, finding) = judge(study, |test| test);
+        assert_eq!(verdict, Verdict::Agrees);
+        let sliding = study.exact().expect("a number");
+        let beside = finding.expect("a number").exact / sliding - 1.0;
+        assert!((-1e-3..-1e-5).contains(&beside), "{beside:e}");
+    }
+}
+
 #[test]
 fn bodies_that_do_not_part_are_a_violation() {
     let study = &plan_impacts(Code::NATIVE, ContactConvention::PAPER)[0];

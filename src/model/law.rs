@@ -423,7 +423,7 @@ pub struct ContactLaw<N = f64> {
     /// p.
     #[serde(skip)]
     pub power: Power,
-    /// Whether k_t is multiplied by 2/(2 − δ).
+    /// Whether k_t and η_t are multiplied by 2/(2 − δ).
     #[serde(skip)]
     pub stiffens: bool,
     /// Growth of η_n and η_t.
@@ -491,7 +491,8 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
         if self.stiffens {
             let factor = stiffening(overlap);
             own.tangential_stiffness = own.tangential_stiffness * factor;
-            own.damping_tangential = own.damping_tangential * root(factor);
+            // The surfaces count as moving so many times as far, for the dashpot as for the spring.
+            own.damping_tangential = own.damping_tangential * factor;
         }
         own
     }

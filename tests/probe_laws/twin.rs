@@ -78,7 +78,7 @@ impl ContactModel<f64> for Twin {
         let stretch = libm::pow(2.0 / (2.0 - overlap), self.stiffening[kind]);
         let kt = kt * libm::pow(overlap, self.tangential_exponent) * stretch;
         let en = en * libm::pow(overlap, self.damping_exponents[0]);
-        let et = et * libm::pow(overlap, self.damping_exponents[1]) * stretch.sqrt();
+        let et = et * libm::pow(overlap, self.damping_exponents[1]) * stretch;
         let normal = k * libm::pow(overlap, self.power) - en * contact.separation_speed;
         let arm = 1.0 + self.arm * overlap;
         let speed = contact.sliding_speed - arm * contact.spin;

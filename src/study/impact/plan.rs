@@ -2,7 +2,10 @@
 
 use super::extrapolate::DIVISIONS;
 use crate::code::Code;
-use crate::model::{ContactConvention, ContactTest, CoulombOperand, Impact, ImpactTarget};
+use crate::model::{
+    ContactConvention, ContactTest, CoulombOperand, DampingGrowth, Impact, ImpactTarget, Power,
+    SlidingSpring, TangentialHistory, TangentialStiffening,
+};
 use crate::runs::ImpactRun;
 use crate::theory::{NormalImpact, has_closed_form, normal_impact};
 
@@ -119,18 +122,20 @@ pub struct ImpactStudy {
 impl ImpactStudy {
     /// Whether the convention declares a damping worth the name.
     pub fn is_damped(&self) -> bool {
-        self.impact.convention.restitution < NEARLY_ELASTIC
+        is_damped(&self.impact)
     }
 
     /// Where the exact value comes from.
     ///
-    /// While the surfaces slide, the tangential force is μ |N| from the first moment on, unless damping is not limited: then
-    /// the contact sticks until its spring has grown to the limit, and damping comes on top of it.
+    /// While the surfaces slide, the tangential force is μ |N|. A damped contact of some conventions sticks at times; then a
+    /// twin is the reference.
     pub fn reference(&self) -> Reference {
         match self.quantity.is_oblique() {
             false if has_closed_form(&self.impact) => Reference::ClosedForm,
             false => Reference::Integrated,
-            true if sticks_at_first(&self.impact) => Reference::Twin,
+            true if sticks_at_first(&self.impact) || may_stick_again(&self.impact) => {
+                Reference::Twin
+            }
             true => Reference::Integrated,
         }
     }
@@ -206,8 +211,25 @@ fn sliding(impact: Impact) -> Impact {
 /// Whether a contact sticks at first however fast its surfaces move: its spring grows from nothing, while damping has
 /// pressed the bodies together from the first moment on.
 fn sticks_at_first(impact: &Impact) -> bool {
-    let convention = &impact.convention;
-    convention.coulomb_operand == CoulombOperand::Spring && convention.restitution < NEARLY_ELASTIC
+    is_damped(impact) && impact.convention.coulomb_operand == CoulombOperand::Spring
+}
+
+/// Whether a contact that slides may stick again: a spring that follows a limit on spring and damping holds the limit less
+/// the damping of the last step, and where that has faded faster than the force of the spring, both are below the limit.
+fn may_stick_again(impact: &Impact) -> bool {
+    let (convention, law) = (&impact.convention, &impact.convention.law);
+    let holds_less = convention.sliding_spring == SlidingSpring::FollowsLimit
+        && convention.coulomb_operand == CoulombOperand::SpringAndDamping;
+    let neither_changes =
+        law.power == Power::Linear && law.tangential_stiffening == TangentialStiffening::None;
+    let both_change_alike =
+        law.damping == DampingGrowth::Viscoelastic && law.history != TangentialHistory::Force;
+    is_damped(impact) && holds_less && !(neither_changes || both_change_alike)
+}
+
+/// Whether the convention declares a damping worth the name.
+fn is_damped(impact: &Impact) -> bool {
+    impact.convention.restitution < NEARLY_ELASTIC
 }
 
 fn speed_without_sticking(impact: &Impact) -> f64 {

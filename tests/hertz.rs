@@ -2,8 +2,12 @@
 //! the path follower: a scalar equation in the angle where c = 0 and arms are 0, and the unreduced balances of bodies
 //! that are moved in small steps. Parameters are chosen here, and no number is taken from elsewhere.
 
+mod common;
+
 #[path = "hertz/asymptotics.rs"]
 mod asymptotics;
+#[path = "hertz/exponent.rs"]
+mod exponent;
 #[path = "hertz/native.rs"]
 mod native;
 #[path = "hertz/peaks.rs"]

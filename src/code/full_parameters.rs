@@ -219,7 +219,7 @@ fn of_bodies(convention: &ContactConvention) -> Value {
 mod tests {
     use super::*;
     use crate::code::witness_test;
-    use crate::model::{Preparation, Protocol, Sampling, SideWalls as Walls, Stack as Groups};
+    use crate::model::{Law, Preparation, Protocol, Sampling, SideWalls as Walls, Stack as Groups};
 
     fn case(preparation: Preparation) -> Case {
         Case {
@@ -250,25 +250,38 @@ mod tests {
     #[test]
     fn every_number_of_every_task_is_declared_and_given() {
         let walls = Preparation::SideWalls(Walls::paper(0.005, 0.01));
-        for (kind, given) in [
-            (Stack, of_case(&case(ramp()))),
-            (SideWalls, of_case(&case(walls))),
-            (
-                Motion,
-                of_contact_test(&witness_test(ContactConvention::PAPER)),
-            ),
-            (
-                Pile,
-                of_pyramid(&Pyramid::touching(3, 100.0, ContactConvention::PAPER)),
-            ),
-        ] {
-            let given = given.as_object().expect("an object");
-            assert!(given.values().all(Value::is_number), "numbers only");
-            let given: Vec<&str> = given.keys().map(String::as_str).collect();
-            let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&kind));
-            let mut declared: Vec<&str> = own.map(|one| one.name).collect();
-            declared.sort_unstable();
-            assert_eq!(given, declared, "{kind:?}");
+        for law in [Law::LINEAR, Law::HERTZ] {
+            let convention = ContactConvention::with_law(law);
+            let stiffness_ratio = Groups::usual_stiffness_ratio(law.power);
+            let case_of = |preparation| {
+                let mut case = Case {
+                    convention,
+                    ..case(preparation)
+                };
+                case.stack.stiffness_ratio = stiffness_ratio;
+                case
+            };
+            let test = ContactTest {
+                stiffness_ratio,
+                ..witness_test(convention)
+            };
+            let mut pyramid = Pyramid::touching(3, 100.0, convention);
+            pyramid.groups.stiffness_ratio = stiffness_ratio;
+            for (kind, given) in [
+                (Stack, of_case(&case_of(ramp()))),
+                (SideWalls, of_case(&case_of(walls))),
+                (Motion, of_contact_test(&test)),
+                (Pile, of_pyramid(&pyramid)),
+            ] {
+                let given = given.as_object().expect("an object");
+                assert!(given.values().all(Value::is_number), "numbers only");
+                let given: Vec<&str> = given.keys().map(String::as_str).collect();
+                let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&kind));
+                let own = own.filter(|one| one.laws == Laws::Every || !law.is_linear());
+                let mut declared: Vec<&str> = own.map(|one| one.name).collect();
+                declared.sort_unstable();
+                assert_eq!(given, declared, "{kind:?}, {law}");
+            }
         }
     }
 

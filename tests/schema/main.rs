@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tristack::code::{Code, Task, witness_test};
 use tristack::dem::{compress_stack, run_contact_test};
-use tristack::model::{Case, ContactConvention, Preparation, Pyramid, SideWalls, Stack};
+use tristack::model::{Case, ContactConvention, Law, Preparation, Pyramid, SideWalls, Stack};
 use tristack::study::yield_force::plan;
 use validator::{unknown_keywords, violation};
 
@@ -123,28 +123,40 @@ fn between_walls() -> Case {
 #[test]
 fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
     let schema = schema("task");
-    let pyramid = Pyramid::touching(3, 1e2, ContactConvention::PAPER);
-    let tasks = [
-        ("stack", case().all_parameters()),
-        ("side-walls", between_walls().all_parameters()),
-        (
-            "motion",
-            witness_test(ContactConvention::PAPER).all_parameters(),
-        ),
-        ("pyramid", pyramid.all_parameters()),
-    ];
-    for (kind, task) in tasks {
+    let tasks = |convention: ContactConvention| {
+        let of_case = |case: Case| Case { convention, ..case }.all_parameters();
+        let stiffness_ratio = Stack::usual_stiffness_ratio(convention.law.power);
+        let [mut whole, mut walls] = [case(), between_walls()];
+        whole.stack.stiffness_ratio = stiffness_ratio;
+        walls.stack.stiffness_ratio = stiffness_ratio;
+        let mut pyramid = Pyramid::touching(3, 1e2, convention);
+        pyramid.groups.stiffness_ratio = stiffness_ratio;
+        let mut test = witness_test(convention);
+        test.stiffness_ratio = stiffness_ratio;
+        [
+            ("stack", of_case(whole)),
+            ("side-walls", of_case(walls)),
+            ("motion", test.all_parameters()),
+            ("pyramid", pyramid.all_parameters()),
+        ]
+    };
+    let linear = tasks(ContactConvention::PAPER).into_iter();
+    let others = tasks(ContactConvention::with_law(Law::HERTZ));
+    for ((kind, task), (_, other)) in linear.zip(others) {
         fits(&schema, &task);
-        let declared = &schema["$defs"][kind]["properties"];
-        let names = |value: &Value| {
-            value
-                .as_object()
-                .expect("keys")
-                .keys()
-                .cloned()
-                .collect::<Vec<_>>()
+        fits(&schema, &other);
+        let own = &schema["$defs"][kind];
+        let declared = &own["properties"];
+        let names = |value: &Value| -> Vec<String> {
+            let keys = value.as_object().expect("keys").keys();
+            keys.cloned().collect()
         };
-        assert_eq!(names(declared), names(&task), "{kind}");
+        // Laws other than the paper's have further parameters.
+        assert_eq!(names(declared), names(&other), "{kind}");
+        let required = own["required"].as_array().expect("names").iter();
+        let mut required: Vec<&str> = required.filter_map(Value::as_str).collect();
+        required.sort_unstable();
+        assert_eq!(required, names(&task), "{kind}");
         for (name, parameter) in declared.as_object().expect("parameters") {
             for key in ["x-unit", "description"] {
                 assert!(parameter[key].is_string(), "{kind}: {name} has no {key}");

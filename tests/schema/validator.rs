@@ -16,7 +16,7 @@ const NOTES: [&str; 10] = [
     "readOnly",
 ];
 /// Keywords whose values are schemas, or hold some.
-const CONSTRAINTS: [&str; 13] = [
+const CONSTRAINTS: [&str; 15] = [
     "$ref",
     "type",
     "const",
@@ -29,6 +29,8 @@ const CONSTRAINTS: [&str; 13] = [
     "anyOf",
     "allOf",
     "minimum",
+    "minItems",
+    "maxItems",
     "unevaluatedProperties",
 ];
 
@@ -122,6 +124,8 @@ impl Checker<'_> {
                     .as_f64()
                     .is_none_or(|number| Some(number) >= constraint.as_f64()),
             ),
+            "minItems" => refused(value.as_array()?.len() as u64 >= constraint.as_u64()?),
+            "maxItems" => refused(value.as_array()?.len() as u64 <= constraint.as_u64()?),
             "required" => {
                 let names = constraint.as_array()?.iter().filter_map(Value::as_str);
                 let object = value.as_object()?;

@@ -70,10 +70,10 @@ fn a_table_of_a_law_is_the_case_of_its_options() {
     let bench = Bench::without_codes();
     let flags = case(
         &bench,
-        &format!("{FLAGS} --law hertz --history force --floor-kappa 3"),
+        &format!("{FLAGS} --law hertz --kappa 1.5 --history force --floor-kappa 3"),
     );
     let text =
-        "[stack]\nmu = 0.3\n[convention.law]\npower = 1.5\nhistory = \"force\"\nfloor_kappa = 3\n";
+        "[stack]\nmu = 0.3\nkappa = 1.5\n[convention.law]\npower = 1.5\nhistory = \"force\"\nfloor_kappa = 3\n";
     assert_eq!(in_file(&bench, text), flags);
 }
 

@@ -72,8 +72,7 @@ fn a_table_of_a_law_is_the_case_of_its_options() {
         &bench,
         &format!("{FLAGS} --law hertz --kappa 1.5 --history force --floor-kappa 3"),
     );
-    let text =
-        "[stack]\nmu = 0.3\nkappa = 1.5\n[convention.law]\npower = 1.5\nhistory = \"force\"\nfloor_kappa = 3\n";
+    let text = "[stack]\nmu = 0.3\nkappa = 1.5\n[convention.law]\npower = 1.5\nhistory = \"force\"\nfloor_kappa = 3\n";
     assert_eq!(in_file(&bench, text), flags);
 }
 

@@ -702,7 +702,8 @@ fn input_that_never_ends_is_refused() {
         let folder = bench.path(name);
         fs::create_dir(&folder).expect("a directory");
         let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("lammps_inputs");
-        for entry in fs::read_dir(original).expect("a folder").flatten() {
+        let entries = fs::read_dir(original).expect("a folder").flatten();
+        for entry in entries.filter(|entry| entry.path().is_file()) {
             fs::copy(entry.path(), folder.join(entry.file_name())).expect("a copy");
         }
         fs::remove_file(folder.join(manifest)).expect("it is there");

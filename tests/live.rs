@@ -206,7 +206,13 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
             "stack.in",
             "top_wall.in",
         ],
-        _ => vec!["cases.py", "contacts.py", "parameters.json", "stack.py"],
+        _ => vec![
+            "cases.py",
+            "contacts.py",
+            "law.py",
+            "parameters.json",
+            "stack.py",
+        ],
     };
     for code in installed() {
         let bench = Bench::with_system_programs();

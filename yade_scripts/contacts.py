@@ -22,7 +22,6 @@ class Scene:
 
 	def __init__(self, floor_kind, parameters):
 		self.floor = FLOORS[floor_kind]
-		self.top_wall = facet_above if floor_kind == 'facet' else wall_above
 		self.p = p = parameters
 		O.reset()
 		O.dt = p['time_step']
@@ -71,7 +70,7 @@ class Scene:
 
 	def add_top_wall(self, height, speed):
 		"""A flat, frictionless wall with its lower face at height, moving down."""
-		self.wall = O.bodies.append(self.top_wall(height, material=self.smooth, mask=EVERY_CYLINDER))
+		self.wall = O.bodies.append(wall((0, height, 0), axis=1, material=self.smooth, mask=EVERY_CYLINDER))
 		O.bodies[self.wall].state.vel = (0, -speed, 0)
 
 	def wall_force(self):
@@ -93,17 +92,6 @@ def facet_floor(_, **kw):
 
 def wall_floor(_, **kw):
 	return wall(0, axis=1, **kw)
-
-
-# Top walls: a law may give a facet another stiffness than a Wall, and both walls are of one kind.
-
-
-def facet_above(height, **kw):
-	return facet([(-100, height, -50), (0, height, 100), (100, height, -50)], **kw)
-
-
-def wall_above(height, **kw):
-	return wall((0, height, 0), axis=1, **kw)
 
 
 FLOORS = {'box': box_floor, 'facet': facet_floor, 'wall': wall_floor}

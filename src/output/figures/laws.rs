@@ -30,11 +30,16 @@ pub(super) fn laws(judgements: &[Judgement]) -> Figure {
         .first()
         .map_or(1.0, |row| row.study.stack.stiffness_ratio);
     let curves = law_curves(&codes, &STIFFNESSES, ratio);
-    let mut panels = STIFFNESSES.map(|stiffness| panel(stiffness, judgements, &curves));
-    codes::key(&mut panels[1], judgements, (0.03, 0.5));
+    let drawn = STIFFNESSES.map(|stiffness| panel(stiffness, judgements, &curves));
+    let mut panels = Vec::from(drawn);
+    // The names of all styles need a place of their own.
+    let bare = || Axis::bare((0.0, 1.0));
+    let mut names = Panel::new(bare(), bare());
+    codes::key(&mut names, judgements, (0.03, 0.05));
+    panels.push(names);
     let caption = "Not in the paper: what a contact law does to the yield force. Load F + 3 = (f + 3 m g)/(m g) at which \
                    the floor begins to slip, over the floor friction μ, for Hertz contacts of one material (ν = 0.3), \
-                   (a) at K r^{1.5}/(m g) = 10², (b) at 10⁴. Lines: exact limits under the convention of each style, \
+                   (a) at a stiffness K r√r/(m g) of 10², (b) at 10⁴. Lines: exact limits under the convention of each style, \
                    solid the onset of slip, dashed the largest force where it is another one; marks: the codes, \
                    extrapolated to vanishing wall speed. Springs that are rescaled while a contact opens have the \
                    limit of those that are not, since every contact is loaded all the way.";
@@ -47,7 +52,7 @@ fn panel(stiffness: f64, judgements: &[Judgement], curves: &[LawCurve]) -> Panel
     panel.upright(GUIDE, CRITICAL_FRICTION);
     panel.words("μ_{c}", (CRITICAL_FRICTION + 0.006, 3.6), Anchor::Start);
     panel.words(
-        format!("K r^{{1.5}}/(m g) = {}", power_of_ten(stiffness)),
+        format!("stiffness {}", power_of_ten(stiffness)),
         (0.11, 0.6 * highest),
         Anchor::Start,
     );

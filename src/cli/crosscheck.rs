@@ -126,7 +126,7 @@ pub(super) fn publish(
             ("crosscheck.md", crosscheck_markdown(judgements, command)),
         ];
         let is_linear = |row: &Judgement| row.study.convention.law.power == Power::Linear;
-        if !judgements.iter().any(is_linear) {
+        if !judgements.is_empty() && !judgements.iter().any(is_linear) {
             files.push((LAWS, laws_markdown(judgements, LAWS_FIGURE, command)));
             files.push((LAWS_FIGURE, laws_svg(judgements)));
         }

@@ -196,7 +196,7 @@ fn all_commands_give_one_answer() {
         assert_eq!(row["reference_onset"], theory["quasistatic.slip_onset"]);
         assert_eq!(row["reference_force"], theory["quasistatic.peak_force"]);
         assert!((number(&row, "slip_onset") / onset - 1.0).abs() < 1e-6);
-        // The slowest run is 0.017 m g above the peak, and all of that counts.
+        // The slowest run is 0.012 m g above the extrapolated peak, and all of that counts, beside 0.007 of the budget.
         let uncertainty = number(&row, "peak_uncertainty");
         assert!((number(&row, "peak_force") - peak).abs() < uncertainty && uncertainty < 0.02);
         assert_eq!(row["yield_force"], row["peak_force"]);

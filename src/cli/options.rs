@@ -136,20 +136,27 @@ pub(super) struct MaterialOptions {
 }
 
 impl MaterialOptions {
+    /// The material; without a modulus, its stiffness means nothing.
+    fn material(&self) -> Option<Material> {
+        Some(Material {
+            youngs_modulus: self.youngs.unwrap_or(1.0),
+            poisson_ratio: self.poisson?,
+        })
+    }
+
     /// The stiffness that the modulus gives; `None` without one.
     fn stiffness(&self) -> Option<f64> {
-        let material = Material {
-            youngs_modulus: self.youngs?,
-            poisson_ratio: self.poisson?,
-        };
-        Some(material.pair_stiffness())
+        self.youngs
+            .and(self.material())
+            .map(|own| own.pair_stiffness())
     }
 
     /// `others` with the stiffness ratio of the material, if there is one, in a law of this power.
     fn over(&self, others: &StackOptions, power: Power) -> Result<StackOptions, InvalidValue> {
-        let Some(poisson_ratio) = self.poisson else {
+        let Some(material) = self.material() else {
             return Ok(others.clone());
         };
+        let (modulus, poisson_ratio) = (material.youngs_modulus, material.poisson_ratio);
         let refused = |flag, value, accepted| Err(InvalidValue::new(flag, value, accepted));
         if power != Power::Hertz {
             let accepted = "left out, unless --law is hertz";
@@ -158,14 +165,9 @@ impl MaterialOptions {
         if !(0.0..=0.5).contains(&poisson_ratio) {
             return refused("--poisson", poisson_ratio, "a number from 0 to 0.5");
         }
-        let modulus = self.youngs.unwrap_or(1.0);
         if !(modulus > 0.0 && modulus.is_finite()) {
             return refused("--youngs", modulus, "a number above 0");
         }
-        let material = Material {
-            youngs_modulus: modulus,
-            poisson_ratio,
-        };
         Ok(StackOptions {
             kappa: Some(material.stiffness_ratio()),
             ..others.clone()
@@ -282,7 +284,7 @@ pub(super) struct LawOptions {
     /// Stiffness ratio k_n/k_t of the floor [default: as --kappa]
     #[arg(long, value_name = "K", allow_negative_numbers = true)]
     floor_kappa: Option<f64>,
-    /// Multiply the tangential stiffness of these contacts by 2/(2 - overlap)
+    /// Multiply the tangential stiffness of these contacts by 2/(2 - overlap); every contact, if none are named
     #[arg(long, value_parser = stiffening(), value_name = "CONTACTS", num_args = 0..=1, require_equals = true,
         default_missing_value = "every")]
     tangential_stiffening: Option<TangentialStiffening>,

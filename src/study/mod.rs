@@ -20,6 +20,7 @@ pub mod yield_force;
 pub use elsewhere::Plan;
 pub(crate) use elsewhere::{PLAN, PlannedRow};
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
+pub(crate) use tolerance::ROUNDING;
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
 pub(crate) use verdict::Ground;
 pub use verdict::{Grounds, Verdict};

@@ -1,5 +1,8 @@
 //! The largest error of a yield force that agrees.
 
+/// Root mean square of one rounding, in units of the last place: 1/√12.
+pub(crate) const ROUNDING: f64 = 0.288_675_134_594_812_9;
+
 /// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
 /// torque arms (tests/golden_theory.rs).
 pub const MIN_TOLERANCE: f64 = 1e-7;

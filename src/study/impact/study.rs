@@ -6,13 +6,11 @@ use crate::code::{Code, ConventionKey};
 use crate::model::ImpactTarget;
 use crate::runs::{ImpactReading, ImpactRun, Workload};
 use crate::series::Rebound;
-use crate::study::{Evaluation, Ground, Grounds, Judged, Study, tolerance};
+use crate::study::{Evaluation, Ground, Grounds, Judged, ROUNDING, Study, tolerance};
 use crate::theory::{damping_exponent, sliding_change};
 
 /// The largest coordinate of a body that touches, in r.
 const LARGEST_COORDINATE: f64 = 4.0;
-/// Root mean square of one rounding, in units of the last place: 1/√12.
-const ROUNDING: f64 = 0.288_675_134_594_812_9;
 /// Significant digits that give a number of double precision back exactly.
 const ALL_DIGITS: u32 = 17;
 

@@ -3,6 +3,7 @@
 use super::budget::Budget;
 use super::runs::{MIDDLE_RUN, PLAIN_RUNS, RunRoles, SPEEDS};
 use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
+use crate::study::ROUNDING;
 use crate::theory::bracketed_root;
 
 /// A yield force at vanishing wall speed.
@@ -94,8 +95,6 @@ fn order(speeds: &[f64; 3], ratio: f64) -> Option<f64> {
 
 /// Largest coordinate in the stack, the top of cylinder 1, in r: its rounding is that of every step.
 pub(super) const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
-/// Root mean square of one rounding, in units of the last place: 1/√12.
-const ROUNDING: f64 = 0.288_675_134_594_812_9;
 /// Half a unit of the seventeenth significant digit.
 const PRINTED: f64 = 0.5e-16;
 /// Largest sum of the magnitudes of the weights with which the slip onset follows from four rows: it comes two

@@ -184,3 +184,30 @@ fn an_external_code_takes_its_own_law_alone() {
         "{message}"
     );
 }
+
+#[test]
+fn a_material_takes_the_place_of_stiffness_and_stiffness_ratio() {
+    let bench = Bench::without_codes();
+    let (modulus, poisson) = (321.0, 0.2);
+    let line =
+        format!("theory --mu 0.2 --youngs {modulus} --poisson {poisson} --law hertz --format json");
+    let row = json_rows(&standard_output(&mut bench.tristack(&line)))[0].clone();
+    let number = |key: &str| row[key].as_f64().expect("a number");
+    // 4/3 E* sqrt(R), E* = E/(2 (1 - nu^2)), R = r/2; (2 - nu)/(2 (1 - nu)).
+    let stiffness = modulus / (1.0 - poisson * poisson) * 2.0 / 3.0 / 2f64.sqrt();
+    assert!((number("stiffness") / stiffness - 1.0).abs() < 1e-14);
+    assert!((number("kappa") - 1.8 / 1.6).abs() < 1e-14);
+    for (options, named) in [
+        ("--youngs 321 --poisson 0.2", "unless --law is hertz"),
+        ("--youngs 321 --poisson 0.6 --law hertz", "from 0 to 0.5"),
+        ("--youngs 0 --poisson 0.2 --law hertz", "above 0"),
+    ] {
+        let line = format!("theory --mu 0.2 {options}");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            !output.status.success() && message.contains(named),
+            "{message}"
+        );
+    }
+}

@@ -27,7 +27,7 @@ pub(super) static BUILT_IN: [BuiltIn; 7] = [
         "top_wall.in" "wall.stl" "side_wall.stl"),
     folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "law.py" "cases.py"),
     folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
-    folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "probe.in" "drive.in"),
+    folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in"),
     folder!("yade_scripts/hertz", "code.toml" "law.py" "probe.py"),
     folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in"),
 ];

@@ -98,9 +98,13 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
         .number("observed_order", "1", |(_, slip)| slip.order.observed)
         .means("order of convergence in the wall speed, if above the noise")
         .shown_as("observed order", |order| format!("{order:.3}"))
-        .number("expected_order", "1", |_| ConvergenceOrder::EXPECTED)
-        .means("what it must be; from 1/2 to 2 where gravity must be applied slowly (springs that remember forces or are rescaled, viscoelastic damping)")
+        .number("expected_order", "1", |(row, _)| {
+            let (lowest, highest) = row.study.expected_orders();
+            (lowest == highest).then_some(lowest)
+        })
+        .means("what it must be; absent where it may be from 0.5 to 2, since gravity must be applied slowly (springs that remember forces or are rescaled, viscoelastic damping)")
         .shown("expected")
+        .cell(|(row, _)| ConvergenceOrder::range(row.study.expected_orders()))
         .rows(judgements.iter().filter_map(|row| Some((row, row.slip()?))))
 }
 

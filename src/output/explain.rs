@@ -20,7 +20,7 @@ pub(crate) fn explanation(
     let mut text = reference(row);
     text += &runs(row);
     if let Some(slip) = row.slip() {
-        text += &extrapolation(slip);
+        text += &extrapolation(row, slip);
         text += &budget(row, slip);
         text += &round_off(slip, twin);
     }
@@ -138,11 +138,11 @@ fn mechanics(runs: &[RunSummary]) -> String {
     )
 }
 
-fn extrapolation(slip: &Extrapolation) -> String {
+fn extrapolation(row: &Judgement, slip: &Extrapolation) -> String {
     let order = match slip.order.observed {
         Some(observed) => format!(
             "{observed:.4}, expected {} within {:.2}",
-            ConvergenceOrder::EXPECTED,
+            ConvergenceOrder::range(row.study.expected_orders()),
             slip.order.allowance
         ),
         None => "below the noise, not observable".to_owned(),

@@ -6,7 +6,9 @@ pub struct Budget {
     /// Distance between the extrapolations of second and first order in the wall speed.
     pub wall_speed: f64,
     /// Change of the middle run with the time step doubled: the error of the single step if it is of first
-    /// order, three times that if it is of second.
+    /// order, three times that if it is of second. Springs that remember forces are summed up by their
+    /// stiffness at the end of each step, which is off in proportion to the step of the wall: for them it is the
+    /// change of the straight line through the two faster runs, from which that has vanished with the speed.
     /// Absent if there is no such run.
     pub time_step: Option<f64>,
     /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
@@ -57,7 +59,7 @@ impl Budget {
         BudgetPart {
             name: "time_step",
             heading: "time step",
-            how: "run 4 minus run 2 (time step doubled)",
+            how: "run 4 minus run 2 (time step doubled); with springs that remember forces the straight line through runs 6 and 4 minus that through 1 and 2",
             known_by: "a run at the middle wall speed with twice the time step (--coarse-step)",
             value: |budget| budget.time_step,
         },
@@ -92,7 +94,7 @@ impl Budget {
         BudgetPart {
             name: "shortcuts",
             heading: "shortcuts",
-            how: "straight line through runs 6 and 7 (without shortcuts) minus that through 1 and 2",
+            how: "straight line through the last two runs (without shortcuts) minus that through 1 and 2",
             known_by: "",
             value: |budget| Some(budget.shortcuts),
         },

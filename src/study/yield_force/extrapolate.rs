@@ -1,7 +1,7 @@
 //! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
 use super::budget::Budget;
-use super::runs::{MIDDLE_RUN, PLAIN_RUNS, RunRoles, SPEEDS};
+use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
 use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
 use crate::study::ROUNDING;
 use crate::theory::bracketed_root;
@@ -67,6 +67,14 @@ impl ConvergenceOrder {
     /// order: it may exceed a lag of first order that nearly cancels, or take up to a third of it at the fastest speed
     /// (which gives the order 1/2). The parabola has both.
     pub(crate) const OF_RAMPS: (f64, f64) = (0.5, 2.0);
+
+    /// The words for expected orders.
+    pub(crate) fn range((lowest, highest): (f64, f64)) -> String {
+        if lowest == highest {
+            return lowest.to_string();
+        }
+        format!("{lowest} to {highest}")
+    }
 
     /// Whether the observed order, if there is one, lies between these.
     pub(crate) fn is_between(&self, (lowest, highest): (f64, f64)) -> bool {
@@ -146,14 +154,19 @@ pub(crate) fn extrapolate_runs(
             |printed| printing_error(&printed, estimate),
         )
     };
+    let time_step = match (roles.coarse_and_fast, roles.coarse_time_step) {
+        (Some(fast), Some(middle)) => Some(change_of_line(&all, [fast, middle])?),
+        (_, middle) => change(middle)?,
+    };
+    let without_shortcuts = roles.plain.map(|plain| change_of_line(&all, plain));
     let budget = Budget {
         wall_speed: (force - first_order).abs(),
-        time_step: change(roles.coarse_time_step)?,
+        time_step,
         preparation: change(roles.short_ramp)?,
         sampling: amplified(&|estimate, _| estimate.sampling),
         round_off: amplified(&rounded),
         print_precision: amplified(&printed),
-        shortcuts: change_without_shortcuts(&all).unwrap_or(0.0),
+        shortcuts: without_shortcuts.unwrap_or(Some(0.0))?,
         convention: None,
     };
     let coarse = |run: usize| estimates[run].printed.is_some();
@@ -186,13 +199,14 @@ pub(super) fn printing_error(printed: &PrintedDigits, estimate: &Estimate) -> f6
     ROW_WEIGHTS * printed.half_unit * (1.0 + 2.0 * estimate.sensitivity)
 }
 
-/// Change of the straight line through the two faster runs without their shortcuts; `None` if there are no such runs.
-fn change_without_shortcuts(all: &[Estimate]) -> Option<f64> {
+/// Change at vanishing wall speed of the straight line through the two faster runs with `others` at the same speeds in
+/// their place; `None` if one of these is missing.
+fn change_of_line(all: &[Estimate], others: [usize; 2]) -> Option<f64> {
     let straight_line = |runs: [usize; 2]| {
         let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
         Some(2.0 * middle? - fast?)
     };
-    Some((straight_line(PLAIN_RUNS)? - straight_line([0, MIDDLE_RUN])?).abs())
+    Some((straight_line(others)? - straight_line([0, MIDDLE_RUN])?).abs())
 }
 
 #[cfg(test)]
@@ -233,6 +247,26 @@ mod tests {
         assert!((result.budget.time_step.unwrap() - 3e-4).abs() < 1e-12);
         assert!((result.budget.preparation.unwrap() - 1e-4).abs() < 1e-12);
         assert!((result.budget.sampling - 5e-9).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_error_of_the_time_step_that_vanishes_with_the_speed_is_none() {
+        // Twice the time step: 0.04 more at the fastest speed, 0.0203 at half of it.
+        let mut runs = estimates([10.4, 10.2, 10.1, 10.2203, 10.2]);
+        runs.push(estimates([10.44; 5])[0]);
+        let mut steps = STEPS.to_vec();
+        steps.push(5_000);
+        let time_step = |coarse_and_fast: Option<usize>| {
+            let roles = RunRoles {
+                coarse_and_fast,
+                ..RunRoles::PLANNED
+            };
+            let found = extrapolate_runs(&roles, &runs, &steps, 100.0, |run| run.slip)?;
+            found.budget.time_step
+        };
+        assert!((time_step(None).unwrap() - 0.0203).abs() < 1e-12);
+        assert!((time_step(Some(5)).unwrap() - 0.0006).abs() < 1e-12);
+        assert_eq!(time_step(Some(6)), None);
     }
 
     #[test]
@@ -313,14 +347,18 @@ mod tests {
                 printed: None,
             })
             .to_vec();
-        let budget = |count: usize| {
-            let steps = [10_000; 7];
-            let result = extrapolate(&runs[..count], &steps[..count], 1e2, |run| run.slip);
-            result.unwrap().budget
+        let found = |plain: Option<[usize; 2]>| {
+            let roles = RunRoles {
+                plain,
+                ..RunRoles::PLANNED
+            };
+            extrapolate_runs(&roles, &runs, &[10_000; 7], 1e2, |run| run.slip)
         };
         // |(2 * 10.202 - 10.41) - (2 * 10.2 - 10.4)|
-        assert!((budget(7).shortcuts - 0.006).abs() < 1e-12);
-        assert_eq!(budget(5).shortcuts, 0.0);
+        let shortcuts = found(Some([5, 6])).unwrap().budget.shortcuts;
+        assert!((shortcuts - 0.006).abs() < 1e-12);
+        assert_eq!(found(None).unwrap().budget.shortcuts, 0.0);
+        assert_eq!(found(Some([6, 7])), None);
     }
 
     #[test]

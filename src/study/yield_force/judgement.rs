@@ -374,17 +374,12 @@ impl<'a> Reader<'a> {
     }
 
     fn doubt_order(&mut self, slip: &Extrapolation) {
-        let (expected, orders) = match self.measurement.limit.needs_slow_ramp {
-            true => ("1/2 to 2", ConvergenceOrder::OF_RAMPS),
-            false => (
-                "1",
-                (ConvergenceOrder::EXPECTED, ConvergenceOrder::EXPECTED),
-            ),
-        };
+        let orders = self.measurement.expected_orders();
         if !slip.order.is_between(orders) {
             self.doubt(format!(
-                "the slip onset converges with order {:.2} in the wall speed, not {expected}",
+                "the slip onset converges with order {:.2} in the wall speed, not {}",
                 slip.order.observed.unwrap_or(f64::NAN),
+                ConvergenceOrder::range(orders)
             ));
         }
     }

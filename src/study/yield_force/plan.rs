@@ -1,8 +1,8 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
-use super::extrapolate::{Extrapolation, extrapolate_runs};
+use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate_runs};
 use super::limits::{convention_uncertainty, known_limit};
-use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
+use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, RunRoles, SPEEDS};
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
@@ -73,7 +73,8 @@ pub struct Measurement {
     /// that may take too long.
     pub is_gentle: bool,
     /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
-    /// short gravity ramp as well. None where nothing yields.
+    /// short gravity ramp as well, and where springs remember forces another one with a coarse time step. None where
+    /// nothing yields.
     pub cases: Vec<Case>,
     /// Which run is which.
     pub roles: RunRoles,
@@ -94,6 +95,14 @@ pub(crate) fn plan_literal(
 }
 
 impl Measurement {
+    /// The lowest and the highest order of convergence in the wall speed that its runs may show.
+    pub(crate) fn expected_orders(&self) -> (f64, f64) {
+        match self.limit.needs_slow_ramp {
+            true => ConvergenceOrder::OF_RAMPS,
+            false => (ConvergenceOrder::EXPECTED, ConvergenceOrder::EXPECTED),
+        }
+    }
+
     /// Extrapolates one estimator over `estimates`, those of the cases in their order.
     pub(crate) fn extrapolate(
         &self,
@@ -136,6 +145,7 @@ impl Measurement {
             ..shortcuts
         };
         let plain = self.cases[..=MIDDLE_RUN].to_vec();
+        self.roles.plain = Some([self.cases.len(), self.cases.len() + 1]);
         for case in &mut self.cases {
             case.protocol.shortcuts = Some(shortcuts);
         }
@@ -169,6 +179,10 @@ pub(crate) fn planned(
     });
     let cases: Vec<Case> = cases.collect();
     let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
+    let roles = RunRoles {
+        coarse_and_fast: (cases.len() > COARSE_AND_FAST_RUN).then_some(COARSE_AND_FAST_RUN),
+        ..RunRoles::PLANNED
+    };
     Measurement {
         code,
         stack: *stack,
@@ -177,7 +191,7 @@ pub(crate) fn planned(
         convention_uncertainty: convention_uncertainty(code, stack, &convention),
         is_gentle: is_gentle(fastest, stack, &convention),
         cases,
-        roles: RunRoles::PLANNED,
+        roles,
         limit,
         model_form,
     }
@@ -201,6 +215,12 @@ fn planned_protocols(
         preparation: preparation(limit, 0.5 * ramp_time(limit, middle.wall_speed)),
         ..middle
     });
+    if convention.law.history.keeps_force() {
+        protocols.push(Protocol {
+            time_step: 2.0 * time_step,
+            ..protocols[0]
+        });
+    }
     Some(protocols)
 }
 
@@ -311,7 +331,7 @@ fn rounded(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::runs::{COARSE_TIME_STEP_RUN, PLAIN_RUNS, SHORT_RAMP_RUN};
+    use super::super::runs::{COARSE_TIME_STEP_RUN, SHORT_RAMP_RUN};
     use super::*;
     use crate::model::Power;
 
@@ -345,6 +365,18 @@ mod tests {
         assert_ne!(short, middle);
         short.protocol.preparation = middle.protocol.preparation;
         assert_eq!(short, middle);
+    }
+
+    #[test]
+    fn springs_that_remember_forces_have_a_second_run_with_twice_the_time_step() {
+        let stack = Stack::paper(0.3, 1e3);
+        let code = Code::named("yade-mindlin").unwrap();
+        let plan = plan(code, &stack, code.convention());
+        let coarse = plan.cases[plan.roles.coarse_and_fast.unwrap()];
+        let mut fast = plan.cases[0];
+        assert_eq!(plan.cases.len(), 6);
+        fast.protocol.time_step *= 2.0;
+        assert_eq!(coarse, fast);
     }
 
     /// The recorded runs depend on it: their plans are from before the touch of the wall was looked at.
@@ -408,7 +440,8 @@ mod tests {
         let stack = Stack::paper(0.3, 1e2);
         let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
         let shortened = measurement.clone().shortened();
-        for (position, plain) in PLAIN_RUNS.into_iter().zip(&measurement.cases) {
+        let plain = shortened.roles.plain.unwrap();
+        for (position, plain) in plain.into_iter().zip(&measurement.cases) {
             assert_eq!(shortened.cases[position], *plain);
         }
         for (short, plain) in shortened.cases.iter().zip(&measurement.cases) {

@@ -9,9 +9,8 @@ pub const MIDDLE_RUN: usize = 1;
 pub(crate) const COARSE_TIME_STEP_RUN: usize = SPEEDS.len();
 /// Position of the run with half the gravity ramp.
 pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
-
-/// Positions of the runs without shortcuts, where the others take some: at the fastest and the middle speed.
-pub(crate) const PLAIN_RUNS: [usize; 2] = [SPEEDS.len() + 2, SPEEDS.len() + 3];
+/// Position of the run at the fastest speed with twice the time step, of springs that remember forces.
+pub(crate) const COARSE_AND_FAST_RUN: usize = SPEEDS.len() + 2;
 
 /// Which run of a measurement is which, by position. The first three differ in their wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +19,12 @@ pub struct RunRoles {
     pub speeds: [f64; 3],
     /// The run with twice the time step, if there is one.
     pub coarse_time_step: Option<usize>,
+    /// The run at the fastest speed with twice the time step, if there is one.
+    pub coarse_and_fast: Option<usize>,
     /// The run with half the gravity ramp, if there is one.
     pub short_ramp: Option<usize>,
+    /// The runs without shortcuts at the fastest and the middle speed, where the others take some.
+    pub plain: Option<[usize; 2]>,
 }
 
 impl RunRoles {
@@ -29,6 +32,8 @@ impl RunRoles {
     pub(crate) const PLANNED: Self = Self {
         speeds: SPEEDS,
         coarse_time_step: Some(COARSE_TIME_STEP_RUN),
+        coarse_and_fast: None,
         short_ramp: Some(SHORT_RAMP_RUN),
+        plain: None,
     };
 }

@@ -123,6 +123,8 @@ fn measurement(
         is_gentle: is_gentle(speeds[0], stack, &convention),
         roles: RunRoles {
             speeds: speeds.map(|speed| speed / scale),
+            coarse_and_fast: None,
+            plain: None,
             coarse_time_step,
             short_ramp,
         },

@@ -9,7 +9,7 @@ use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
 };
 use tristack::paper::reproduction::{
-    Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
+    Laws, Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
@@ -247,6 +247,7 @@ fn native_reproduction() -> Reproduction {
         probes: Vec::new(),
         yield_curves: campaign.carry_out(plans),
         exponents: exponents(&scaling),
+        laws: Laws::default(),
         scaling,
         literal: Vec::new(),
         convergence: converge(&campaign).0,

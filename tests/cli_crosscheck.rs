@@ -149,6 +149,32 @@ fn rows_meet_the_accuracy_that_is_promised() {
 }
 
 #[test]
+fn every_style_of_hertz_has_the_onset_and_the_peak_of_its_exact_limit() {
+    let bench = Bench::without_codes();
+    let line = "crosscheck --law hertz --profile standard --format json";
+    let rows = json_rows(&standard_output(&mut bench.tristack(line)));
+    assert_eq!(rows.len(), 180);
+    let (yielding, others): (Vec<_>, Vec<_>) = rows
+        .into_iter()
+        .partition(|row| !row["reference_force"].is_null());
+    let none = |row: &serde_json::Value| row["verdict"] == "no-yield";
+    assert_eq!(others.iter().filter(|row| none(row)).count(), 12);
+    for row in yielding {
+        assert_eq!(row["verdict"], "agrees", "{row}");
+        let number = |name: &str| row[name].as_f64().expect("a number");
+        let away = |measured: &str, exact: &str| (number(measured) - number(exact)).abs();
+        let onset = away("slip_onset", "reference_onset");
+        let promised = if row["code"] == "native" { 1e-6 } else { 1e-5 };
+        assert!(onset < promised * (number("reference_onset") + 3.0), "{row}");
+        assert!(onset <= number("slip_onset_uncertainty"), "{row}");
+        assert!(
+            away("peak_force", "reference_force") <= number("peak_uncertainty"),
+            "{row}"
+        );
+    }
+}
+
+#[test]
 fn csv_has_the_agreed_columns() {
     let bench = Bench::without_codes();
     let text = standard_output(&mut bench.tristack("crosscheck --codes native --format csv"));
@@ -156,7 +182,8 @@ fn csv_has_the_agreed_columns() {
         text.lines().next(),
         Some(
             "stiffness,mu,mu_d,kappa,code,version,source,pair_torque_arm,pair_kinematic_arm,\
-             floor_torque_arm,floor_kinematic_arm,yield_force,uncertainty,reference,reference_force,slip_onset,\
+             floor_torque_arm,floor_kinematic_arm,law_power,history,floor_ratio,floor_kappa,\
+             tangential_stiffening,yield_force,uncertainty,reference,reference_force,slip_onset,\
              slip_onset_uncertainty,reference_onset,peak_force,peak_uncertainty,error,tolerance,model_form,verdict"
         )
     );

@@ -108,11 +108,11 @@ fn make(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<(), RunError> {
-    // Trajectories and the report have the paper's stacks.
+    // Trajectories have the paper's law.
     let is_paper = selected.name.has_power(Power::Linear);
     let wanted = |set: Set| {
         let asked = only.is_none_or(|only| only == set);
-        asked && (is_paper || matches!(set, Set::Probe | Set::Crosscheck))
+        asked && (is_paper || set != Set::Trajectories)
     };
     if wanted(Set::Probe) {
         let codes = std::slice::from_ref(selected);

@@ -1,16 +1,17 @@
 //! `tristack report`.
 
 use super::convention::settle;
-use super::options::{CodeParser, RunOptions, selected_codes};
+use super::options::{CodeParser, RunOptions, find_all, selected_codes};
 use super::out::Out;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::shown;
+use crate::model::{Power, shown};
 use crate::output::{Origin, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
+use crate::runs::SelectedCode;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -38,17 +39,17 @@ pub(super) struct Arguments {
 
 /// Reproduces the paper and writes the report.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let mut codes = arguments.codes.clone();
-    if !codes.is_empty() && !codes.contains(&Code::NATIVE) {
-        codes.push(Code::NATIVE);
-    }
-    let codes = selected_codes(&codes)?;
+    let [codes, hertz_codes] =
+        [Power::Linear, Power::Hertz].map(|power| codes_of(&arguments.codes, power));
+    let (codes, hertz_codes) = (codes?, hertz_codes?);
     settle(&codes, &arguments.run)?;
+    settle(&hertz_codes, &arguments.run)?;
     let register = Register::paper()?;
     let out = Out::claim(Some(&arguments.out), &layout())?;
     let settings = arguments.run.settings()?;
     let scope = Scope {
         codes: &codes,
+        hertz_codes: &hertz_codes,
         settings: &settings,
         literal: arguments.literal,
     };
@@ -64,7 +65,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         }
     };
     let claims = judge(&register, &PaperTheory::printed(), Some(&reproduced));
-    let absent = codes.iter().filter(|selected| selected.code.is_none());
+    let all = codes.iter().chain(&hertz_codes);
+    let absent = all.filter(|selected| selected.code.is_none());
     let origin = Origin {
         command: command.to_owned(),
         recorded: absent.map(|selected| selected.name).collect(),
@@ -79,6 +81,16 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         tell!("{}", shown(&arguments.out.join("report.html")));
     }
     Ok(found.max(written))
+}
+
+/// The codes with a law of this `power` among those that were `named`, and the native one; all where none was.
+fn codes_of(named: &[Code], power: Power) -> Result<Vec<SelectedCode>, CliError> {
+    if named.is_empty() {
+        return Ok(find_all(&Code::of_power(power)));
+    }
+    let mut own = vec![Code::NATIVE];
+    own.extend(named.iter().filter(|code| code.has_power(power)));
+    selected_codes(&own)
 }
 
 /// The files of a report.
@@ -108,6 +120,13 @@ fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatu
         count(ClaimVerdict::Fails),
         count(ClaimVerdict::Untestable)
     );
-    let curves = ExitStatus::of(&reproduction.yield_curves);
-    curves.max(ExitStatus::of(&reproduction.scaling))
+    let laws = &reproduction.laws;
+    let parts = [
+        &reproduction.yield_curves,
+        &reproduction.scaling,
+        &laws.yield_curves,
+        &laws.scaling,
+    ];
+    let each = parts.map(|judgements| ExitStatus::of(judgements));
+    each.into_iter().max().unwrap_or(ExitStatus::Success)
 }

@@ -16,7 +16,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
          verdict on it.",
         "`tristack crosscheck` (crosscheck.csv, crosscheck.json), `tristack sweep` (sweep.csv, \
          sweep.json), `tristack report` (tables/yield_curves.csv, tables/scaling.csv, \
-         tables/literal.csv)",
+         tables/literal.csv, tables/law_forces.csv, tables/law_scaling.csv)",
     )
     .stack(|row| row.study.stack)
     .code(|row| row.code)
@@ -24,6 +24,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .source(|row| row.source)
     .shown("source")
     .convention(|row| row.study.convention)
+    .law(|row| row.study.convention.law)
     .number("yield_force", "m g", |row| row.yield_force())
     .means(
         "yield force F at vanishing wall speed: the slip onset, or the peak where the force rises \

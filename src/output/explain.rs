@@ -160,7 +160,7 @@ fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let load = reference.map_or(f64::NAN, |force| force + 3.0);
     let parts = Budget::PARTS.into_iter().filter_map(|part| {
         let value = (part.value)(&slip.budget)?;
-        Some((part.heading, part.how, value))
+        Some((part.heading, part.how(&row.study.roles), value))
     });
     let total = ("total", "sum, as if all conspired", slip.budget.total());
     let table = Columns::<(&str, &str, f64)>::for_people()

@@ -1,79 +1,116 @@
 //! What a contact law does to the yield force: the styles of all codes side by side, at one material.
 
-use super::number::{digits, friction, small};
-use super::table::{Columns, DataTable, markdown_code};
+use super::number::{digits, friction, rounded, small};
+use super::table::{Columns, DataTable, Table, markdown_code};
 use crate::code::Code;
-use crate::model::TangentialStiffening;
+use crate::model::{ContactConvention, TangentialStiffening};
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 
-/// One style of a code, and its rows.
-struct Style<'a> {
-    code: Code,
-    rows: Vec<&'a Judgement>,
+/// Title of the page and of the section of the report.
+pub(crate) const LAWS_TITLE: &str = "What your contact law does to the yield force";
+
+/// What the conventions of a table of laws are.
+pub(crate) const LAWS_EXPLAINED: &str = "An arm r₁ is that of the torque, in R = r + r₁ overlap, with that of the surface velocity \
+    where it is another one. Springs that remember a displacement have the force of the present stiffness; those that \
+    remember a force grow by the present stiffness alone. A spring that is rescaled is reduced while the contact opens, and has \
+    the limit of one that is not where every contact is loaded all the way, as here.";
+
+/// What the forces of a table of laws are.
+pub(crate) const FORCES_EXPLAINED: &str = "Exact quasi-static limits F = f/(m g) at the onset of slip / at the largest force, one number where \
+    both are the same; none where the top wall reaches the bottom cylinders before the floor slips. The stiffness is K r√r/(m g).";
+
+/// Why the forces differ, and what that means.
+pub(crate) fn laws_lead(judgements: &[Judgement]) -> String {
+    let ratio = judgements
+        .first()
+        .map_or(f64::NAN, |row| row.study.stack.stiffness_ratio);
+    format!(
+        "Every code calls it Hertz or Mindlin, and the same stack of the same material ({}) begins to slip \
+         at other forces in each: by what its tangential spring remembers, by how stiff its floor is beside a pair, and \
+         where forces act. Here are the exact quasi-static limits of all of them side by side, and how well each code \
+         was measured to have its own. A code that agrees does what its row says, and two rows that differ are two \
+         models, not an error of either.",
+        material(ratio)
+    )
 }
 
-fn styles(judgements: &[Judgement]) -> Vec<Style<'_>> {
-    let mut styles: Vec<Style> = Vec::new();
+/// The material behind Mindlin's ratio of stiffnesses κ = (2 − ν)/(2 (1 − ν)), in words.
+fn material(ratio: f64) -> String {
+    let poisson = (2.0 * ratio - 2.0) / (2.0 * ratio - 1.0);
+    match (0.0..=0.5).contains(&poisson) {
+        true => format!("Poisson's ratio {}", rounded(poisson)),
+        false => format!("stiffness ratio {}", rounded(ratio)),
+    }
+}
+
+/// One row of each code, in order.
+fn styles(judgements: &[Judgement]) -> Vec<&Judgement> {
+    let mut styles: Vec<&Judgement> = Vec::new();
     for row in judgements {
-        match styles.iter_mut().find(|style| style.code == row.code) {
-            Some(style) => style.rows.push(row),
-            None => styles.push(Style {
-                code: row.code,
-                rows: vec![row],
-            }),
+        if !styles.iter().any(|known| known.code == row.code) {
+            styles.push(row);
         }
     }
     styles
 }
 
-/// For people: what each style means by a contact.
-fn conventions(judgements: &[Judgement]) -> DataTable<'_> {
-    let law = |style: &Style| style.rows[0].study.convention.law;
-    Columns::<Style>::for_people()
-        .left("code", |style| style.code.as_str().to_owned())
-        .left("style", |style| style.code.label())
-        .left("springs remember", move |style| {
-            law(style).history.to_string()
-        })
-        .right("floor K / pair K", move |style| {
-            digits::<4>(law(style).floor_ratio)
-        })
-        .left("k_t times 2/(2 - overlap)", move |style| {
-            match law(style).tangential_stiffening {
-                TangentialStiffening::None => "-".to_owned(),
-                contacts => contacts.as_str().to_owned(),
-            }
-        })
-        .right("pair arm", |style| {
-            style.rows[0].study.convention.arms.pair.to_string()
-        })
-        .right("floor arm", |style| {
-            style.rows[0].study.convention.arms.floor.to_string()
-        })
-        .rows(styles(judgements))
+/// What each style means by a contact.
+pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
+    let convention = |row: &&Judgement| -> ContactConvention { row.study.convention };
+    Columns::<&Judgement>::new(
+        "laws",
+        "A row is what one style of a code means by a contact.",
+        "`tristack report` (tables/laws.csv)",
+    )
+    .code(|row| row.code)
+    .text("style", |row| row.code.label())
+    .means("the style in words")
+    .shown("style")
+    .law(move |row| convention(row).law)
+    .again("history")
+    .shown("springs remember")
+    .again("floor_ratio")
+    .shown_as("floor K / pair K", digits::<4>)
+    .again("tangential_stiffening")
+    .shown("k_t times 2/(2 − overlap)")
+    .cell(move |row| match convention(row).law.tangential_stiffening {
+        TangentialStiffening::None => "-".to_owned(),
+        contacts => contacts.as_str().to_owned(),
+    })
+    .convention(convention)
+    .right("pair arm", move |row| convention(row).arms.pair.to_string())
+    .right("floor arm", move |row| convention(row).arms.floor.to_string())
+    .rows(styles(judgements))
 }
 
-/// For people: slip onset and largest force of each style at each friction, at one stiffness.
-fn forces(judgements: &[Judgement], stiffness: f64) -> DataTable<'_> {
-    let rows: Vec<&Judgement> = judgements
-        .iter()
-        .filter(|row| row.stiffness() == stiffness)
-        .collect();
-    let mut frictions: Vec<f64> = rows.iter().map(|row| row.mu()).collect();
-    frictions.sort_by(f64::total_cmp);
-    frictions.dedup();
-    let mut columns = Columns::<Style>::for_people().left("code", |style| style.code.to_string());
-    for mu in frictions {
-        // A page is made once.
-        let heading: &'static str = format!("mu = {}", friction(mu)).leak();
-        columns = columns.right(heading, move |style| {
-            let mut own = style.rows.iter();
-            let row = own.find(|row| row.mu() == mu && row.stiffness() == stiffness);
-            row.map_or_else(String::new, |row| exact_forces(row))
-        });
+/// For people: slip onset and largest force of each style at each stiffness, a column for each friction.
+pub(crate) fn law_forces(judgements: &[Judgement]) -> Table {
+    let sorted = |value: fn(&Judgement) -> f64| {
+        let mut all: Vec<f64> = judgements.iter().map(value).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    };
+    let frictions = sorted(Judgement::mu);
+    let first = [("stiffness".to_owned(), true), ("code".to_owned(), false)];
+    let headings = frictions.iter().map(|&mu| (format!("μ = {}", friction(mu).replace("mu_c", "μ_c")), true));
+    let mut table = Table::new(first.into_iter().chain(headings));
+    for stiffness in sorted(Judgement::stiffness) {
+        for style in styles(judgements) {
+            let own = judgements.iter();
+            let own = own.filter(|row| row.code == style.code && row.stiffness() == stiffness);
+            let own: Vec<&Judgement> = own.collect();
+            let forces = frictions.iter().map(|&mu| {
+                let row = own.iter().find(|row| row.mu() == mu);
+                row.map_or_else(|| "-".to_owned(), |row| exact_forces(row))
+            });
+            let mut cells = vec![stiffness.to_string(), style.code.to_string()];
+            cells.extend(forces);
+            table.push(cells);
+        }
     }
-    columns.rows(styles(judgements))
+    table
 }
 
 /// The onset, and the peak where it is another force.
@@ -89,56 +126,39 @@ fn exact_forces(row: &Judgement) -> String {
 
 /// For people: how well each style was measured to have its own limit.
 fn agreement(judgements: &[Judgement]) -> DataTable<'_> {
-    let agreeing = |style: &Style| {
-        let own = style.rows.iter();
-        own.filter(|row| row.verdict() == Verdict::Agrees).count()
-    };
-    let largest = |style: &Style| {
-        let errors = style.rows.iter().filter_map(|row| row.error());
-        errors.map(f64::abs).reduce(f64::max)
-    };
-    Columns::<Style>::for_people()
-        .left("code", |style| style.code.to_string())
-        .left("version", |style| style.rows[0].version.clone())
-        .left("runs", |style| style.rows[0].source.as_str().to_owned())
-        .right("rows that agree", move |style| {
-            format!("{} of {}", agreeing(style), style.rows.len())
+    let rows_of = move |code: Code| judgements.iter().filter(move |row| row.code == code);
+    Columns::<&Judgement>::for_people()
+        .left("code", |row| row.code.to_string())
+        .left("version", |row| row.version.clone())
+        .left("runs", |row| row.source.as_str().to_owned())
+        .right("rows that agree", move |row| {
+            let agreeing = rows_of(row.code).filter(|own| own.verdict() == Verdict::Agrees);
+            let yielding = rows_of(row.code).filter(|own| own.reference_force().is_some());
+            format!("{} of {}", agreeing.count(), yielding.count())
         })
-        .right("largest error", move |style| {
-            largest(style).map_or_else(|| "-".to_owned(), small)
+        .right("largest error", move |row| {
+            let errors = rows_of(row.code).filter_map(|own| own.error());
+            let largest = errors.map(f64::abs).reduce(f64::max);
+            largest.map_or_else(|| "-".to_owned(), small)
         })
         .rows(styles(judgements))
 }
 
 /// The page with the styles, their forces and how well they were measured; `figure` is the name of its picture.
 pub(crate) fn laws_markdown(judgements: &[Judgement], figure: &str, command: &str) -> String {
-    let mut stiffnesses: Vec<f64> = judgements.iter().map(Judgement::stiffness).collect();
-    stiffnesses.sort_by(f64::total_cmp);
-    stiffnesses.dedup();
-    let mut page = format!(
-        "# What your contact law does to the yield force\n\n\
-         Every code calls it Hertz or Mindlin, and the same stack of the same material (Poisson's ratio 0.3) begins to slip \
-         at other forces in each: by what its tangential spring remembers, by how stiff its floor is beside a pair, and \
-         where forces act. This page has the exact quasi-static limits of all of them side by side, and how well each code \
-         was measured to have its own. A code that agrees here does what its row says, and two rows that differ are two \
-         models, not an error of either.\n\n\
+    format!(
+        "# {LAWS_TITLE}\n\n{}\n\n\
          Made by tristack {} with {}. The equations are in docs/theory.md, section 11.\n\n\
          ![Load at the onset of slip over the floor friction]({figure})\n\n\
-         ## What each style means by a contact\n\n",
+         ## What each style means by a contact\n\n{}\n{LAWS_EXPLAINED}\n\n\
+         ## Onset of slip / largest force\n\n{FORCES_EXPLAINED}\n\n{}\n\
+         ## Measured\n\n\
+         The error is the distance of the measured slip onset from the exact one, relative to F + 3.\n\n{}",
+        laws_lead(judgements),
         env!("CARGO_PKG_VERSION"),
-        markdown_code(command)
-    );
-    page += &conventions(judgements).shown().markdown();
-    page += "\nAn arm r1 is that of the torque, in R = r + r1 overlap, with that of the surface velocity where it is another \
-             one. Springs that remember a displacement have the force of the present stiffness; those that remember a force \
-             grow by the present stiffness alone. A spring that is rescaled is reduced while the contact opens, and has the \
-             limit of one that is not where every contact is loaded all the way, as here.\n";
-    for stiffness in stiffnesses {
-        page += &format!(
-            "\n## Onset of slip / largest force F, K r^1.5/(m g) = {stiffness}\n\nOne number where both are the same.\n\n"
-        );
-        page += &forces(judgements, stiffness).shown().markdown();
-    }
-    page += "\n## Measured\n\nThe error is the distance of the measured slip onset from the exact one, relative to F + 3.\n\n";
-    page + &agreement(judgements).shown().markdown()
+        markdown_code(command),
+        law_conventions(judgements).shown().markdown(),
+        law_forces(judgements).markdown(),
+        agreement(judgements).shown().markdown()
+    )
 }

@@ -42,7 +42,10 @@ pub(crate) use figures::{Figure, laws_svg, performance_svg, regimes_svg};
 pub(crate) use forecast::{forecast_text, forecasts};
 pub(crate) use impact::{impacts, impacts_markdown, impacts_text};
 pub(crate) use inventory::inventory;
-pub(crate) use laws::laws_markdown;
+pub(crate) use laws::{
+    FORCES_EXPLAINED, LAWS_EXPLAINED, LAWS_TITLE, law_conventions, law_forces, laws_lead,
+    laws_markdown,
+};
 pub(crate) use number::{friction, significant};
 pub(crate) use page::{Origin, report_files};
 pub(crate) use passport::{arm_effects, measured_convention, passport_json, passport_markdown};

@@ -15,11 +15,11 @@ const STIFFNESSES: [f64; 2] = [1e2, 1e4];
 
 /// The figure of the page on contact laws as SVG.
 pub(crate) fn laws_svg(judgements: &[Judgement]) -> String {
-    laws(judgements).svg()
+    laws_figure(judgements).svg()
 }
 
 /// Slip onset of every convention over the floor friction, by theory and by the codes, and the largest force.
-pub(super) fn laws(judgements: &[Judgement]) -> Figure {
+pub(crate) fn laws_figure(judgements: &[Judgement]) -> Figure {
     let mut codes: Vec<(Code, ContactConvention)> = Vec::new();
     for row in judgements {
         if !codes.iter().any(|(code, _)| *code == row.code) {

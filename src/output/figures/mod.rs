@@ -19,7 +19,7 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
-pub(crate) use laws::laws_svg;
+pub(crate) use laws::{laws_figure, laws_svg};
 pub(crate) use performance::performance_svg;
 pub(crate) use regimes::regimes_svg;
 pub use stack::{StackPanel, representative_panels, run_svg};
@@ -86,7 +86,7 @@ impl Figure {
 pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
     let draw: [fn(&Reproduction) -> Figure; 8] = [
         |own| yield_curves::yield_curves(&own.yield_curves, &own.curves),
-        |own| scaling::scaling(&own.scaling, &own.exponents, &own.curves),
+        |own| scaling::scaling(&own.scaling, &own.exponents, &own.curves, &own.laws),
         |own| force_series::force_series(&own.force_series),
         |own| convergence::convergence(&own.convergence),
         |own| theory_error::theory_error(&own.curves),

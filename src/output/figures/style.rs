@@ -49,6 +49,8 @@ pub(super) const THIN_DASHED: Stroke = Stroke::new(INK, 0.8, &[5.0, 3.0]);
 pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, &[3.0, 3.0]);
 /// The exact limit.
 pub(super) const EXACT: Stroke = Stroke::new(INK, 1.5, &[]);
+/// The same with Hertz contacts.
+pub(super) const HERTZ: Stroke = Stroke::new(INK, 1.2, &[6.0, 2.5, 1.5, 2.5]);
 /// The other theories.
 pub(super) const RIGID: Stroke = Stroke::new(PURPLE, 1.8, &[2.0, 2.5]);
 pub(super) const PERTURBATION: Stroke = Stroke::new(VERMILION, 1.5, &[7.0, 3.5]);

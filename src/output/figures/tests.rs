@@ -5,7 +5,7 @@ use super::*;
 use crate::code::{Code, Interrupt};
 use crate::model::{Power, Stack};
 use crate::paper::reproduction::{
-    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, TheoryPoint, snapshots,
+    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, Laws, TheoryPoint, snapshots,
 };
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 use crate::study::regimes::Survey;
@@ -122,6 +122,7 @@ fn curves() -> Curves {
 fn exponent() -> Exponent {
     Exponent {
         code: Code::NATIVE,
+        power: Power::Linear,
         mu: 0.3,
         exponent: 0.989_588,
         uncertainty: 2.5e-6,
@@ -140,6 +141,7 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
         scaling: judgements.clone(),
         yield_curves: judgements,
         exponents: if empty { Vec::new() } else { vec![exponent()] },
+        laws: Laws::default(),
         literal: Vec::new(),
         convergence: study((!empty).then_some(4.1)),
         force_series: series(if empty { Vec::new() } else { rows }),

@@ -20,12 +20,16 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
         ("yield_curves", &reproduction.yield_curves),
         ("scaling", &reproduction.scaling),
         ("literal", &reproduction.literal),
+        ("laws", &reproduction.laws.yield_curves),
+        ("law_scaling", &reproduction.laws.scaling),
     ];
     for (name, judgements) in parts {
         add_suite(name, judgements.iter().map(row).collect());
     }
-    let exponents = reproduction.exponents.iter().map(|exponent| {
-        let name = format!("{} at mu = {}", exponent.code, friction(exponent.mu));
+    let exponents = reproduction.exponents.iter();
+    let exponents = exponents.chain(&reproduction.laws.exponents).map(|exponent| {
+        let (code, mu, power) = (exponent.code, friction(exponent.mu), exponent.power.value());
+        let name = format!("{code} at mu = {mu}, p = {power}");
         let text = format!("fitted {}, exact {}", exponent.exponent, exponent.exact);
         TestCase::new(name, status(exponent.verdict, &text))
     });

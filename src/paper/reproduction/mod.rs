@@ -3,6 +3,7 @@
 mod convergence;
 mod curves;
 mod force_series;
+mod laws;
 mod scaling;
 mod snapshots;
 
@@ -11,13 +12,14 @@ pub(crate) use convergence::{FAST_WALL, convergence_stack, convergence_workloads
 pub(crate) use curves::codes_by_arms;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub use force_series::{ForceSeries, force_series};
+pub use laws::Laws;
 pub use scaling::{Exponent, exponents, scaling_measurements};
 pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at};
 pub use snapshots::{Snapshots, snapshots};
 
 use crate::code::{Code, Provenance};
-use crate::model::{Case, PAPER_STIFFNESS_RATIO, Stack};
-use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings};
+use crate::model::{Case, PAPER_STIFFNESS_RATIO, Power, Stack};
+use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
 use crate::series::SeriesError;
 use crate::study::Campaign;
 use crate::study::convention::Probed;
@@ -43,6 +45,8 @@ pub struct Reproduction {
     pub scaling: Vec<Judgement>,
     /// The exponents of Fig. 2(b).
     pub exponents: Vec<Exponent>,
+    /// The same stack with Hertz contacts.
+    pub laws: Laws,
     /// At the paper's literal wall speed and time step.
     pub literal: Vec<Judgement>,
     /// The supplement's figure on wall speed and time step.
@@ -78,8 +82,10 @@ pub enum ReproductionError {
 
 /// Extent and settings of a reproduction.
 pub(crate) struct Scope<'a> {
-    /// The codes that take part. The native one must be among them.
+    /// The codes with the paper's law that take part. The native one must be among them.
     pub codes: &'a [SelectedCode],
+    /// The codes with Hertz's law that take part.
+    pub hertz_codes: &'a [SelectedCode],
     /// Stores of the runs, and how new ones are made.
     pub settings: &'a Settings<'a>,
     /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
@@ -100,6 +106,7 @@ pub(crate) fn reproduce(
     let Some(measured) = measured? else {
         return Ok(None);
     };
+    let laws = Laws::new(&Campaign::new(scope.hertz_codes, settings, progress));
     let Some(survey) = survey(&theory.survey, &campaign) else {
         return Ok(None);
     };
@@ -107,8 +114,12 @@ pub(crate) fn reproduce(
         return Ok(None);
     };
     let names = campaign.names().into_iter();
+    let mut provenances = measured.provenances;
+    provenances.extend(provenances_of(&laws.yield_curves));
+    provenances.extend(provenances_of(&laws.scaling));
     Ok(Some(Reproduction {
-        provenances: measured.provenances,
+        provenances,
+        laws,
         probes: names.zip(campaign.into_probes()).collect(),
         exponents: exponents(&measured.scaling),
         yield_curves: measured.yield_curves,
@@ -175,11 +186,11 @@ impl Measured {
             return Ok(None);
         }
         let preparation = preparation?;
-        let runs = judgements.iter().flat_map(Judgement::runs);
-        let runs = runs.chain(&summaries).map(|summary| &summary.provenance);
+        let runs = summaries.iter().map(|summary| &summary.provenance);
         let prepared = preparation.iter().flat_map(|study| &study.rows);
         let prepared = prepared.flat_map(|row| &row.provenances);
-        let provenances = runs.chain(prepared).cloned().collect();
+        let mut provenances: Vec<Provenance> = provenances_of(&judgements).collect();
+        provenances.extend(runs.chain(prepared).cloned());
         let [yield_curves, scaling, literal] = parts.map(|part| judged(&part, &judgements));
         let trajectories = campaign.carry_out(trajectories(scope.codes));
         Ok(Some(Self {
@@ -193,6 +204,12 @@ impl Measured {
             provenances,
         }))
     }
+}
+
+/// The origins of the runs behind `judgements`.
+fn provenances_of(judgements: &[Judgement]) -> impl Iterator<Item = Provenance> {
+    let runs = judgements.iter().flat_map(Judgement::runs);
+    runs.map(|summary| summary.provenance.clone())
 }
 
 /// The run of `stack` with a given wall speed; `None` where nothing yields.
@@ -270,17 +287,29 @@ pub(crate) fn summaries_to_record(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<RunSummary>, RunError> {
-    let codes = [selected.name];
     let campaign = Campaign::new(std::slice::from_ref(selected), settings, progress);
-    let mut workloads = convergence_workloads(&codes);
-    let prepared = preparation_cases(&campaign, selected.name)?;
-    let measurements = all_measurements(&codes).into_iter().flatten();
-    let cases = measurements.flat_map(|measurement| measurement.cases);
-    for case in cases.chain(prepared) {
-        if !workloads[0].tasks.contains(&case) {
-            workloads[0].tasks.push(case);
+    let mut tasks: Vec<Case> = Vec::new();
+    for case in cases_to_record(&campaign, selected.name)? {
+        if !tasks.contains(&case) {
+            tasks.push(case);
         }
     }
-    let results = campaign.read(&workloads);
+    let code = selected.name;
+    let results = campaign.read(&[Workload { code, tasks }]);
     results.into_iter().flatten().collect()
+}
+
+fn cases_to_record(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
+    let cases = |measurements: &[Vec<Measurement>]| -> Vec<Case> {
+        let all = measurements.iter().flatten();
+        all.flat_map(|measurement| measurement.cases.clone()).collect()
+    };
+    if !code.has_power(Power::Linear) {
+        return Ok(cases(&laws::measurements(&[code])));
+    }
+    let convergence = convergence_workloads(&[code]).into_iter();
+    let mut all: Vec<Case> = convergence.flat_map(|workload| workload.tasks).collect();
+    all.extend(cases(&all_measurements(&[code])));
+    all.extend(preparation_cases(campaign, code)?);
+    Ok(all)
 }

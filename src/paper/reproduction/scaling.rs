@@ -10,16 +10,18 @@ use crate::study::yield_force::{Judgement, Measurement, plan};
 pub(crate) const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
 
 /// Stiffnesses 1/ε of Fig. 2(b), one a decade.
-const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+pub(super) const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
 /// Lowest stiffness of the fits: ε is three decades below 1 from here on.
 pub(crate) const FITTED_FROM: f64 = 1e3;
 
-/// An exponent β in F + 3 ∝ (k_n r/(m g))^β, fitted over the stiffnesses from 10³ on.
+/// An exponent β in F + 3 ∝ (K r^p/(m g))^β, fitted over the stiffnesses from 10³ on, K = k_n for linear springs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exponent {
     /// The code that measured the yield forces.
     pub code: Code,
+    /// The power p of the normal force.
+    pub power: Power,
     /// Floor friction μ.
     pub mu: f64,
     /// Least-squares slope of ln(F + 3) over ln(1/ε).
@@ -28,7 +30,7 @@ pub struct Exponent {
     pub uncertainty: f64,
     /// The same fit to the exact limits under the code's convention: the exponent of this finite range.
     pub exact: f64,
-    /// The exponent for ε → 0 (paper, Eq. for the scaling): 0, 1/2, 1.
+    /// The exponent for ε → 0: 0, 1/(1 + p), 1 below, at and above μ_c (paper, Eq. (5), for p = 1).
     pub asymptotic: f64,
     /// Number of stiffnesses fitted.
     pub points: usize,
@@ -50,20 +52,21 @@ pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
 
 /// The exponents of every code at every friction of Fig. 2(b) that has at least two points to fit.
 pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
-    let mut fitted = Vec::new();
-    for mu in SCALING_FRICTIONS {
-        for code in Code::of_power(Power::Linear) {
-            let own = judgements
-                .iter()
-                .filter(|row| row.code == code && row.mu() == mu);
-            let own = own.filter(|row| row.stiffness() >= FITTED_FROM);
-            let points: Vec<Point> = own.filter_map(Point::of).collect();
-            if points.len() >= 2 {
-                fitted.push(fit(code, mu, &points));
-            }
-        }
-    }
-    fitted
+    let frictions = SCALING_FRICTIONS.into_iter();
+    let fitted = frictions.flat_map(|mu| fitted_exponents(judgements, mu));
+    fitted.collect()
+}
+
+/// The exponents of every code that has at least two points to fit at `mu`.
+pub(super) fn fitted_exponents(judgements: &[Judgement], mu: f64) -> Vec<Exponent> {
+    let fitted = Code::all().into_iter().filter_map(|code| {
+        let own = judgements.iter();
+        let own = own.filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
+        let power = own.clone().next()?.study.convention.law.power;
+        let points: Vec<Point> = own.filter_map(Point::of).collect();
+        (points.len() >= 2).then(|| fit(code, power, mu, &points))
+    });
+    fitted.collect()
 }
 
 /// Logarithms of one measured load F + 3, its limit and its stiffness, and the uncertainty of the first.
@@ -86,7 +89,7 @@ impl Point {
     }
 }
 
-fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
+fn fit(code: Code, power: Power, mu: f64, points: &[Point]) -> Exponent {
     let weights = slope_weights(points);
     let sum = |term: &dyn Fn(f64, &Point) -> f64| -> f64 {
         let terms = weights.iter().zip(points);
@@ -98,11 +101,12 @@ fn fit(code: Code, mu: f64, points: &[Point]) -> Exponent {
     let tolerance = sum(&|weight, _| weight.abs() * MAX_TOLERANCE);
     Exponent {
         code,
+        power,
         mu,
         exponent,
         uncertainty,
         exact,
-        asymptotic: exponent_at(mu, [0.0, 0.5, 1.0]),
+        asymptotic: exponent_at(mu, [0.0, 1.0 / (1.0 + power.value()), 1.0]),
         points: points.len(),
         verdict: Verdict::of(exponent - exact, uncertainty, tolerance),
     }
@@ -144,7 +148,7 @@ mod tests {
         let points: Vec<Point> = [1e3, 1e4, 1e5]
             .map(|stiffness: f64| point(stiffness, 2.0 * stiffness.powf(0.7)))
             .into();
-        let fitted = fit(Code::NATIVE, 0.3, &points);
+        let fitted = fit(Code::NATIVE, Power::Linear, 0.3, &points);
         assert!((fitted.exponent - 0.7).abs() < 1e-12);
         assert_eq!(fitted.verdict, Verdict::Agrees);
     }
@@ -153,7 +157,8 @@ mod tests {
     fn a_wrong_force_shows_in_the_exponent() {
         let mut points: Vec<Point> = [1e3, 1e4, 1e5].map(|s: f64| point(s, s.sqrt())).into();
         points[2].load += 1e-3;
-        let fitted = fit(Code::NATIVE, CRITICAL_FRICTION, &points);
+        let fitted = fit(Code::NATIVE, Power::Hertz, CRITICAL_FRICTION, &points);
+        assert_eq!(fitted.asymptotic, 0.4);
         assert_eq!(fitted.verdict, Verdict::Differs);
     }
 

@@ -10,7 +10,22 @@ macro_rules! files_of {
     };
 }
 
-const FILES: &[(&str, &[u8])] = files_of!["lammps", "liggghts", "yade", "yade-facet", "yade-wall"];
+const FILES: &[(&str, &[u8])] = files_of![
+    "lammps",
+    "lammps-hertz",
+    "lammps-mindlin",
+    "lammps-mindlin-force",
+    "lammps-mindlin-rescale",
+    "lammps-mindlin-rescale-force",
+    "liggghts",
+    "liggghts-hertz",
+    "yade",
+    "yade-facet",
+    "yade-mindlin",
+    "yade-mindlin-facet",
+    "yade-mindlin-wall",
+    "yade-wall"
+];
 
 /// The embedded file `name`.
 pub(super) fn file(name: &str) -> Option<&'static [u8]> {
@@ -23,7 +38,6 @@ pub(super) fn file(name: &str) -> Option<&'static [u8]> {
 mod tests {
     use super::*;
     use crate::code::Code;
-    use crate::model::Power;
     use std::path::Path;
 
     #[test]
@@ -37,7 +51,7 @@ mod tests {
         let mut inside: Vec<&str> = FILES.iter().map(|(name, _)| *name).collect();
         inside.sort_unstable();
         assert_eq!(found, inside);
-        let codes = Code::of_power(Power::Linear).into_iter();
+        let codes = Code::all().into_iter();
         for code in codes.filter(|code| !code.accepts_any_convention()) {
             for ending in ["csv", "tar.gz"] {
                 let name = format!("{code}.{ending}");

@@ -1,5 +1,7 @@
 //! The parts of the numerical uncertainty of a yield force.
 
+use super::runs::RunRoles;
+
 /// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
@@ -46,6 +48,21 @@ pub(crate) struct BudgetPart {
     pub value: fn(&Budget) -> Option<f64>,
 }
 
+impl BudgetPart {
+    /// Its formula, in words, where the runs play these `roles`.
+    pub(crate) fn how(&self, roles: &RunRoles) -> &'static str {
+        match roles.coarse_and_fast {
+            Some(_) if self.name == TIME_STEP => {
+                "line through runs 6 and 4 minus line through 1 and 2 (time step doubled)"
+            }
+            _ => self.how,
+        }
+    }
+}
+
+/// Name of the part of the time step.
+const TIME_STEP: &str = "time_step";
+
 impl Budget {
     /// The parts, in order; the uncertainty is their sum.
     pub(crate) const PARTS: [BudgetPart; 8] = [
@@ -57,9 +74,9 @@ impl Budget {
             value: |budget| Some(budget.wall_speed),
         },
         BudgetPart {
-            name: "time_step",
+            name: TIME_STEP,
             heading: "time step",
-            how: "run 4 minus run 2 (time step doubled); with springs that remember forces the straight line through runs 6 and 4 minus that through 1 and 2",
+            how: "run 4 minus run 2 (time step doubled)",
             known_by: "a run at the middle wall speed with twice the time step (--coarse-step)",
             value: |budget| budget.time_step,
         },

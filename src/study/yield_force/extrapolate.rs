@@ -179,6 +179,9 @@ pub(crate) fn extrapolate_runs(
         estimate.sampling + rounded(estimate, run) + printing
     };
     let noise = by_speed.iter().enumerate().map(noise).fold(0.0, f64::max);
+    // Oscillations that a ramp leaves behind follow no power of the speed.
+    let of_ramps = budget.preparation.filter(|_| roles.has_slow_ramps);
+    let noise = noise + of_ramps.unwrap_or(0.0);
     Some(Extrapolation {
         force,
         first_order,
@@ -295,6 +298,21 @@ mod tests {
             .order;
         assert_eq!(order.observed, None);
         assert!(order.is_between((1.0, 1.0)));
+    }
+
+    #[test]
+    fn an_order_below_what_slow_ramps_leave_behind_is_not_observed() {
+        let runs = estimates([10.000_03, 10.000_02, 10.0, 10.0, 10.000_03]);
+        let order = |has_slow_ramps: bool| {
+            let roles = RunRoles {
+                has_slow_ramps,
+                ..RunRoles::PLANNED
+            };
+            let found = extrapolate_runs(&roles, &runs, &STEPS, 100.0, |run| run.slip);
+            found.unwrap().order.observed
+        };
+        assert!((order(false).unwrap() + 1.0).abs() < 1e-3);
+        assert_eq!(order(true), None);
     }
 
     #[test]

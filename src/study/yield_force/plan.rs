@@ -14,6 +14,9 @@ use serde::{Deserialize, Serialize};
 const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
+/// How many times as long a ramp takes that is applied to contacts without stiffness when they just touch: their first
+/// overlaps follow slowly, and what the dampers keep of that falls with the duration.
+const SOFT_RAMP: f64 = 10.0;
 pub(super) const REST_TIME: f64 = 100.0;
 /// Duration of the ramp over that of the compression, where the limit depends on the ramp, or oscillations that it leaves
 /// behind hardly die away: what it leaves, of second order in its speed, is then small beside the lag of the compression,
@@ -181,6 +184,7 @@ pub(crate) fn planned(
     let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
     let roles = RunRoles {
         coarse_and_fast: (cases.len() > COARSE_AND_FAST_RUN).then_some(COARSE_AND_FAST_RUN),
+        has_slow_ramps: limit.needs_slow_ramp,
         ..RunRoles::PLANNED
     };
     Measurement {
@@ -307,7 +311,8 @@ fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
 /// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached only
 /// if that slows down with the wall.
 fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
-    let usual = RAMP_TIME * limit.time_scale;
+    let is_soft = limit.time_scale > 1.0;
+    let usual = RAMP_TIME * limit.time_scale * if is_soft { SOFT_RAMP } else { 1.0 };
     match limit.peak_travel {
         Some(travel) if limit.needs_slow_ramp => usual.max(SLOW_RAMP * travel / wall_speed),
         _ => usual,

@@ -23,6 +23,8 @@ pub struct RunRoles {
     pub coarse_and_fast: Option<usize>,
     /// The run with half the gravity ramp, if there is one.
     pub short_ramp: Option<usize>,
+    /// Whether the gravity ramp slows down with the wall, so that what it leaves behind differs from speed to speed.
+    pub has_slow_ramps: bool,
     /// The runs without shortcuts at the fastest and the middle speed, where the others take some.
     pub plain: Option<[usize; 2]>,
 }
@@ -34,6 +36,7 @@ impl RunRoles {
         coarse_time_step: Some(COARSE_TIME_STEP_RUN),
         coarse_and_fast: None,
         short_ramp: Some(SHORT_RAMP_RUN),
+        has_slow_ramps: false,
         plain: None,
     };
 }

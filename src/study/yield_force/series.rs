@@ -127,6 +127,7 @@ fn measurement(
             plain: None,
             coarse_time_step,
             short_ramp,
+            has_slow_ramps: planned.limit.needs_slow_ramp,
         },
         cases,
         ..planned

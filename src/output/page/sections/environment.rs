@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use super::Origin;
 use crate::code::{Code, Identity, Provenance, TaskKind};
-use crate::model::{Power, sha256_hex};
+use crate::model::sha256_hex;
 use crate::output::DataTable;
 use crate::output::table::Columns;
 use crate::paper::reproduction::Reproduction;
@@ -139,5 +139,5 @@ pub(crate) fn decks() -> DataTable<'static> {
     .means("SHA-256 of the deck of the micro-tests")
     .shown("of the micro-tests")
     .cell(|code| short(&code.files_hash(TaskKind::Motion)))
-    .rows(Code::of_power(Power::Linear))
+    .rows(Code::all())
 }

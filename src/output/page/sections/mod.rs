@@ -3,6 +3,7 @@
 mod claims;
 mod conventions;
 mod environment;
+mod laws;
 mod preparation;
 mod summary;
 mod tolerances;
@@ -12,7 +13,7 @@ pub(super) use claims::{claims_table, in_words};
 
 use super::document::{Block, Document, Section};
 use crate::code::Code;
-use crate::output::DataTable;
+use crate::output::{DataTable, law_conventions};
 use crate::output::figures::figures;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
@@ -26,6 +27,7 @@ pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
         claims_table(&[]),
         tolerances::agreement(&[]),
         tolerances::exponents(&[]),
+        law_conventions(&[]),
         preparation::critical(&[]),
         preparation::preparations(&[]),
         environment::programs(&[], &[]),
@@ -68,6 +70,7 @@ pub(super) fn document(
             tolerances::section(reproduction),
             preparation::section(reproduction),
             conventions::section(reproduction),
+            laws::section(reproduction),
             environment::section(reproduction, origin),
             untested::section(reproduction, judged, origin),
         ],

@@ -18,6 +18,7 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         Some(of_claims(claims)),
         Some(of_codes(reproduction)),
         of_scaling(reproduction),
+        of_laws(reproduction),
         of_convergence(reproduction),
     ];
     let blocks = vec![
@@ -86,6 +87,39 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
         reproduction.exponents.len()
     ))
 }
+
+/// The spread of the conventions at the stack where it is largest, and the exponent.
+fn of_laws(reproduction: &Reproduction) -> Option<String> {
+    let laws = &reproduction.laws;
+    let judged = |row: &&Judgement| (row.mu(), row.stiffness()) == SPREAD;
+    let onset = |row: &Judgement| Some((row.study.limit.slip_onset?, row.code));
+    let onsets = laws.yield_curves.iter().filter(judged).filter_map(onset);
+    let lowest = onsets.clone().min_by(|left, right| left.0.total_cmp(&right.0))?;
+    let highest = onsets.max_by(|left, right| left.0.total_cmp(&right.0))?;
+    let agreements = Agreement::of(&laws.yield_curves);
+    let (agreeing, rows) = agreements.iter().fold((0, 0), |(agreeing, rows), own| {
+        (agreeing + own.agreeing, rows + own.rows)
+    });
+    let fitted = laws.exponents.iter();
+    let fitted = fitted.map(|own| format!("{:.4} ({})", own.exponent, own.code));
+    let fitted: Vec<String> = fitted.collect();
+    Some(format!(
+        "Hertz contacts: {agreeing} of {rows} rows of {} styles agree with their exact limits, which differ by \
+         convention alone: at μ = {}, stiffness {} the floor begins to slip at F = {} ({}) to {} ({}). At μ_c the exponent \
+         of F + 3 between 10³ and 10⁶ is {}, and 2/5 for ε → 0, where linear springs have 1/2.",
+        agreements.len(),
+        SPREAD.0,
+        SPREAD.1,
+        digits::<4>(lowest.0),
+        lowest.1,
+        digits::<4>(highest.0),
+        highest.1,
+        fitted.join(", ")
+    ))
+}
+
+/// Friction and stiffness at which the summary compares the conventions with each other.
+const SPREAD: (f64, f64) = (0.3, 1e4);
 
 fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let mut points = reproduction.convergence.wall_speeds.iter();

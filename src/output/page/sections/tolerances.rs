@@ -2,7 +2,6 @@
 
 use super::super::document::{Block, Section};
 use crate::code::Code;
-use crate::model::Power;
 use crate::output::number::{friction, one_digit};
 use crate::output::table::Columns;
 use crate::output::{DataTable, crosscheck};
@@ -24,7 +23,7 @@ pub(super) struct Agreement {
 impl Agreement {
     /// One for every code with rows among `judgements`.
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
-        let codes = Code::of_power(Power::Linear).into_iter();
+        let codes = Code::all().into_iter();
         let all = codes.map(|code| {
             let rows = judgements.iter();
             let rows: Vec<_> = rows.filter(|row| row.code == code).collect();
@@ -59,14 +58,16 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
             &agreement(&[
                 ("yield_curves", &reproduction.yield_curves),
                 ("scaling", &reproduction.scaling),
+                ("laws", &reproduction.laws.yield_curves),
+                ("law_scaling", &reproduction.laws.scaling),
             ]),
         ),
         Block::long_table(
             true,
             "exponents",
-            "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the exact limit fitted in \
-             the same way.",
-            &exponents(&reproduction.exponents),
+            "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the \
+             exact limit fitted in the same way.",
+            &exponents(reproduction.exponents.iter().chain(&reproduction.laws.exponents)),
         ),
         rows(
             "yield_curves",
@@ -129,7 +130,9 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
     .rows(rows)
 }
 
-pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
+pub(crate) fn exponents<'a>(
+    exponents: impl IntoIterator<Item = &'a Exponent>,
+) -> DataTable<'a> {
     Columns::<&Exponent>::new(
         "exponents",
         "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at \
@@ -154,11 +157,14 @@ pub(crate) fn exponents(exponents: &[Exponent]) -> DataTable<'_> {
     .shown("for ε → 0")
     .number("points", "1", |own| own.points)
     .means("how many stiffnesses were fitted")
+    .number("law_power", "1", |own| own.power.value())
+    .means("power p of the normal force K overlapᵖ")
+    .shown("p")
     .verdict(|own| own.verdict)
     .rows(exponents)
 }
 
-fn rows(name: &'static str, caption: &str, judgements: &[Judgement]) -> Block {
+pub(super) fn rows(name: &'static str, caption: &str, judgements: &[Judgement]) -> Block {
     let long = judgements.len() > 20;
     Block::long_table(long, name, caption, &crosscheck(judgements))
 }

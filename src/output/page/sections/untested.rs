@@ -11,8 +11,8 @@ use crate::study::yield_force::Judgement;
 /// The limits of every report.
 const OUTSIDE: [&str; 4] = [
     "Real cylinders: nothing here was compared with an experiment.",
-    "Contact laws other than the linear spring and dashpot, three dimensions, more than three cylinders.",
-    "Stiffness ratios other than 2.5 in the runs; theory and regime maps go further.",
+    "Contact laws other than linear springs and Hertz–Mindlin, three dimensions, more than three cylinders.",
+    "Stiffness ratios other than 2.5 (linear) and 17/14 (Hertz) in the runs; theory and regime maps go further.",
     "The shared libraries of the external programs, which are not hashed.",
 ];
 
@@ -22,7 +22,8 @@ pub(super) fn section(
     origin: &Origin,
 ) -> Section {
     let mut items: Vec<String> = OUTSIDE.map(str::to_owned).to_vec();
-    items.extend(recorded(&reproduction.yield_curves));
+    let laws = &reproduction.laws.yield_curves;
+    items.extend(recorded(reproduction.yield_curves.iter().chain(laws)));
     if !origin.literal {
         items.push(
             "Fig. 2(a) at the paper’s literal wall speed and time step, except at μ = 0.2, stiffness 10⁴: \
@@ -44,9 +45,8 @@ pub(super) fn section(
     Section::new("untested", "What was not tested", blocks)
 }
 
-fn recorded(judgements: &[Judgement]) -> Option<String> {
+fn recorded<'a>(judgements: impl Iterator<Item = &'a Judgement>) -> Option<String> {
     let mut codes: Vec<&str> = judgements
-        .iter()
         .filter(|judgement| judgement.is_recorded())
         .map(|judgement| judgement.code.as_str())
         .collect();
@@ -65,12 +65,15 @@ fn unjudged(reproduction: &Reproduction) -> Vec<String> {
     let Reproduction {
         yield_curves,
         scaling,
+        laws,
         ..
     } = reproduction;
     let judged = |row: &&Judgement| matches!(row.verdict(), Verdict::Agrees | Verdict::Differs);
     let open = yield_curves
         .iter()
         .chain(scaling)
+        .chain(&laws.yield_curves)
+        .chain(&laws.scaling)
         .filter(|row| !judged(row));
     open.map(|row| {
         format!(

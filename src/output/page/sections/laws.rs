@@ -1,0 +1,32 @@
+//! What other contact laws than the paper's do to its stack.
+
+use super::super::document::{Block, PageTable, Section};
+use super::tolerances::rows;
+use crate::output::figures::laws_figure;
+use crate::output::{
+    FORCES_EXPLAINED, LAWS_EXPLAINED, LAWS_TITLE, crosscheck, law_conventions, law_forces,
+    laws_lead,
+};
+use crate::paper::reproduction::Reproduction;
+
+pub(super) fn section(reproduction: &Reproduction) -> Section {
+    let laws = &reproduction.laws;
+    let judgements = &laws.yield_curves;
+    let blocks = vec![
+        Block::paragraph(laws_lead(judgements)),
+        Block::table("laws", LAWS_EXPLAINED, &law_conventions(judgements)),
+        Block::Table(PageTable::new(
+            "law_forces",
+            FORCES_EXPLAINED,
+            &crosscheck(judgements),
+            law_forces(judgements),
+        )),
+        Block::Figure(laws_figure(judgements)),
+        rows(
+            "law_scaling",
+            "Every row of μ_c with Hertz contacts, figure scaling.",
+            &laws.scaling,
+        ),
+    ];
+    Section::new("laws", LAWS_TITLE, blocks)
+}

@@ -76,6 +76,47 @@ fn a_table_of_a_law_is_the_case_of_its_options() {
     assert_eq!(in_file(&bench, text), flags);
 }
 
+/// Without a stiffness ratio it is that of the options, in every law: of a table in a file, and of a code.
+#[test]
+fn a_law_brings_the_stiffness_ratio_of_its_options() {
+    let bench = Bench::without_codes();
+    for (power, history) in [("1.5", "displacement"), ("2", "force"), ("1", "force")] {
+        let flags = case(
+            &bench,
+            &format!("{FLAGS} --law {power} --history {history}"),
+        );
+        let text = format!(
+            "[stack]\nmu = 0.3\n[convention.law]\npower = {power}\nhistory = \"{history}\"\n"
+        );
+        assert_eq!(in_file(&bench, &text), flags);
+        // A whole case that leaves nothing else out.
+        let mut whole: toml::Table = toml::from_str(&toml::to_string(&flags).unwrap()).unwrap();
+        let stack = whole["stack"].as_table_mut().expect("a table");
+        stack.remove("stiffness_ratio").expect("the key");
+        let text = toml::to_string(&whole).unwrap();
+        let read = Case::parse(text.as_bytes(), Path::new("case.toml")).expect("a whole case");
+        assert_eq!(read.content_hash(), flags.content_hash());
+    }
+}
+
+/// A code with a law of its own brings the ratio of that law, too: 2.5 is none of Mindlin's springs, which LIGGGHTS computes.
+#[test]
+fn the_law_of_a_code_brings_the_stiffness_ratio_of_a_file_without_one() {
+    let bench = Bench::without_codes();
+    let refusal = |stack: &str| {
+        fs::write(
+            bench.path("case.toml"),
+            format!("[stack]\nmu = 0.3\n{stack}"),
+        )
+        .expect("a file");
+        standard_error(&mut bench.tristack("simulate --code liggghts-hertz --case case.toml"))
+    };
+    let absent = refusal("");
+    assert!(absent.contains("is not installed"), "{absent}");
+    let linear = refusal("kappa = 2.5\n");
+    assert!(linear.contains("stiffness_ratio` is 2.5"), "{linear}");
+}
+
 #[test]
 fn side_walls_need_no_more_than_their_kind() {
     let bench = Bench::without_codes();

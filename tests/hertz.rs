@@ -8,10 +8,14 @@ mod common;
 mod asymptotics;
 #[path = "hertz/exponent.rs"]
 mod exponent;
+#[path = "hertz/march.rs"]
+mod march;
 #[path = "hertz/native.rs"]
 mod native;
 #[path = "hertz/peaks.rs"]
 mod peaks;
+#[path = "hertz/preparation.rs"]
+mod preparation;
 #[path = "hertz/scalar.rs"]
 mod scalar;
 #[path = "hertz/unreduced.rs"]
@@ -93,7 +97,7 @@ impl Problem {
     }
 
     fn keeps_force(&self) -> bool {
-        self.history == TangentialHistory::Force
+        self.history.keeps_force()
     }
 }
 

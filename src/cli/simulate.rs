@@ -294,9 +294,10 @@ fn planned(
 
 /// The case of which a file says a part: the rest is as for a case of the command line.
 fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
-    let (stack, own) = (written.stack, &written.protocol);
-    stack.validate()?;
+    let own = &written.protocol;
     let convention = written.convention.unwrap_or_else(|| code.convention());
+    let stack = written.stack.in_law(convention.law.power);
+    stack.validate()?;
     convention.validate()?;
     let limit = quasistatic_limit(&stack, &convention);
     let time_step = own.time_step.unwrap_or(DEFAULT_TIME_STEP);
@@ -314,9 +315,8 @@ fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
 
 /// A case file with every key and its default, and what each means.
 fn example() -> Result<String, CliError> {
-    let stack = Stack::paper(EXAMPLE_FRICTION, EXAMPLE_STIFFNESS);
     let written = PartialCase {
-        stack,
+        stack: Stack::paper(EXAMPLE_FRICTION, EXAMPLE_STIFFNESS).into(),
         convention: None,
         protocol: PartialProtocol::default(),
     };

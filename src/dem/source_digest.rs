@@ -6,7 +6,10 @@ use std::sync::LazyLock;
 /// Digest of the sources that decide the numbers of the native DEM; it replaces the deck hash of an external code.
 pub static SOURCE_DIGEST: LazyLock<String> = LazyLock::new(|| {
     let sources = [
-        include_str!("../model/law.rs"),
+        include_str!("../model/law/contact_law.rs"),
+        include_str!("../model/law/damping.rs"),
+        include_str!("../model/law/power.rs"),
+        include_str!("../model/law/tangential.rs"),
         include_str!("contact.rs"),
         include_str!("contact_run.rs"),
         include_str!("contact_state.rs"),

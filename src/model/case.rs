@@ -1,7 +1,8 @@
 //! A case: every input of one time series.
 
 use super::{
-    ContactConvention, InvalidValue, Preparation, Protocol, Stack, exact, sha256_hex, shown,
+    ContactConvention, InvalidValue, Preparation, Protocol, Stack, WrittenStack, exact, sha256_hex,
+    shown,
 };
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -10,7 +11,7 @@ use thiserror::Error;
 
 /// One compression run of one stack under one contact convention.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(from = "WrittenCase")]
 pub struct Case {
     /// The stack.
     pub stack: Stack,
@@ -18,6 +19,25 @@ pub struct Case {
     pub convention: ContactConvention,
     /// Preparation, compression and sampling.
     pub protocol: Protocol,
+}
+
+/// [`Case`] as files spell it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenCase {
+    stack: WrittenStack,
+    convention: ContactConvention,
+    protocol: Protocol,
+}
+
+impl From<WrittenCase> for Case {
+    fn from(written: WrittenCase) -> Self {
+        Self {
+            stack: written.stack.in_law(written.convention.law.power),
+            convention: written.convention,
+            protocol: written.protocol,
+        }
+    }
 }
 
 /// Why a case could not be read.

@@ -2,7 +2,7 @@
 
 use super::{
     Case, CaseError, ContactConvention, InvalidValue, Preparation, Protocol, Sampling, Shortcuts,
-    SideWalls, Stack,
+    SideWalls, WrittenStack,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,7 +13,7 @@ use std::path::Path;
 #[serde(deny_unknown_fields)]
 pub struct PartialCase {
     /// The stack.
-    pub stack: Stack,
+    pub stack: WrittenStack,
     /// Contact convention. Without this table it is that of the code; a key that the table leaves out has the paper's
     /// value.
     pub convention: Option<ContactConvention>,

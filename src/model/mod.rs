@@ -20,6 +20,7 @@ mod shown;
 mod side_walls;
 mod stack;
 mod validity;
+mod written_stack;
 
 pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
@@ -49,3 +50,4 @@ pub(crate) use stack::PAPER_CYLINDER_FRICTION;
 pub use stack::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO, Stack};
 pub use validity::InvalidValue;
 pub(crate) use validity::exact;
+pub use written_stack::WrittenStack;

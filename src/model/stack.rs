@@ -2,9 +2,7 @@
 
 use super::validity::{InvalidValue, positive, within};
 use super::{ContactConvention, Material, Power};
-use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
 /// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), the double nearest to it.
 pub const CRITICAL_FRICTION: f64 = 0.267_949_192_431_122_7;
@@ -15,67 +13,25 @@ pub const PAPER_STIFFNESS_RATIO: f64 = 2.5;
 /// Cylinder–cylinder friction μ_d of the paper (supplement I.A).
 pub(crate) const PAPER_CYLINDER_FRICTION: f64 = 0.7;
 
-/// Stiffness 1/ε of a case file that names none: soft enough for a run of seconds.
-const USUAL_STIFFNESS: f64 = 100.0;
-
 /// Stiffnesses 1/ε that are accepted, lowest and highest.
 const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
 
 const HIGHEST_FRICTION: f64 = 1e3;
 const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;
 
-/// Three equal cylinders under gravity on a rough floor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Three equal cylinders under gravity on a rough floor. Of a stack that is read nothing is left out; how a case file may
+/// spell it says [`super::WrittenStack`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = with_short_names)]
 pub struct Stack {
-    /// Friction coefficient μ between cylinder and floor; `mu` means the same.
-    #[serde(alias = "mu")]
+    /// Friction coefficient μ between cylinder and floor.
     pub floor_friction: f64,
-    /// Friction coefficient μ_d between two cylinders; `mu_d` means the same.
-    #[serde(default = "paper_cylinder_friction", alias = "mu_d")]
+    /// Friction coefficient μ_d between two cylinders.
     pub cylinder_friction: f64,
     /// Stiffness 1/ε = k_n r/(m g); with a law of power p it is K rᵖ/(m g), the force of a pair being K δᵖ.
-    #[serde(default = "usual_stiffness")]
     pub stiffness: f64,
-    /// Stiffness ratio κ = k_n/k_t; `kappa` means the same.
-    #[serde(default = "paper_stiffness_ratio", alias = "kappa")]
+    /// Stiffness ratio κ = k_n/k_t.
     pub stiffness_ratio: f64,
-}
-
-/// Adds the other names of the keys, which JSON Schema does not know as such.
-fn with_short_names(schema: &mut Schema) {
-    let names = [
-        ("floor_friction", "mu"),
-        ("cylinder_friction", "mu_d"),
-        ("stiffness_ratio", "kappa"),
-    ];
-    if let Some(properties) = schema
-        .get_mut("properties")
-        .and_then(|keys| keys.as_object_mut())
-    {
-        for (name, short) in names {
-            properties.insert(short.to_owned(), properties[name].clone());
-        }
-    }
-    schema.remove("required");
-    let required = |name: &str| json!({ "required": [name] });
-    schema.insert(
-        "oneOf".to_owned(),
-        json!([required("floor_friction"), required("mu")]),
-    );
-}
-
-fn usual_stiffness() -> f64 {
-    USUAL_STIFFNESS
-}
-
-fn paper_cylinder_friction() -> f64 {
-    PAPER_CYLINDER_FRICTION
-}
-
-fn paper_stiffness_ratio() -> f64 {
-    PAPER_STIFFNESS_RATIO
 }
 
 impl Stack {

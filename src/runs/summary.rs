@@ -11,7 +11,10 @@ use std::sync::LazyLock;
 /// Digest of the sources that read a summary off a series.
 pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
     let sources = [
-        include_str!("../model/law.rs"),
+        include_str!("../model/law/contact_law.rs"),
+        include_str!("../model/law/damping.rs"),
+        include_str!("../model/law/power.rs"),
+        include_str!("../model/law/tangential.rs"),
         include_str!("../series/differences.rs"),
         include_str!("../series/digits.rs"),
         include_str!("../series/drop.rs"),

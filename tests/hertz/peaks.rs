@@ -1,7 +1,7 @@
 //! The peak after a slip with c > 0: the largest force of any state in which forces and torques of the bodies balance
 //! with e = μ d, found without a branch that is followed.
 
-use super::unreduced::solved;
+use super::march::solved;
 use super::{Problem, TangentialHistory, root};
 use tristack::model::Power;
 

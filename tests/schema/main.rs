@@ -234,6 +234,7 @@ fn cases_fit_theirs_whether_whole_or_partial() {
     for text in [
         example.as_str(),
         "[stack]\nmu = 0.3",
+        "[stack]\nmu = 0.3\n[convention.law]\npower = 1.5",
         "[stack]\nfloor_friction = 0.3\nkappa = 1.5\n[protocol.preparation]\nkind = \"side-walls\"\npush = 0.01",
     ] {
         fits(&schema, &value(text));

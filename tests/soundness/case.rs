@@ -30,13 +30,15 @@ pub fn check(data: &[u8]) {
 
 /// What is left out, as it is in a short case.
 fn completed(written: &PartialCase) -> Case {
+    let convention = written.convention.unwrap_or_default();
+    let stack = written.stack.in_law(convention.law.power);
     let mut planned = scenes::short_case().protocol;
-    if let Some(walls) = written.protocol.side_walls(written.stack.epsilon()) {
+    if let Some(walls) = written.protocol.side_walls(stack.epsilon()) {
         planned.preparation = Preparation::SideWalls(walls);
     }
     Case {
-        stack: written.stack,
-        convention: written.convention.unwrap_or_default(),
+        stack,
+        convention,
         protocol: written.protocol.over(&planned),
     }
 }

@@ -1,0 +1,74 @@
+//! The codes that a command runs.
+
+use crate::cli::code_names::CodeParser;
+use crate::cli::{CliError, tell};
+use crate::code::Code;
+use crate::model::{InvalidValue, Power};
+use crate::runs::{SelectedCode, in_parallel};
+use clap::Args;
+
+/// `--codes`: the codes that a command runs.
+#[derive(Debug, Clone, Args)]
+pub(in crate::cli) struct CodeOptions {
+    /// Codes to run, separated by commas; each must be installed [default: all, recorded if necessary]
+    #[arg(id = "codes", long = "codes", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    pub named: Vec<Code>,
+}
+
+impl CodeOptions {
+    /// The codes that are named, each of which must have a law of this power.
+    pub fn of_power(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
+        let mut named = self.named.iter();
+        let Some(other) = named.find(|code| !code.has_power(power)) else {
+            return Ok(self.named.clone());
+        };
+        let names: Vec<&str> = Code::of_power(power)
+            .into_iter()
+            .map(Code::as_str)
+            .collect();
+        Err(InvalidValue {
+            key: "--codes".to_owned(),
+            value: other.to_string(),
+            accepted: format!(
+                "codes of the same power as --law, among them {}: the {} of {other}",
+                names.join(", "),
+                other.convention().law
+            ),
+        })
+    }
+}
+
+/// The codes named, each of which must be installed; every code with the paper's law if none is named.
+pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
+    if named.is_empty() {
+        return Ok(find_all(&Code::of_power(Power::Linear)));
+    }
+    let mut names = named.to_vec();
+    names.sort();
+    names.dedup();
+    let found = find_all(&names).into_iter().map(|selected| {
+        let missing = CliError::MissingCode(selected.name);
+        selected.code.is_some().then_some(selected).ok_or(missing)
+    });
+    found.collect()
+}
+
+/// The codes `names` as they are installed here, looked up at the same time.
+pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
+    in_parallel(names, names.len(), |name| SelectedCode::find(*name))
+}
+
+/// Reports the codes that are not installed, and whether recorded runs stand in for them.
+pub(in crate::cli) fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool) {
+    for selected in codes.iter().filter(|selected| selected.code.is_none()) {
+        let instead = match is_recorded(selected.name) {
+            true => "recorded runs stand in for it",
+            false => "no recorded run stands in for it",
+        };
+        tell!(
+            "{} is not installed: {instead} (to run it live: {})",
+            selected.name,
+            selected.name.installation_hint()
+        );
+    }
+}

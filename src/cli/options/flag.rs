@@ -1,0 +1,33 @@
+//! Flags in place of the keys of case files.
+
+use crate::model::InvalidValue;
+
+/// `error` with the flag in place of the key of a case file.
+pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
+    let flag = match error.key.as_str() {
+        "stack.floor_friction" => "--mu",
+        "stack.cylinder_friction" => "--mu-d",
+        "stack.stiffness" => "--stiffness",
+        "stack.stiffness_ratio" => "--kappa",
+        "convention.pair" | "convention.pair.torque_arm" => "--pair-arm",
+        "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
+        "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",
+        "convention.floor.kinematic_arm" => "--floor-kinematic-arm",
+        "convention.law" => "--law",
+        "convention.law.floor_ratio" => "--floor-ratio",
+        "convention.law.floor_kappa" => "--floor-kappa",
+        "cylinder.density" => "--density",
+        "cylinder.poisson_ratio" => "--poisson",
+        "mu_uncertainty" => "--mu-uncertainty",
+        "protocol.wall_speed" => "--speed",
+        "protocol.time_step" => "--dt",
+        "protocol.preparation.kind" => "--preparation",
+        "protocol.preparation.push" => "--push",
+        "protocol.shortcuts" => "--shortcuts",
+        other => other,
+    };
+    InvalidValue {
+        key: flag.to_owned(),
+        ..error
+    }
+}

@@ -1,0 +1,188 @@
+//! The stack: friction, stiffness, stiffness ratio, or the material that they follow from.
+
+use super::flag::as_flag;
+use crate::model::{
+    CRITICAL_FRICTION, InvalidValue, Material, PAPER_CYLINDER_FRICTION, Power, Stack,
+};
+use clap::Args;
+
+/// Most stacks of one command: a thousand frictions by a thousand stiffnesses.
+const MOST_STACKS: usize = 1_000_000;
+
+/// The parameters of a stack other than floor friction and stiffness.
+#[derive(Debug, Clone, Args)]
+pub(in crate::cli) struct StackOptions {
+    /// Stiffness ratio k_n/k_t [default: 2.5; of laws that are not linear 17/14, that of Poisson's ratio 0.3]
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    kappa: Option<f64>,
+    /// Friction between cylinders
+    #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
+    pub mu_d: f64,
+}
+
+impl StackOptions {
+    /// The stiffness ratio of pairs, in a law of this power.
+    pub fn kappa(&self, power: Power) -> f64 {
+        self.kappa
+            .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
+    }
+
+    /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
+    pub fn stack(&self, mu: f64, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
+        let stack = Stack {
+            floor_friction: mu,
+            cylinder_friction: self.mu_d,
+            stiffness,
+            stiffness_ratio: self.kappa(power),
+        };
+        stack.validate().map_err(as_flag)?;
+        Ok(stack)
+    }
+}
+
+/// The material of Hertz contacts, from which stiffness and stiffness ratio follow.
+#[derive(Debug, Clone, Args)]
+pub(in crate::cli) struct MaterialOptions {
+    /// Young's modulus in m g/r^2 of equal bodies in Hertz's theory, in place of --stiffness
+    #[arg(
+        long,
+        value_name = "E",
+        group = "hardness",
+        requires = "poisson",
+        conflicts_with = "stiffness",
+        allow_negative_numbers = true
+    )]
+    youngs: Option<f64>,
+    /// Their Poisson's ratio, from 0 to 0.5, in place of --kappa
+    #[arg(
+        long,
+        value_name = "NU",
+        conflicts_with = "kappa",
+        allow_negative_numbers = true
+    )]
+    poisson: Option<f64>,
+}
+
+impl MaterialOptions {
+    /// The material; without a modulus, its stiffness means nothing.
+    fn material(&self) -> Option<Material> {
+        Some(Material {
+            youngs_modulus: self.youngs.unwrap_or(1.0),
+            poisson_ratio: self.poisson?,
+        })
+    }
+
+    /// The stiffness that the modulus gives; `None` without one.
+    fn stiffness(&self) -> Option<f64> {
+        self.youngs
+            .and(self.material())
+            .map(|own| own.pair_stiffness())
+    }
+
+    /// `others` with the stiffness ratio of the material, if there is one, in a law of this power.
+    fn over(&self, others: &StackOptions, power: Power) -> Result<StackOptions, InvalidValue> {
+        let Some(material) = self.material() else {
+            return Ok(others.clone());
+        };
+        let (modulus, poisson_ratio) = (material.youngs_modulus, material.poisson_ratio);
+        let refused = |flag, value, accepted| Err(InvalidValue::new(flag, value, accepted));
+        if power != Power::Hertz {
+            let accepted = "left out, unless --law is hertz";
+            return refused("--poisson", poisson_ratio, accepted);
+        }
+        if !(0.0..=0.5).contains(&poisson_ratio) {
+            return refused("--poisson", poisson_ratio, "a number from 0 to 0.5");
+        }
+        if !(modulus > 0.0 && modulus.is_finite()) {
+            return refused("--youngs", modulus, "a number above 0");
+        }
+        Ok(StackOptions {
+            kappa: Some(material.stiffness_ratio()),
+            ..others.clone()
+        })
+    }
+}
+
+/// The parameters of one stack.
+#[derive(Debug, Clone, Args)]
+pub(in crate::cli) struct OneStackOptions {
+    /// Floor friction; a number or the word `critical`
+    #[arg(long, value_parser = friction, requires = "hardness", allow_negative_numbers = true)]
+    mu: Option<f64>,
+    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g)
+    #[arg(
+        long,
+        value_name = "S",
+        group = "hardness",
+        requires = "mu",
+        allow_negative_numbers = true
+    )]
+    stiffness: Option<f64>,
+    #[command(flatten)]
+    others: StackOptions,
+    #[command(flatten)]
+    material: MaterialOptions,
+}
+
+impl OneStackOptions {
+    /// The checked stack, in a law of this power.
+    pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
+        let others = self.material.over(&self.others, power)?;
+        let stiffness = self.stiffness.or_else(|| self.material.stiffness());
+        let [mu, stiffness] = [self.mu, stiffness].map(|value| value.unwrap_or(f64::NAN));
+        others.stack(mu, stiffness, power)
+    }
+}
+
+/// The parameters of several stacks other than floor friction.
+#[derive(Debug, Clone, Args)]
+pub(in crate::cli) struct StackListOptions {
+    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g); one or several, separated by commas
+    #[arg(
+        id = "stiffness",
+        long = "stiffness",
+        required_unless_present = "youngs",
+        value_name = "S1,S2",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    stiffnesses: Vec<f64>,
+    #[command(flatten)]
+    others: StackOptions,
+    #[command(flatten)]
+    material: MaterialOptions,
+}
+
+impl StackListOptions {
+    /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
+    /// fastest.
+    pub fn stacks(&self, frictions: &[f64], power: Power) -> Result<Vec<Stack>, InvalidValue> {
+        let others = self.material.over(&self.others, power)?;
+        let material = self.material.stiffness();
+        let stiffnesses: Vec<f64> = self.stiffnesses.iter().copied().chain(material).collect();
+        let count = frictions.len().saturating_mul(stiffnesses.len());
+        if count > MOST_STACKS {
+            return Err(InvalidValue {
+                key: "--mu, --stiffness".to_owned(),
+                value: format!("{count} combinations"),
+                accepted: format!("at most {MOST_STACKS} combinations"),
+            });
+        }
+        let stacks = stiffnesses.iter().flat_map(|&stiffness| {
+            let frictions = frictions.iter();
+            let others = &others;
+            frictions.map(move |&mu| others.stack(mu, stiffness, power))
+        });
+        stacks.collect()
+    }
+}
+
+/// Reads `--mu`: a number, or the word `critical`.
+pub(in crate::cli) fn friction(text: &str) -> Result<f64, String> {
+    if text == "critical" {
+        return Ok(CRITICAL_FRICTION);
+    }
+    text.parse().map_err(|_| {
+        "accepted are a number above 0 and the word `critical` (2 - sqrt 3)".to_owned()
+    })
+}

@@ -453,7 +453,7 @@ fn largest_deviation(left: &Series, right: &Series) -> f64 {
     deviations.fold(0.0, f64::max)
 }
 
-/// Each code's first Hertz style, under its own convention, and the exponent of its peak at the critical friction.
+/// The first Hertz style of each code, under its own convention, on the whole quick profile.
 #[test]
 fn installed_codes_agree_with_the_limit_of_their_hertz_style() {
     let mut styles = common::installed(&Code::of_power(Power::Hertz)[1..]);
@@ -463,10 +463,9 @@ fn installed_codes_agree_with_the_limit_of_their_hertz_style() {
     }
     let own = PathBuf::from(OWN_PROGRAM);
     let bench = Bench::with_system_programs();
-    let options = format!("--law hertz {FEW_STACKS}");
-    let rows = crosscheck(&bench, &own, &styles, &options, "hertz");
-    // Ten times what was seen at most, 2.5e-7.
-    assert_live_agreement(&bench, &rows, &styles, (4, 2.5e-6));
+    let rows = crosscheck(&bench, &own, &styles, "--law hertz", "hertz");
+    // Three times what was seen at most, 3.5e-7.
+    assert_live_agreement(&bench, &rows, &styles, (18, 1e-6));
     let page = fs::read_to_string(bench.path("hertz/laws.md")).expect("a page on laws");
     for code in styles {
         assert!(page.contains(code.as_str()), "{code}");

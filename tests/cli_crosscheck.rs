@@ -165,7 +165,10 @@ fn every_style_of_hertz_has_the_onset_and_the_peak_of_its_exact_limit() {
         let away = |measured: &str, exact: &str| (number(measured) - number(exact)).abs();
         let onset = away("slip_onset", "reference_onset");
         let promised = if row["code"] == "native" { 1e-6 } else { 1e-5 };
-        assert!(onset < promised * (number("reference_onset") + 3.0), "{row}");
+        assert!(
+            onset < promised * (number("reference_onset") + 3.0),
+            "{row}"
+        );
         assert!(onset <= number("slip_onset_uncertainty"), "{row}");
         assert!(
             away("peak_force", "reference_force") <= number("peak_uncertainty"),

@@ -80,7 +80,9 @@ pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     })
     .convention(convention)
     .right("pair arm", move |row| convention(row).arms.pair.to_string())
-    .right("floor arm", move |row| convention(row).arms.floor.to_string())
+    .right("floor arm", move |row| {
+        convention(row).arms.floor.to_string()
+    })
     .rows(styles(judgements))
 }
 
@@ -94,7 +96,9 @@ pub(crate) fn law_forces(judgements: &[Judgement]) -> Table {
     };
     let frictions = sorted(Judgement::mu);
     let first = [("stiffness".to_owned(), true), ("code".to_owned(), false)];
-    let headings = frictions.iter().map(|&mu| (format!("μ = {}", friction(mu).replace("mu_c", "μ_c")), true));
+    let headings = frictions
+        .iter()
+        .map(|&mu| (format!("μ = {}", friction(mu).replace("mu_c", "μ_c")), true));
     let mut table = Table::new(first.into_iter().chain(headings));
     for stiffness in sorted(Judgement::stiffness) {
         for style in styles(judgements) {

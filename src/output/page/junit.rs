@@ -27,12 +27,14 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
         add_suite(name, judgements.iter().map(row).collect());
     }
     let exponents = reproduction.exponents.iter();
-    let exponents = exponents.chain(&reproduction.laws.exponents).map(|exponent| {
-        let (code, mu, power) = (exponent.code, friction(exponent.mu), exponent.power.value());
-        let name = format!("{code} at mu = {mu}, p = {power}");
-        let text = format!("fitted {}, exact {}", exponent.exponent, exponent.exact);
-        TestCase::new(name, status(exponent.verdict, &text))
-    });
+    let exponents = exponents
+        .chain(&reproduction.laws.exponents)
+        .map(|exponent| {
+            let (code, mu, power) = (exponent.code, friction(exponent.mu), exponent.power.value());
+            let name = format!("{code} at mu = {mu}, p = {power}");
+            let text = format!("fitted {}, exact {}", exponent.exponent, exponent.exact);
+            TestCase::new(name, status(exponent.verdict, &text))
+        });
     add_suite("exponents", exponents.collect());
     let trajectories = reproduction.trajectories.iter().flat_map(|judgement| {
         let verdicts = judgement.verdicts().into_iter().enumerate();

@@ -32,7 +32,11 @@ impl Laws {
         let [curves, scaling] = measurements(&campaign.names());
         let mut all = curves.clone();
         let further = scaling.iter();
-        all.extend(further.filter(|own| !curves.iter().any(|known| is_same(known, own))).cloned());
+        all.extend(
+            further
+                .filter(|own| !curves.iter().any(|known| is_same(known, own)))
+                .cloned(),
+        );
         let judgements = campaign.carry_out(all);
         let scaling = judged(&scaling, &judgements);
         Self {
@@ -68,7 +72,10 @@ fn critical_stack(stiffness: f64) -> Stack {
 
 fn critical() -> Vec<(f64, Option<f64>)> {
     let convention = Code::NATIVE.convention_of_power(POWER);
-    let (first, last) = (SCALING_STIFFNESSES[0], SCALING_STIFFNESSES[SCALING_STIFFNESSES.len() - 1]);
+    let (first, last) = (
+        SCALING_STIFFNESSES[0],
+        SCALING_STIFFNESSES[SCALING_STIFFNESSES.len() - 1],
+    );
     let decades = libm::log10(last / first);
     let intervals = INTERVALS * decades as u32;
     let points = (0..=intervals).map(|index| {

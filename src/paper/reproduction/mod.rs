@@ -302,7 +302,8 @@ pub(crate) fn summaries_to_record(
 fn cases_to_record(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
     let cases = |measurements: &[Vec<Measurement>]| -> Vec<Case> {
         let all = measurements.iter().flatten();
-        all.flat_map(|measurement| measurement.cases.clone()).collect()
+        all.flat_map(|measurement| measurement.cases.clone())
+            .collect()
     };
     if !code.has_power(Power::Linear) {
         return Ok(cases(&laws::measurements(&[code])));

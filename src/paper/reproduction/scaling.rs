@@ -61,7 +61,8 @@ pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
 pub(super) fn fitted_exponents(judgements: &[Judgement], mu: f64) -> Vec<Exponent> {
     let fitted = Code::all().into_iter().filter_map(|code| {
         let own = judgements.iter();
-        let own = own.filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
+        let own =
+            own.filter(|row| row.code == code && row.mu() == mu && row.stiffness() >= FITTED_FROM);
         let power = own.clone().next()?.study.convention.law.power;
         let points: Vec<Point> = own.filter_map(Point::of).collect();
         (points.len() >= 2).then(|| fit(code, power, mu, &points))

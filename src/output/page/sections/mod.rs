@@ -13,8 +13,8 @@ pub(super) use claims::{claims_table, in_words};
 
 use super::document::{Block, Document, Section};
 use crate::code::Code;
-use crate::output::{DataTable, law_conventions};
 use crate::output::figures::figures;
+use crate::output::{DataTable, law_conventions};
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 

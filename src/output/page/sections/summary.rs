@@ -94,7 +94,9 @@ fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let judged = |row: &&Judgement| (row.mu(), row.stiffness()) == SPREAD;
     let onset = |row: &Judgement| Some((row.study.limit.slip_onset?, row.code));
     let onsets = laws.yield_curves.iter().filter(judged).filter_map(onset);
-    let lowest = onsets.clone().min_by(|left, right| left.0.total_cmp(&right.0))?;
+    let lowest = onsets
+        .clone()
+        .min_by(|left, right| left.0.total_cmp(&right.0))?;
     let highest = onsets.max_by(|left, right| left.0.total_cmp(&right.0))?;
     let agreements = Agreement::of(&laws.yield_curves);
     let (agreeing, rows) = agreements.iter().fold((0, 0), |(agreeing, rows), own| {

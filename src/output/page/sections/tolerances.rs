@@ -67,7 +67,12 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
             "exponents",
             "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the \
              exact limit fitted in the same way.",
-            &exponents(reproduction.exponents.iter().chain(&reproduction.laws.exponents)),
+            &exponents(
+                reproduction
+                    .exponents
+                    .iter()
+                    .chain(&reproduction.laws.exponents),
+            ),
         ),
         rows(
             "yield_curves",
@@ -130,9 +135,7 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
     .rows(rows)
 }
 
-pub(crate) fn exponents<'a>(
-    exponents: impl IntoIterator<Item = &'a Exponent>,
-) -> DataTable<'a> {
+pub(crate) fn exponents<'a>(exponents: impl IntoIterator<Item = &'a Exponent>) -> DataTable<'a> {
     Columns::<&Exponent>::new(
         "exponents",
         "A row is the exponent of F + 3 over the stiffness, fitted to the runs of one code at \

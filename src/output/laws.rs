@@ -39,7 +39,7 @@ pub(crate) fn laws_lead(judgements: &[Judgement]) -> String {
 fn material(ratio: f64) -> String {
     let poisson = (2.0 * ratio - 2.0) / (2.0 * ratio - 1.0);
     match (0.0..=0.5).contains(&poisson) {
-        true => format!("Poisson's ratio {}", rounded(poisson)),
+        true => format!("Poisson’s ratio {}", rounded(poisson)),
         false => format!("stiffness ratio {}", rounded(ratio)),
     }
 }

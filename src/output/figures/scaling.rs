@@ -50,7 +50,7 @@ fn forces(judgements: &[Judgement], curves: &Curves, laws: &Laws) -> Panel {
     let hertz = laws.critical.iter();
     let hertz = hertz.map(|&(stiffness, force)| (stiffness, load(force)));
     panel.line(HERTZ, hertz);
-    panel.words("Hertz, μ = μ_{c}", HERTZ_END, Anchor::End);
+    panel.words("μ_{c}, Hertz", HERTZ_END, Anchor::End);
     codes::loads(&mut panel, &laws.scaling, |row| row.stiffness());
     codes::loads(&mut panel, judgements, |row| row.stiffness());
     panel.key(Sample::Line(EXACT), "exact limit");
@@ -78,7 +78,7 @@ fn fits<'a>(panel: &mut Panel, exponents: impl Iterator<Item = &'a Exponent>) {
         let cells = [
             match fitted.power {
                 Power::Linear => friction_words(fitted.mu),
-                _ => "Hertz, μ_{c}".to_owned(),
+                _ => "μ_{c}, Hertz".to_owned(),
             },
             with_uncertainty(fitted.exponent, fitted.uncertainty),
             format!("{:.decimals$}", fitted.exact),

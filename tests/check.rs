@@ -381,6 +381,30 @@ fn folders_that_misbehave_harm_nothing() {
         });
 }
 
+/// Of other laws than the linear one the micro-tests are read, and the command that judges the code is told.
+#[test]
+fn a_folder_with_hertz_contacts_is_checked_by_its_micro_tests() {
+    let code = Code::named("liggghts-hertz").expect("a code");
+    if installed(&[code]).is_empty() {
+        return;
+    }
+    let bench = Bench::with_system_programs();
+    fs::create_dir(bench.path("mydem")).expect("a directory");
+    let manifest = "schema = 1\nname = \"mydem\"\nextends = \"liggghts-hertz\"\ntitle = \"My DEM\"\n";
+    fs::write(bench.path("mydem/code.toml"), manifest).expect("a manifest");
+    let output = bench.tristack("check ./mydem").output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{told}");
+    for words in [
+        "not tested stack: the law is not linear",
+        "passed     tangential stiffness: as asked",
+        "passed     declared convention: as measured",
+        "next: tristack crosscheck --law hertz --codes ./mydem",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
 /// The processes that work in a directory below `place`.
 fn processes_in(place: &Path) -> Vec<String> {
     let place = place.canonicalize().expect("it is there");

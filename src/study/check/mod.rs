@@ -28,7 +28,7 @@ use super::convention::ask;
 use super::yield_force::planned_protocol;
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
 use crate::files::{Scratch, temporary};
-use crate::model::{Case, ContactConvention, Stack};
+use crate::model::{Case, ContactConvention, Power, Stack};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
@@ -50,7 +50,10 @@ const EVIDENCE: &str = "tristack-check-";
 /// # Panics
 /// Never: under the paper's convention the stack yields.
 pub fn case(convention: ContactConvention) -> Case {
-    let stack = Stack::paper(FRICTION, STIFFNESS);
+    let stack = Stack {
+        stiffness_ratio: Stack::usual_stiffness_ratio(convention.law.power),
+        ..Stack::paper(FRICTION, STIFFNESS)
+    };
     let protocol = |planned_by: &ContactConvention| {
         let limit = quasistatic_limit(&stack, planned_by);
         planned_protocol(&limit, &stack, planned_by, SPEED, TIME_STEP)
@@ -77,10 +80,10 @@ pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Repor
     };
     let completed = check.go_through();
     let mut report = check.report;
-    report.next = next(
-        completed.is_some() && report.failed_grade().is_none(),
-        folder,
-    );
+    report.next = match completed.is_some() && report.failed_grade().is_none() {
+        true => judged_by(code, folder),
+        false => format!("mend the first failure, then: tristack check {folder}"),
+    };
     if completed.is_none() && !context.interrupt.requested() {
         keep(&place, &mut report)?;
     }
@@ -99,11 +102,14 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
     Ok(())
 }
 
-fn next(is_green: bool, folder: &str) -> String {
-    match is_green {
-        true => format!("tristack crosscheck --codes {folder}"),
-        false => format!("mend the first failure, then: tristack check {folder}"),
-    }
+/// The command that judges `code`, whose folder is `folder`.
+fn judged_by(code: Code, folder: &str) -> String {
+    let law = match code.convention().law.power {
+        Power::Linear => "",
+        Power::Hertz => "--law hertz ",
+        _ => return format!("tristack probe --codes {folder}"),
+    };
+    format!("tristack crosscheck {law}--codes {folder}")
 }
 
 /// A check on its way.
@@ -121,13 +127,16 @@ impl Check<'_> {
         let installed = self.program()?;
         let case = case(self.code.convention());
         let Some(run) = self.stack(installed.as_ref(), &case) else {
-            self.explain_explosion(installed.as_ref());
+            if case.convention.law.is_linear() {
+                self.explain_explosion(installed.as_ref());
+            }
             return None;
         };
         let micro = self.micro_tests(installed.as_ref())?;
-        self.report
-            .items
-            .extend(diagnosis::items(&run.series, &case, micro.as_ref()));
+        self.report.items.extend(match case.convention.law.is_linear() {
+            true => diagnosis::items(&run.series, &case, micro.as_ref()),
+            false => diagnosis::of_micro_tests(micro.as_ref()),
+        });
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,

@@ -38,12 +38,8 @@ pub(super) fn explanations(own: &Evidence) -> Vec<String> {
         time_step: run.time_step,
         every,
     };
-    if written
-        .dense
-        .iter()
-        .flatten()
-        .any(|number| !number.is_finite())
-    {
+    let numbers = written.dense.iter().flatten();
+    if written.dense.is_empty() || numbers.clone().any(|number| !number.is_finite()) {
         return Vec::new();
     }
     if let Some(whole) = written.reordered() {

@@ -87,10 +87,9 @@ fn names_of_variables(text: &str) -> Vec<String> {
 fn cases() -> impl Strategy<Value = Case> {
     let stack = (1e-6..1e3, 1e-6..1e3, 0.0..8.0, -3.0..6.0).prop_map(
         |(floor_friction, cylinder_friction, stiffness, ratio): (f64, f64, f64, f64)| Stack {
-            floor_friction,
             cylinder_friction,
-            stiffness: 10f64.powf(stiffness),
             stiffness_ratio: 10f64.powf(ratio),
+            ..Stack::paper(floor_friction, 10f64.powf(stiffness))
         },
     );
     let speeds = (-9.0..-2.0, 1e-3..1.0, 0.0..1.0, prop::option::of(0.0..0.5));

@@ -16,8 +16,9 @@ prop_compose! {
         cylinder_friction in logarithmic(1e-3, 1e3),
         stiffness in logarithmic(1.0, 1e8),
         stiffness_ratio in logarithmic(1e-3, 1e6),
+        bodies in 2u8..=5,
     ) -> Stack {
-        Stack { floor_friction, cylinder_friction, stiffness, stiffness_ratio }
+        Stack { floor_friction, cylinder_friction, stiffness, stiffness_ratio, bodies }
     }
 }
 
@@ -26,8 +27,9 @@ prop_compose! {
         floor_friction in 0.1..0.7,
         stiffness in logarithmic(10.0, 1e6),
         stiffness_ratio in 0.5..10.0,
+        bodies in 2u8..=5,
     ) -> Stack {
-        Stack { stiffness_ratio, ..Stack::paper(floor_friction, stiffness) }
+        Stack { stiffness_ratio, bodies, ..Stack::paper(floor_friction, stiffness) }
     }
 }
 
@@ -79,9 +81,9 @@ proptest! {
         let (Some(force), Some(tangent)) = (limit.floor_slip_force, limit.tangent) else {
             return Ok(());
         };
-        // T (F + 1) = mu (F + 3): the horizontal force that the stack needs is all that the floor gives.
+        // T (F + 1) = mu (F + n + 1): the horizontal force that the stack needs is all that the floor gives.
         let needed = tangent * (force + 1.0);
-        let given = stack.floor_friction * (force + 3.0);
+        let given = stack.floor_friction * (force + stack.own_weight());
         prop_assert!((needed - given).abs() < 1e-9 * given);
     }
 

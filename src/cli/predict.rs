@@ -75,6 +75,7 @@ pub(super) struct Arguments {
 
 /// Prints the forecast.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    arguments.stack.refuse_spheres()?;
     let cylinder = Cylinder {
         youngs_modulus: arguments.youngs,
         poisson_ratio: arguments.poisson,

@@ -298,6 +298,7 @@ fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
     let convention = written.convention.unwrap_or_else(|| code.convention());
     let stack = written.stack.in_law(convention.law.power);
     stack.validate()?;
+    stack.refuse_spheres()?;
     convention.validate()?;
     let limit = quasistatic_limit(&stack, &convention);
     let time_step = own.time_step.unwrap_or(DEFAULT_TIME_STEP);

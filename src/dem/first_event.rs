@@ -139,6 +139,7 @@ impl std::fmt::Display for EventRun {
             cylinder_friction,
             stiffness,
             stiffness_ratio,
+            bodies: _,
         } = self.stack;
         write!(
             formatter,

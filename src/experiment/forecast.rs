@@ -205,7 +205,7 @@ fn forecasted(
         overlap,
         yield_force: limit.yield_force.map(force),
         slip_onset: limit.slip_onset.map(force),
-        perturbation: perturbation_load(&stack).map(|load| force(load - 3.0)),
+        perturbation: perturbation_load(&stack).map(|load| force(load - stack.own_weight())),
         paper_formula: force(stack.stiffness),
         largest_force: largest_force(&limit, &stack).map(force),
         reason: limit.reason,

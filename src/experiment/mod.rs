@@ -131,10 +131,9 @@ impl Experiment {
     fn stack(&self, mu: f64, normal_stiffness: f64) -> Stack {
         let weight = self.cylinder.mass() * GRAVITY;
         Stack {
-            floor_friction: mu,
             cylinder_friction: self.mu_d,
-            stiffness: normal_stiffness * self.cylinder.radius / weight,
             stiffness_ratio: self.kappa,
+            ..Stack::paper(mu, normal_stiffness * self.cylinder.radius / weight)
         }
     }
 

@@ -79,6 +79,7 @@ impl Case {
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.stack.validate()?;
+        self.stack.refuse_spheres()?;
         self.convention.validate()?;
         self.protocol.validate()?;
         self.validate_stability()

@@ -1,7 +1,7 @@
 //! The dimensionless groups of the problem.
 
 use super::validity::{InvalidValue, positive, within};
-use super::{ContactConvention, Material, Power};
+use super::{ContactConvention, Material, Power, Ring};
 use serde::{Deserialize, Serialize};
 
 /// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), the double nearest to it.
@@ -16,11 +16,17 @@ pub(crate) const PAPER_CYLINDER_FRICTION: f64 = 0.7;
 /// Stiffnesses 1/ε that are accepted, lowest and highest.
 const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
 
+/// Number n of bottom bodies in the paper's stack.
+pub(crate) const PAPER_BODIES: u8 = 2;
+
+/// Numbers of bottom bodies that are accepted, lowest and highest.
+pub(super) const BODIES_RANGE: (u8, u8) = (PAPER_BODIES, 5);
+
 const HIGHEST_FRICTION: f64 = 1e3;
 const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;
 
-/// Three equal cylinders under gravity on a rough floor. Of a stack that is read nothing is left out; how a case file may
-/// spell it says [`super::WrittenStack`].
+/// Three equal cylinders under gravity on a rough floor, or equal spheres: three to five in a ring and one on top. Of a stack
+/// that is read nothing is left out but the number of cylinders; how a case file may spell it says [`super::WrittenStack`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {
@@ -32,6 +38,18 @@ pub struct Stack {
     pub stiffness: f64,
     /// Stiffness ratio κ = k_n/k_t.
     pub stiffness_ratio: f64,
+    /// Number n of bodies on the floor: 2, the paper's cylinders, or 3 to 5 spheres in a ring, with one on top.
+    #[serde(default = "paper_bodies", skip_serializing_if = "are_cylinders")]
+    pub bodies: u8,
+}
+
+pub(super) fn paper_bodies() -> u8 {
+    PAPER_BODIES
+}
+
+/// Leaves `bodies` out of the paper's stack, whose hashes are those of before there were spheres.
+fn are_cylinders(bodies: &u8) -> bool {
+    *bodies == PAPER_BODIES
 }
 
 impl Stack {
@@ -42,7 +60,18 @@ impl Stack {
             cylinder_friction: PAPER_CYLINDER_FRICTION,
             stiffness,
             stiffness_ratio: PAPER_STIFFNESS_RATIO,
+            bodies: PAPER_BODIES,
         }
+    }
+
+    /// Where the bodies lie that just touch.
+    pub fn ring(&self) -> Ring {
+        Ring::new(self.bodies)
+    }
+
+    /// n + 1, weight of all bodies in m g: what the floor carries besides F.
+    pub fn own_weight(&self) -> f64 {
+        f64::from(self.bodies) + 1.0
     }
 
     /// κ where none is asked for, in a law of this power: the paper's, or that of Poisson's ratio 0.3.
@@ -66,11 +95,11 @@ impl Stack {
         (stiffness * (4.0 + 12.0 / ratio)).sqrt()
     }
 
-    /// √(m/k) of the contacts between cylinders under the weight of cylinder 1, in √(m/k_n), from 1 on: 1 with linear
+    /// √(m/k) of the contacts with cylinder 1 under its weight, in √(m/k_n), from 1 on: 1 with linear
     /// springs.
     pub(crate) fn time_scale(&self, convention: &ContactConvention) -> f64 {
         let law = convention.law(self.stiffness_ratio);
-        let stiffness = law.stiffness(law.overlap(0.5 * self.epsilon()));
+        let stiffness = law.stiffness(law.overlap(self.epsilon() / f64::from(self.bodies)));
         stiffness.sqrt().recip().max(1.0)
     }
 
@@ -83,6 +112,11 @@ impl Stack {
 
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
+        let (fewest, most) = BODIES_RANGE;
+        let accepted = format!(
+            "a whole number from {fewest} to {most}: six that touch in a ring lie around a seventh and do not carry it"
+        );
+        self.bodies_are((fewest..=most).contains(&self.bodies), &accepted)?;
         let (lowest, highest) = STIFFNESS_RANGE;
         positive(
             "stack.floor_friction",
@@ -101,6 +135,33 @@ impl Stack {
             HIGHEST_STIFFNESS_RATIO,
         )
     }
+
+    /// What its bodies are.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self.bodies {
+            PAPER_BODIES => "cylinders",
+            _ => "spheres",
+        }
+    }
+
+    /// Refuses spheres: what is not about the limit is about the paper's cylinders.
+    pub fn refuse_spheres(&self) -> Result<(), InvalidValue> {
+        let accepted = format!(
+            "{PAPER_BODIES}, or left out: of spheres there is the limit alone, by `tristack theory --bodies`"
+        );
+        self.bodies_are(self.bodies == PAPER_BODIES, &accepted)
+    }
+
+    fn bodies_are(&self, accepts: bool, accepted: &str) -> Result<(), InvalidValue> {
+        match accepts {
+            true => Ok(()),
+            false => Err(InvalidValue::new(
+                "stack.bodies",
+                f64::from(self.bodies),
+                accepted,
+            )),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -118,5 +179,26 @@ mod tests {
     #[test]
     fn epsilon_is_the_inverse_of_the_stiffness() {
         assert_eq!(Stack::paper(0.3, 1e4).epsilon(), 1e-4);
+    }
+
+    #[test]
+    fn two_to_five_bodies_are_accepted_and_two_are_not_written() {
+        let of = |bodies| Stack {
+            bodies,
+            ..Stack::paper(0.3, 1e4)
+        };
+        for bodies in 2..=5 {
+            let stack = of(bodies);
+            assert_eq!(stack.validate(), Ok(()));
+            assert_eq!(stack.own_weight(), f64::from(bodies) + 1.0);
+            let json = serde_json::to_string(&stack).unwrap();
+            assert_eq!(json.contains("bodies"), bodies != 2, "{json}");
+            assert_eq!(serde_json::from_str::<Stack>(&json).unwrap(), stack);
+            assert_eq!(stack.refuse_spheres().is_ok(), bodies == 2);
+        }
+        for bodies in [0, 1, 6, 255] {
+            let refusal = of(bodies).validate().unwrap_err().to_string();
+            assert!(refusal.contains("`stack.bodies`") && refusal.contains("from 2 to 5"));
+        }
     }
 }

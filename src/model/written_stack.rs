@@ -1,7 +1,7 @@
 //! A stack as case files spell it.
 
 use super::Power;
-use super::stack::{PAPER_CYLINDER_FRICTION, Stack};
+use super::stack::{BODIES_RANGE, PAPER_CYLINDER_FRICTION, Stack, paper_bodies};
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 use serde_json::json;
@@ -27,6 +27,10 @@ pub struct WrittenStack {
     /// that of Poisson's ratio 0.3.
     #[serde(alias = "kappa")]
     pub stiffness_ratio: Option<f64>,
+    /// Number n of bodies on the floor: 2, the paper's cylinders, or 3 to 5 spheres in a ring, with one on top.
+    #[serde(default = "paper_bodies")]
+    #[schemars(range(min = BODIES_RANGE.0, max = BODIES_RANGE.1))]
+    pub bodies: u8,
 }
 
 /// Adds the other names of the keys, which JSON Schema does not know as such.
@@ -69,6 +73,7 @@ impl WrittenStack {
             cylinder_friction: self.cylinder_friction,
             stiffness: self.stiffness,
             stiffness_ratio: self.stiffness_ratio.unwrap_or(usual),
+            bodies: self.bodies,
         }
     }
 }
@@ -80,6 +85,7 @@ impl From<Stack> for WrittenStack {
             cylinder_friction: stack.cylinder_friction,
             stiffness: stack.stiffness,
             stiffness_ratio: Some(stack.stiffness_ratio),
+            bodies: stack.bodies,
         }
     }
 }

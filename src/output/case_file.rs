@@ -8,7 +8,8 @@ const HEAD: &str = "# A case for `tristack simulate --case FILE`, with every key
 # A case needs only what differs: `[stack]` with `mu = 0.3` alone is one. The defaults of
 # [protocol] depend on the stack; those of [convention] are for native: another code has its own.
 # [protocol.shortcuts] is left out: by default there are none. So is floor_kappa of [convention.law], the stiffness
-# ratio k_n/k_t of walls: by default it is that of the stack, which is 2.5 in this law and 17/14 in those that are not linear.
+# ratio k_n/k_t of walls: by default it is that of the stack, which is 2.5 in this law and 17/14 in those that are not linear;
+# and so is `bodies` of [stack], which is 2.
 ";
 
 /// JSON Schema of a case file.

@@ -2,7 +2,7 @@
 
 use super::number::{digits, friction, optional};
 use super::table::{Columns, DataTable, Table};
-use crate::model::exact;
+use crate::model::{PAPER_BODIES, exact};
 use crate::theory::Predictions;
 
 /// One row per stack.
@@ -13,10 +13,12 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "`tristack theory`",
     )
     .stack(|own| own.stack)
+    .number("bodies", "1", |own| u64::from(own.stack.bodies))
+    .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     .number("epsilon", "1", |own| own.stack.epsilon())
     .means("ε = m g/(k_n r)")
     .number("rigid", "m g", |own| own.rigid.yield_force)
-    .means("rigid cylinders; absent where infinite")
+    .means("rigid bodies; absent where infinite")
     .text("rigid_diverges", |own| own.rigid.diverges)
     .means("whether it is infinite, μ ≥ μ_c")
     .number("naive", "m g", |own| own.naive.yield_force)
@@ -60,7 +62,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     })
     .means("the peak, as `quasistatic`")
     .number("quasistatic.c", "m g", |own| own.quasistatic.bottom_force)
-    .means("force c between the bottom cylinders where the floor slips")
+    .means("force c between two of the bottom bodies where the floor slips")
     .text("reason", |own| own.quasistatic.reason.clone())
     .means("why there is no quasi-static limit")
     .text("event", |own| own.quasistatic.event.to_string())
@@ -74,9 +76,9 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
     .number("y", "r", |own| own.quasistatic.y)
-    .means("y = x₂ − r where the floor slips")
+    .means("y = x₂ − x₀ where the floor slips, how far the bottom bodies have moved outwards")
     .number("z", "r", |own| own.quasistatic.z)
-    .means("overlap of cylinder 2 and the floor where the floor slips")
+    .means("overlap of body 2 and the floor where the floor slips")
     .number("wall_travel", "r", |own| own.quasistatic.wall_travel)
     .means("how far the wall has moved when the floor slips")
     .number("peak_travel", "r", |own| own.quasistatic.peak_travel)
@@ -87,8 +89,12 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
 /// For people: a table per stack, with a line per theory.
 pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
+        let bodies = match case.stack.bodies {
+            PAPER_BODIES => String::new(),
+            more => format!("{more} spheres below, "),
+        };
         let heading = format!(
-            "mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
+            "{bodies}mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
             friction(case.stack.floor_friction),
             case.stack.stiffness,
             exact(case.stack.stiffness_ratio),

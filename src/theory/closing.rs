@@ -53,7 +53,7 @@ impl SlidingStack<'_> {
         let branch = SlidingBranch::new(self.stack, convention);
         let settled = self.path.settled();
         if self.slip >= settled {
-            let start = SlidingBranch::direction(&onset);
+            let start = branch.direction(&onset);
             let settled = self.path.point(settled);
             return self.with_end(limit, branch.end(start), &settled);
         }
@@ -72,7 +72,7 @@ impl SlidingStack<'_> {
                     peak_force: None,
                     peak_travel: None,
                     peak_z: None,
-                    reason: Some(explanation(event)),
+                    reason: Some(explanation(event).replace("cylinders", self.stack.kind())),
                     ..limit
                 };
             }

@@ -1,7 +1,7 @@
 //! The four events that end the path of equilibria, and which one comes first (docs/theory.md, Eq. 43).
 
 use super::root::bracketed_root;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Ring, Stack};
 use serde::{Deserialize, Serialize};
 
 /// The first thing that happens to the stack on its way up in load.
@@ -43,7 +43,7 @@ pub struct PathPoint {
     pub floor_overlap: f64,
     /// d, normal force of the floor contacts.
     pub floor_force: f64,
-    /// y = x₂ − r, how far cylinder 2 has moved outwards.
+    /// y = x₂ − x₀, how far cylinder 2 has moved outwards.
     pub outward: f64,
     /// b/a, tangential over normal force of the contact 1–2.
     pub pair_ratio: f64,
@@ -70,9 +70,9 @@ impl PathPoint {
     }
 
     /// x₂, y₁ and y₂, with the floor at 0.
-    pub(super) fn positions(&self) -> [f64; 3] {
+    pub(super) fn positions(&self, ring: &Ring) -> [f64; 3] {
         let height = 1.0 - self.floor_overlap;
-        [1.0 + self.outward, height + self.rise(), height]
+        [ring.radius + self.outward, height + self.rise(), height]
     }
 
     /// Distance to `event`, in its own units; negative once it has happened.
@@ -132,38 +132,50 @@ pub(super) fn locate_each<const N: usize>(
     })
 }
 
-/// y = ρ sin ψ − 1 at an angle `turned` beyond 30°, free of cancellation for small angles (docs/theory.md,
-/// Eq. 30).
-pub(super) fn outward_displacement(turned: f64, pair_overlap: f64) -> f64 {
+/// y = ρ sin ψ − x₀ at an angle `turned` beyond ψ₀, free of cancellation for small angles (docs/theory.md,
+/// Eqs. 30 and 100).
+pub(super) fn outward_displacement(ring: &Ring, turned: f64, pair_overlap: f64) -> f64 {
     let half_sine = libm::sin(0.5 * turned);
     let sine = libm::sin(turned);
-    let geometric = 3f64.sqrt() * sine - 2.0 * half_sine * half_sine;
-    geometric - 0.5 * pair_overlap * (1.0 + geometric)
+    let geometric = ring.rise * sine - ring.radius * 2.0 * half_sine * half_sine;
+    geometric - 0.5 * pair_overlap * (ring.radius + geometric)
 }
 
-/// T = tan(15° + turned/2) at an angle `turned` beyond 30° (docs/theory.md, Eq. 30).
-pub(super) fn half_angle_tangent(turned: f64) -> f64 {
+/// T = tan((ψ₀ + turned)/2) at an angle `turned` beyond ψ₀ (docs/theory.md, Eq. 30).
+pub(super) fn half_angle_tangent(ring: &Ring, turned: f64) -> f64 {
     let half = libm::tan(0.5 * turned);
-    (CRITICAL_FRICTION + half) / (1.0 - CRITICAL_FRICTION * half)
+    (ring.critical_friction + half) / (1.0 - ring.critical_friction * half)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn rings() -> impl Iterator<Item = Ring> {
+        let stack = |bodies| Stack {
+            bodies,
+            ..Stack::paper(0.3, 1e2)
+        };
+        (2..=5).map(move |bodies| stack(bodies).ring())
+    }
+
     #[test]
     fn outward_displacement_is_the_geometry_it_abbreviates() {
         let (turned, overlap) = (0.37, 0.21);
-        let angle = std::f64::consts::FRAC_PI_6 + turned;
-        let direct = (2.0 - overlap) * angle.sin() - 1.0;
-        assert!((outward_displacement(turned, overlap) - direct).abs() < 1e-15);
+        for ring in rings() {
+            let direct = (2.0 - overlap) * (ring.angle() + turned).sin() - ring.radius;
+            let outward = outward_displacement(&ring, turned, overlap);
+            assert!((outward - direct).abs() < 1e-15);
+        }
     }
 
     #[test]
     fn tangent_of_the_undeformed_stack_is_the_critical_friction() {
-        assert_eq!(half_angle_tangent(0.0), CRITICAL_FRICTION);
-        let angle = std::f64::consts::FRAC_PI_6 + 0.3;
-        assert!((half_angle_tangent(0.3) - (angle / 2.0).tan()).abs() < 1e-15);
+        for ring in rings() {
+            assert_eq!(half_angle_tangent(&ring, 0.0), ring.critical_friction);
+            let angle = ring.angle() + 0.3;
+            assert!((half_angle_tangent(&ring, 0.3) - (angle / 2.0).tan()).abs() < 1e-15);
+        }
     }
 
     /// A path on which the floor ratio is half the parameter.

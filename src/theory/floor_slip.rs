@@ -1,6 +1,6 @@
 //! Where the floor slips on the path with arms 0, without looking at anything else on the way.
 //!
-//! The floor slips where G (T − μ) = ε μ, and then F = 2 μ/(T − μ) − 1 (docs/theory.md, Eq. 23). As G(T) and
+//! The floor slips where G (T − μ) = ε μ, and then F = n μ/(T − μ) − 1 (docs/theory.md, Eqs. 23 and 101). As G(T) and
 //! its slope are known at every T, each step of the search takes G for straight and solves what is then a
 //! quadratic equation, the one that joins the three regimes of stiff cylinders (Eqs. 28 and 72).
 
@@ -22,12 +22,14 @@ pub(super) struct FloorSlip {
 }
 
 impl FloorSlip {
-    /// Slip on `curve`; `None` if the floor has not slipped before T = 1.
+    /// Slip of `stack` on `curve`; `None` if the floor has not slipped before T = 1.
     ///
     /// G is concave, hence below its tangents, and the search comes to the root from below without ever
     /// passing it, whatever it starts from. It starts at the larger of μ and the start of the curve, and
     /// measures from there, so that T − μ keeps its digits.
-    pub(super) fn on(curve: &OverlapCurve, floor_friction: f64, epsilon: f64) -> Option<Self> {
+    pub(super) fn on(curve: &OverlapCurve, stack: &Stack) -> Option<Self> {
+        let (floor_friction, epsilon) = (stack.floor_friction, stack.epsilon());
+        let bodies = f64::from(stack.bodies);
         let lowest = floor_friction.max(curve.start);
         let reachable = 0.0..=HIGHEST_TANGENT - lowest;
         let mut offset = 0.0;
@@ -44,7 +46,7 @@ impl FloorSlip {
             if step.abs() <= LAST_STEP * offset {
                 return Some(Self {
                     beyond: beyond + step,
-                    force: 2.0 * floor_friction / (clearance + step) - 1.0,
+                    force: bodies * floor_friction / (clearance + step) - 1.0,
                 });
             }
         }
@@ -61,7 +63,7 @@ fn step_to_slip(overlap: f64, slope: f64, clearance: f64, target: f64) -> f64 {
     2.0 * shortfall / (growth + discriminant.sqrt())
 }
 
-/// F = f/(m g) at which the floor slips, by the closed form with arms 0, to 10⁻¹² of F + 3
+/// F = f/(m g) at which the floor slips, by the closed form with arms 0, to 10⁻¹² of F + n + 1
 /// (docs/theory.md, section 5.4): the yield force of [`closed_form_limit`](super::closed_form_limit) where
 /// nothing else comes first, which is not looked at here. `None` if the stack slides under its own weight, or
 /// if the floor has not slipped before T = 1.
@@ -72,8 +74,7 @@ fn step_to_slip(overlap: f64, slope: f64, clearance: f64, target: f64) -> f64 {
 /// assert!((force - 2124.669_922_2).abs() < 1e-7);
 /// ```
 pub fn floor_slip_force(stack: &Stack) -> Option<f64> {
-    let curve = OverlapCurve::from_just_touching(stack.stiffness_ratio);
-    let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon())?;
+    let slip = FloorSlip::on(&OverlapCurve::from_just_touching(stack), stack)?;
     Some(slip.force).filter(|&force| force >= 0.0)
 }
 

@@ -22,7 +22,7 @@ pub struct Limit {
     pub floor_slip_force: Option<f64>,
     /// T = tan(ψ/2) where the floor slips.
     pub tangent: Option<f64>,
-    /// y = x₂ − r, in r, where the floor slips.
+    /// y = x₂ − x₀, in r, where the floor slips.
     pub y: Option<f64>,
     /// z, how far cylinder 2 has sunk into the floor, in r, where the floor slips.
     pub z: Option<f64>,
@@ -51,7 +51,7 @@ pub struct Limit {
 
 impl Limit {
     /// The limit of `stack` along `path` with c = 0, on which the floor slips at the parameter `slip`: under its
-    /// own weight (docs/theory.md, Eq. 58) or under the wall, with F = 2 d/ε − 3 (Eq. 23).
+    /// own weight (docs/theory.md, Eq. 58) or under the wall, with F = n d/ε − (n + 1) (Eqs. 23 and 101).
     pub(super) fn of(path: &impl Path, slip: Option<f64>, stack: &Stack) -> Self {
         let others = [
             Event::CylinderSlip,
@@ -70,7 +70,10 @@ impl Limit {
     ) -> Self {
         let settled = path.settled();
         let own_weight = slip.is_some_and(|slip| slip < settled);
-        let force_at = |point: PathPoint| 2.0 * point.floor_force * stack.stiffness - 3.0;
+        let ring = stack.ring();
+        let force_at = |point: PathPoint| {
+            ring.bodies * point.floor_force * stack.stiffness - stack.own_weight()
+        };
         // A wall cannot pull: where its force has fallen below 0 it has left the stack.
         let slip = slip.filter(|&slip| own_weight || force_at(path.point(slip)) >= 0.0);
         let under_the_wall = slip.filter(|_| !own_weight);
@@ -96,10 +99,12 @@ impl Limit {
             peak_travel: wall_travel.filter(|_| yields),
             peak_z: z.filter(|_| yields),
             pair_ratio: point.map(|point| point.pair_ratio),
-            rest: (settled.is_finite() && !own_weight).then(|| path.point(settled).positions()),
+            rest: (settled.is_finite() && !own_weight)
+                .then(|| path.point(settled).positions(&ring)),
             time_scale: 1.0,
             needs_slow_ramp: false,
-            reason: (!yields).then(|| explanation(event, own_weight)),
+            reason: (!yields)
+                .then(|| explanation(event, own_weight).replace("cylinders", stack.kind())),
         }
     }
 

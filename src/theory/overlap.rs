@@ -5,7 +5,7 @@
 //! contact 1–2 obeys a linear differential equation in T = tan(ψ/2), which an integrating factor turns into
 //! one quadrature (docs/theory.md, Eqs. 11 to 14, 17 to 19 and 71).
 
-use crate::model::CRITICAL_FRICTION;
+use crate::model::{CRITICAL_FRICTION, Stack};
 use gauss_quad::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -18,9 +18,13 @@ pub(super) const HIGHEST_TANGENT: f64 = 1.0;
 static QUADRATURE: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(NonZeroUsize::new(12).expect("12 is not zero")));
 
-/// G(T), the overlap of the contact 1–2 in r, at T = μ_c + `beyond`.
+/// G(T), the overlap of the contact 1–2 of three cylinders in r, at T = μ_c + `beyond`.
 pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
-    OverlapCurve::from_just_touching(stiffness_ratio).overlap(beyond)
+    let curve = OverlapCurve {
+        start: CRITICAL_FRICTION,
+        stiffness_ratio,
+    };
+    curve.overlap(beyond)
 }
 
 /// G(T) of every stack that has this stiffness ratio κ and was free of force at the same T.
@@ -34,10 +38,10 @@ pub(super) struct OverlapCurve {
 
 impl OverlapCurve {
     /// The curve on which both gravity ramp and compression lie.
-    pub(super) fn from_just_touching(stiffness_ratio: f64) -> Self {
+    pub(super) fn from_just_touching(stack: &Stack) -> Self {
         Self {
-            start: CRITICAL_FRICTION,
-            stiffness_ratio,
+            start: stack.ring().critical_friction,
+            stiffness_ratio: stack.stiffness_ratio,
         }
     }
 
@@ -77,12 +81,19 @@ impl OverlapCurve {
 mod tests {
     use super::*;
 
+    fn curve(stiffness_ratio: f64) -> OverlapCurve {
+        OverlapCurve::from_just_touching(&Stack {
+            stiffness_ratio,
+            ..Stack::paper(0.3, 1e2)
+        })
+    }
+
     const RATIOS: [f64; 7] = [1e-3, 0.1, 0.5, 2.5, 10.0, 1e3, 1e6];
 
     #[test]
     fn overlap_obeys_its_differential_equation() {
         for kappa in [0.5, 2.5, 10.0] {
-            let curve = OverlapCurve::from_just_touching(kappa);
+            let curve = curve(kappa);
             for tangent in [0.3, 0.5, 0.9] {
                 let beyond = tangent - CRITICAL_FRICTION;
                 let at = |shift: f64| curve.overlap(beyond + shift);
@@ -133,7 +144,7 @@ mod tests {
         const INTERVALS: u32 = 500;
         let width = (HIGHEST_TANGENT - CRITICAL_FRICTION) / f64::from(INTERVALS);
         for kappa in RATIOS {
-            let curve = OverlapCurve::from_just_touching(kappa);
+            let curve = curve(kappa);
             for beyond in (0..INTERVALS).map(|index| width * f64::from(index)) {
                 let overlap = curve.overlap(beyond);
                 let slope = curve.slope(beyond, overlap);

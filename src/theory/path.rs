@@ -25,8 +25,6 @@ const FIRST_STATION: f64 = 1e-7;
 const RAMP_SPACING: f64 = 0.125;
 /// Distance of the stations under the wall, in the logarithm of the angle turned.
 const WALL_SPACING: f64 = 0.125;
-/// At ψ = 90° the centre of cylinder 1 has sunk to the level of the other two.
-const LARGEST_TURN: f64 = std::f64::consts::FRAC_PI_3;
 
 /// One leg as an initial value problem in the path parameter.
 struct LegEquation<'a> {
@@ -65,6 +63,8 @@ pub(super) struct FollowedPath {
     first_turn: f64,
     /// The parameter at which gravity is complete; infinite if the stack cannot carry its own weight.
     settled: f64,
+    /// The angle turned at ψ = 90°, where the centre of cylinder 1 has sunk to the level of the other two.
+    largest_turn: f64,
     knots: Vec<Knot>,
 }
 
@@ -78,6 +78,7 @@ impl FollowedPath {
         } = contacts.beginning(START);
         let mut path = Self {
             first_turn,
+            largest_turn: libm::acos(0.5 * contacts.ring.radius),
             contacts,
             settled: f64::INFINITY,
             knots: vec![Knot {
@@ -97,7 +98,7 @@ impl FollowedPath {
 
     fn follow_gravity(&mut self) {
         let epsilon = self.contacts.epsilon;
-        let end = LARGEST_TURN / self.first_turn;
+        let end = self.largest_turn / self.first_turn;
         loop {
             let last = self.last();
             let from = last.parameter;
@@ -138,7 +139,7 @@ impl FollowedPath {
         if self.settled.is_infinite() {
             return;
         }
-        let length = libm::log(LARGEST_TURN / self.last().state.turned);
+        let length = libm::log(self.largest_turn / self.last().state.turned);
         let count = (length / WALL_SPACING).ceil().max(0.0) as usize;
         for index in 1..=count {
             let to = self.settled + length * index as f64 / count as f64;
@@ -155,7 +156,8 @@ impl FollowedPath {
     fn next_knot(&self, to: f64) -> Option<Knot> {
         let last = self.last();
         let state = self.advance(last, to)?;
-        if self.contacts.bottom == BottomContact::Ignored || last.closed == (state.outward() < 0.0)
+        if self.contacts.bottom == BottomContact::Ignored
+            || last.closed == (self.outward(&state) < 0.0)
         {
             return Some(Knot {
                 parameter: to,
@@ -165,7 +167,7 @@ impl FollowedPath {
         }
         let outward = |parameter: f64| {
             let reached = self.advance(last, parameter);
-            reached.map_or(f64::NAN, |state| state.outward())
+            reached.map_or(f64::NAN, |state| self.outward(&state))
         };
         // Just after a change y = 0 up to round-off, and no root lies ahead: the path goes on to the station.
         let change = bracketed_root(outward, last.parameter, to);
@@ -176,6 +178,10 @@ impl FollowedPath {
             state: self.advance(last, change)?,
             closed: !last.closed,
         })
+    }
+
+    fn outward(&self, state: &State) -> f64 {
+        state.outward(&self.contacts.ring)
     }
 
     fn leg_at(&self, parameter: f64) -> Leg {

@@ -16,9 +16,9 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    fn from_load(load: Option<f64>, reason: &'static str) -> Self {
+    fn from_load(stack: &Stack, load: Option<f64>, reason: &'static str) -> Self {
         Self {
-            yield_force: load.map(|load| load - 3.0),
+            yield_force: load.map(|load| load - stack.own_weight()),
             reason: load.is_none().then_some(reason),
         }
     }
@@ -52,15 +52,17 @@ impl Predictions {
         Self {
             stack: *stack,
             convention: *convention,
-            rigid: rigid_yield(stack.floor_friction),
-            naive: Prediction::from_load(naive_load(stack), "the expansion gives F < 0"),
+            rigid: rigid_yield(stack),
+            naive: Prediction::from_load(stack, naive_load(stack), "the expansion gives F < 0"),
             perturbation: Prediction::from_load(
+                stack,
                 perturbation_load(stack),
                 "the solution is not real or gives F < 0",
             ),
             elastic: Prediction::from_load(
+                stack,
                 elastic_root.map(|root| root.load),
-                "the equation has no root z >= 3 epsilon r/2",
+                "the equation has no root with F >= 0",
             ),
             elastic_root,
             quasistatic: quasistatic_limit(stack, convention),

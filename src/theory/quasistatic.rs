@@ -3,33 +3,31 @@
 use super::events::{Path, PathPoint};
 use super::floor_slip::FloorSlip;
 use super::limit::Limit;
-use super::overlap::{HIGHEST_TANGENT, OverlapCurve, pair_overlap};
+use super::overlap::{HIGHEST_TANGENT, OverlapCurve};
 use super::root::bracketed_root;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{Ring, Stack};
 
-const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 const STATIONS: usize = 256;
 const EARLY_STATIONS: i32 = 24;
 
-/// The path of equilibria with the parameter T − μ_c (docs/theory.md, Eqs. 14 and 31; on the gravity ramp
-/// Eq. 10).
+/// The path of equilibria with the parameter T − μ_c (docs/theory.md, Eqs. 14, 31 and 101; on the gravity
+/// ramp Eq. 10).
 pub(super) struct ClosedForm {
     epsilon: f64,
-    stiffness_ratio: f64,
+    ring: Ring,
+    curve: OverlapCurve,
     end: f64,
 }
 
 impl ClosedForm {
     /// The whole path, up to T = 1.
     pub(super) fn whole(stack: &Stack) -> Self {
-        Self::new(stack, WIDEST)
-    }
-
-    fn new(stack: &Stack, end: f64) -> Self {
+        let curve = OverlapCurve::from_just_touching(stack);
         Self {
             epsilon: stack.epsilon(),
-            stiffness_ratio: stack.stiffness_ratio,
-            end,
+            ring: stack.ring(),
+            curve,
+            end: HIGHEST_TANGENT - curve.start,
         }
     }
 }
@@ -47,16 +45,18 @@ impl Path for ClosedForm {
     }
 
     fn settled(&self) -> f64 {
-        let excess = |beyond| 2.0 * pair_overlap(beyond, self.stiffness_ratio) - self.epsilon;
-        bracketed_root(excess, 0.0, WIDEST).unwrap_or(WIDEST)
+        let excess = |beyond| self.ring.bodies * self.curve.overlap(beyond) - self.epsilon;
+        let widest = HIGHEST_TANGENT - self.curve.start;
+        bracketed_root(excess, 0.0, widest).unwrap_or(widest)
     }
 
     fn point(&self, parameter: f64) -> PathPoint {
-        let tangent = CRITICAL_FRICTION + parameter;
-        let overlap = pair_overlap(parameter, self.stiffness_ratio);
-        let wall_force = (2.0 * overlap - self.epsilon).max(0.0);
-        let floor_overlap = (3.0 * overlap).min(overlap + self.epsilon);
-        let geometric = parameter * (CRITICAL_FRICTION.recip() - tangent);
+        let ring = &self.ring;
+        let tangent = ring.critical_friction + parameter;
+        let overlap = self.curve.overlap(parameter);
+        let wall_force = (ring.bodies * overlap - self.epsilon).max(0.0);
+        let floor_overlap = ((ring.bodies + 1.0) * overlap).min(overlap + self.epsilon);
+        let geometric = ring.radius * parameter * (ring.critical_friction.recip() - tangent);
         PathPoint {
             tangent,
             pair_overlap: overlap,
@@ -74,10 +74,9 @@ impl Path for ClosedForm {
 
 /// The exact limit of `stack` under the paper's arms.
 pub fn closed_form_limit(stack: &Stack) -> Limit {
-    let curve = OverlapCurve::from_just_touching(stack.stiffness_ratio);
-    let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon());
-    let slip = slip.map(|slip| slip.beyond);
-    let path = ClosedForm::new(stack, slip.unwrap_or(WIDEST));
+    let mut path = ClosedForm::whole(stack);
+    let slip = FloorSlip::on(&path.curve, stack).map(|slip| slip.beyond);
+    path.end = slip.unwrap_or(path.end);
     Limit::of(&path, slip, stack)
 }
 
@@ -87,22 +86,26 @@ mod tests {
 
     #[test]
     fn bottom_cylinders_part_only_above_a_stiffness_ratio() {
-        // dx₂/dT at T = μ_c vanishes for κ = (2 + √3)/(2√3) (docs/theory.md, Eqs. 53 and 54).
-        let threshold = (2.0 + 3f64.sqrt()) / (2.0 * 3f64.sqrt());
-        let outward = |kappa| {
-            let stack = Stack {
-                stiffness_ratio: kappa,
-                ..Stack::paper(0.3, 1e6)
+        // dx₂/dT at T = μ_c vanishes for κ = 1/(1 − μ_c²) (docs/theory.md, Eqs. 53, 54 and 104).
+        for bodies in 2..=5 {
+            let outward = |nearness: f64| {
+                let mut stack = Stack {
+                    bodies,
+                    ..Stack::paper(0.3, 1e6)
+                };
+                let critical = stack.ring().critical_friction;
+                stack.stiffness_ratio = nearness / (1.0 - critical * critical);
+                ClosedForm::whole(&stack).point(1e-9).outward
             };
-            ClosedForm::new(&stack, WIDEST).point(1e-9).outward
-        };
-        assert!(outward(threshold * 1.001) > 0.0);
-        assert!(outward(threshold * 0.999) < 0.0);
+            assert!(outward(1.001) > 0.0);
+            assert!(outward(0.999) < 0.0);
+        }
     }
 
     #[test]
     fn stations_are_even_and_crowd_towards_the_start() {
-        let path = ClosedForm::new(&Stack::paper(0.3, 1e2), 0.512);
+        let mut path = ClosedForm::whole(&Stack::paper(0.3, 1e2));
+        path.end = 0.512;
         let stations = path.stations();
         assert_eq!(stations.len(), 280);
         assert!(stations.windows(2).all(|pair| pair[1] > pair[0]));

@@ -15,7 +15,7 @@ use super::floor_slip::FloorSlip;
 use super::overlap::OverlapCurve;
 use crate::model::{CRITICAL_FRICTION, Stack};
 
-/// A*, the largest push after which the bottom cylinders end without contact, in r, to leading order in ε, if
+/// A*, the largest push after which the bottom cylinders of the plane stack end without contact, in r, to leading order in ε, if
 /// nothing slides during the preparation (docs/theory.md, Eq. 70).
 ///
 /// With A* they end just touching, at x₂ = 1, with a = G = ε/2 and b = a T. To leading order T = μ_c and b = ε μ_c/2,
@@ -39,7 +39,7 @@ pub fn critical_push(stack: &Stack) -> f64 {
 }
 
 /// F at the slip of the floor after walls pushed in by `push`, in m g, with arms 0; `None` if the floor does
-/// not slip. It holds where nothing slides before, and where contact 2–3 has opened by then; other events are
+/// not slip, and of spheres. It holds where nothing slides before, and where contact 2–3 has opened by then; other events are
 /// ignored.
 ///
 /// ```
@@ -51,12 +51,13 @@ pub fn critical_push(stack: &Stack) -> f64 {
 /// assert!((pushed - unpushed - 0.0345).abs() < 1e-4);
 /// ```
 pub fn pushed_slip_force(stack: &Stack, push: f64) -> Option<f64> {
+    stack.refuse_spheres().ok()?;
     let sine = 0.5 * (1.0 - push / 3.0);
     let curve = OverlapCurve {
         start: sine / (1.0 + (1.0 - sine * sine).sqrt()),
         stiffness_ratio: stack.stiffness_ratio,
     };
-    let slip = FloorSlip::on(&curve, stack.floor_friction, stack.epsilon());
+    let slip = FloorSlip::on(&curve, stack);
     slip.map(|slip| slip.force)
 }
 

@@ -1,7 +1,7 @@
 //! The states in which the floor slides while contact 2–3 is closed, for any arms and power of the normal force.
 //!
 //! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d of each
-//! direction (T − μ_c) : (−2y) = u : 1 − u. The states remember neither springs nor preparation, and torque arms and
+//! direction (T − μ_c) : (−2y/x₀) = u : 1 − u. The states remember neither springs nor preparation, and torque arms and
 //! normal force are all that they see of a convention (docs/theory.md, Eqs. 74 to 76 and 87 to 89). On the way from u = 0,
 //! where T = μ_c, to u = 1, where the contact opens, the load grows until the end, or to a maximum shortly before.
 //! T alone would not do: with some arms it falls again just before the contact opens, unless springs are linear.
@@ -9,9 +9,8 @@
 use super::events::{Event, PathPoint};
 use super::overlap::HIGHEST_TANGENT;
 use super::root::{bracketed_root, maximum_between};
-use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, ContactLaw, Stack};
+use crate::model::{Arms, ContactConvention, ContactLaw, Ring, Stack};
 
-const WIDEST: f64 = HIGHEST_TANGENT - CRITICAL_FRICTION;
 /// The bottom cylinders coincide.
 const LARGEST_BOTTOM_OVERLAP: f64 = 2.0;
 /// The arm of the floor changes d by a small part of its own change: each step gives a digit or more.
@@ -25,6 +24,7 @@ const OPENING: f64 = 1.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlidingBranch {
     stack: Stack,
+    ring: Ring,
     arms: Arms,
     law: ContactLaw,
     wall: ContactLaw,
@@ -48,26 +48,26 @@ struct Place {
     sum: f64,
     /// (1 − T²)/2.
     difference: f64,
-    /// −2y.
+    /// −2y/x₀.
     bottom_overlap: f64,
     /// G.
     overlap: f64,
 }
 
 impl Place {
-    /// T = μ_c + `beyond` and −2y = `bottom_overlap`.
-    fn new(beyond: f64, bottom_overlap: f64) -> Self {
-        let tangent = CRITICAL_FRICTION + beyond;
+    /// T = μ_c + `beyond` and −2y/x₀ = `bottom_overlap`.
+    fn new(ring: &Ring, beyond: f64, bottom_overlap: f64) -> Self {
+        let tangent = ring.critical_friction + beyond;
         let square = tangent * tangent;
         let sum = 0.5 * (1.0 + square);
-        // (1 + T²) y of cylinders that do not overlap.
-        let opened = beyond * (CRITICAL_FRICTION.recip() - tangent);
+        // (1 + T²) y/x₀ of cylinders that do not overlap.
+        let opened = beyond * (ring.critical_friction.recip() - tangent);
         Self {
             tangent,
             sum,
             difference: 0.5 * (1.0 - square),
             bottom_overlap,
-            overlap: 0.5 * (bottom_overlap * sum + opened) / tangent,
+            overlap: 0.5 * ring.radius * (bottom_overlap * sum + opened) / tangent,
         }
     }
 }
@@ -76,6 +76,7 @@ impl SlidingBranch {
     pub(super) fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self {
             stack: *stack,
+            ring: stack.ring(),
             arms: convention.arms,
             law: convention.law(stack.stiffness_ratio),
             wall: convention.wall_law(stack.stiffness_ratio),
@@ -83,9 +84,9 @@ impl SlidingBranch {
     }
 
     /// u of a state.
-    pub(super) fn direction(point: &PathPoint) -> f64 {
-        let beyond = point.tangent - CRITICAL_FRICTION;
-        beyond / (beyond - 2.0 * point.outward)
+    pub(super) fn direction(&self, point: &PathPoint) -> f64 {
+        let beyond = point.tangent - self.ring.critical_friction;
+        beyond / (beyond + self.ring.neighbour_overlap(point.outward))
     }
 
     /// The peak beyond the state at u = `start`, or what comes before it. The wall is lowest at the peak; and
@@ -119,16 +120,16 @@ impl SlidingBranch {
     pub(super) fn point(&self, direction: f64) -> PathPoint {
         let place = self
             .place(direction)
-            .unwrap_or(Place::new(f64::NAN, f64::NAN));
+            .unwrap_or(Place::new(&self.ring, f64::NAN, f64::NAN));
         let load = self.load(&place);
         let shear = self.stack.floor_friction * load * self.lever_ratio(&place, load);
-        let wall_force = 2.0 * load - 3.0 * self.stack.epsilon();
+        let wall_force = self.ring.bodies * load - self.stack.own_weight() * self.stack.epsilon();
         PathPoint {
             tangent: place.tangent,
             pair_overlap: place.overlap,
             floor_overlap: self.wall.overlap(load),
             floor_force: load,
-            outward: -0.5 * place.bottom_overlap,
+            outward: -0.5 * self.ring.radius * place.bottom_overlap,
             pair_ratio: shear / self.law.force(place.overlap),
             floor_ratio: self.stack.floor_friction,
             bottom_force: self.law.force(place.bottom_overlap),
@@ -140,9 +141,16 @@ impl SlidingBranch {
     /// The first place in a direction in which all forces balance: what pushes cylinder 2 outwards grows about as the power
     /// p of the distance from the stress-free state (docs/theory.md, section 11.5).
     fn place(&self, direction: f64) -> Option<Place> {
-        let at = |distance: f64| Place::new(distance * direction, distance * (1.0 - direction));
+        let at = |distance: f64| {
+            Place::new(
+                &self.ring,
+                distance * direction,
+                distance * (1.0 - direction),
+            )
+        };
         let lack = |distance: f64| self.outward_push(&at(distance));
-        let farthest = (WIDEST / direction).min(LARGEST_BOTTOM_OVERLAP / (1.0 - direction));
+        let widest = HIGHEST_TANGENT - self.ring.critical_friction;
+        let farthest = (widest / direction).min(LARGEST_BOTTOM_OVERLAP / (1.0 - direction));
         let mut near = 0.0;
         let mut far = NEAREST * self.law.overlap(self.stack.epsilon());
         // Overlaps far beyond those of the state may have no levers.
@@ -160,7 +168,7 @@ impl SlidingBranch {
         let load = self.load(place);
         let lever_sum = place.sum + place.difference * self.lever_ratio(place, load);
         self.law.force(place.overlap) * place.tangent
-            + self.law.force(place.bottom_overlap) * place.sum
+            + self.ring.push * self.law.force(place.bottom_overlap) * place.sum
             - self.stack.floor_friction * load * lever_sum
     }
 

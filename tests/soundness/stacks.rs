@@ -31,10 +31,9 @@ pub fn check(data: &[u8]) {
         .map(|[torque, kinematic]| ContactArms { torque, kinematic });
     let arms = Arms { pair, floor };
     let stack = Stack {
-        floor_friction,
         cylinder_friction,
-        stiffness,
         stiffness_ratio,
+        ..Stack::paper(floor_friction, stiffness)
     };
     let convention = ContactConvention::with_arms(arms);
     // Below, the equations of the path are stiff, and a path takes a tenth of a second, here much longer.

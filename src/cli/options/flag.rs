@@ -9,6 +9,7 @@ pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
         "stack.cylinder_friction" => "--mu-d",
         "stack.stiffness" => "--stiffness",
         "stack.stiffness_ratio" => "--kappa",
+        "stack.bodies" => "--bodies",
         "convention.pair" | "convention.pair.torque_arm" => "--pair-arm",
         "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
         "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",

@@ -13,7 +13,9 @@ pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;
 pub(super) use runs::{RunOptions, recording_directory, time_limit};
-pub(super) use stack::{OneStackOptions, StackListOptions, StackOptions, friction};
+pub(super) use stack::{
+    OneStackOptions, StackListOptions, StackOptions, friction, friction_of_any_bodies,
+};
 
 use clap::Args;
 

@@ -2,7 +2,7 @@
 
 use super::flag::as_flag;
 use crate::model::{
-    CRITICAL_FRICTION, InvalidValue, Material, PAPER_CYLINDER_FRICTION, Power, Stack,
+    CRITICAL_FRICTION, InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack,
 };
 use clap::Args;
 
@@ -18,6 +18,9 @@ pub(in crate::cli) struct StackOptions {
     /// Friction between cylinders
     #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
     pub mu_d: f64,
+    /// Bodies on the floor: 2 cylinders, or in `theory` 3 to 5 spheres in a ring with one on top
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES)]
+    bodies: u8,
 }
 
 impl StackOptions {
@@ -27,14 +30,35 @@ impl StackOptions {
             .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
     }
 
-    /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
+    /// The checked stack of cylinders with floor friction `mu` and this stiffness, in a law of this power.
     pub fn stack(&self, mu: f64, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
+        self.refuse_spheres()?;
+        self.stack_of_any_bodies(Some(mu), stiffness, power)
+    }
+
+    /// Refuses other bodies than cylinders.
+    pub fn refuse_spheres(&self) -> Result<(), InvalidValue> {
         let stack = Stack {
-            floor_friction: mu,
-            cylinder_friction: self.mu_d,
-            stiffness,
-            stiffness_ratio: self.kappa(power),
+            bodies: self.bodies,
+            ..Stack::paper(f64::NAN, f64::NAN)
         };
+        stack.refuse_spheres().map_err(as_flag)
+    }
+
+    /// The same of cylinders or spheres; `None` is their critical friction.
+    fn stack_of_any_bodies(
+        &self,
+        mu: Option<f64>,
+        stiffness: f64,
+        power: Power,
+    ) -> Result<Stack, InvalidValue> {
+        let mut stack = Stack {
+            cylinder_friction: self.mu_d,
+            stiffness_ratio: self.kappa(power),
+            bodies: self.bodies,
+            ..Stack::paper(f64::NAN, stiffness)
+        };
+        stack.floor_friction = mu.unwrap_or(stack.ring().critical_friction);
         stack.validate().map_err(as_flag)?;
         Ok(stack)
     }
@@ -154,9 +178,20 @@ pub(in crate::cli) struct StackListOptions {
 }
 
 impl StackListOptions {
-    /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
-    /// fastest.
+    /// The checked stacks of cylinders of every combination of friction and stiffness, in a law of this power; the
+    /// friction varies fastest.
     pub fn stacks(&self, frictions: &[f64], power: Power) -> Result<Vec<Stack>, InvalidValue> {
+        self.others.refuse_spheres()?;
+        let frictions: Vec<_> = frictions.iter().copied().map(Some).collect();
+        self.stacks_of_any_bodies(&frictions, power)
+    }
+
+    /// The same of cylinders or spheres; `None` is their critical friction.
+    pub fn stacks_of_any_bodies(
+        &self,
+        frictions: &[Option<f64>],
+        power: Power,
+    ) -> Result<Vec<Stack>, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
         let material = self.material.stiffness();
         let stiffnesses: Vec<f64> = self.stiffnesses.iter().copied().chain(material).collect();
@@ -171,18 +206,23 @@ impl StackListOptions {
         let stacks = stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
             let others = &others;
-            frictions.map(move |&mu| others.stack(mu, stiffness, power))
+            frictions.map(move |&mu| others.stack_of_any_bodies(mu, stiffness, power))
         });
         stacks.collect()
     }
 }
 
-/// Reads `--mu`: a number, or the word `critical`.
+/// Reads `--mu` of cylinders: a number, or the word `critical`.
 pub(in crate::cli) fn friction(text: &str) -> Result<f64, String> {
+    friction_of_any_bodies(text).map(|friction| friction.unwrap_or(CRITICAL_FRICTION))
+}
+
+/// Reads `--mu`: a number, or the word `critical`, which is `None`.
+pub(in crate::cli) fn friction_of_any_bodies(text: &str) -> Result<Option<f64>, String> {
     if text == "critical" {
-        return Ok(CRITICAL_FRICTION);
+        return Ok(None);
     }
-    text.parse().map_err(|_| {
+    text.parse().map(Some).map_err(|_| {
         "accepted are a number above 0 and the word `critical` (2 - sqrt 3)".to_owned()
     })
 }

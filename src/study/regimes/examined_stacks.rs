@@ -44,10 +44,9 @@ fn stack(
     stiffness_ratio: f64,
 ) -> Stack {
     Stack {
-        floor_friction,
         cylinder_friction,
-        stiffness,
         stiffness_ratio,
+        ..Stack::paper(floor_friction, stiffness)
     }
 }
 

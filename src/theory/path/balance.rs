@@ -2,9 +2,9 @@
 //!
 //! With the torque arms R_c = r + r₁ G and R_f = r + r₁ z, equilibrium reads (forces in k_n r, lengths in r)
 //!
-//! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  2(a cos ψ + b sin ψ) = L,
+//! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  n (a cos ψ + b sin ψ) = L,
 //!
-//! where L is the load carried by cylinder 1: its growing weight along the gravity ramp, f + m g under
+//! where n bodies carry cylinder 1 (2 cylinders, or 3 to 5 spheres) and L is the load on it: its growing weight along the gravity ramp, f + m g under
 //! the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the kinematic arms R̃ of the same
 //! form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
 //! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
@@ -13,19 +13,19 @@
 //! b (ln k_c)′ and e (ln k_f)′ then (Eq. 81).
 //!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
-//! carries c = N(−2y), and nothing tangential: by mirror symmetry its surfaces do not move against each
-//! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are.
+//! carries c = N(−2y/x₀), and nothing tangential: by mirror symmetry its surfaces do not move against each
+//! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are. A sphere has
+//! two such neighbours, which press it outwards by 2c sin(π/n) (Eq. 99).
 
 use super::super::events::{PathPoint, half_angle_tangent, outward_displacement};
 use super::super::root::bracketed_root;
-use crate::model::{Arms, ContactArms, ContactConvention, ContactLaw, Stack};
+use crate::model::{Arms, ContactArms, ContactConvention, ContactLaw, Ring, Stack};
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::FRAC_PI_6;
 
 /// The state that is integrated.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State {
-    /// ψ − 30°.
+    /// ψ − ψ₀.
     pub(super) turned: f64,
     /// L, load carried by cylinder 1.
     pub(super) load: f64,
@@ -70,33 +70,35 @@ impl State {
         ]
     }
 
-    /// y = x₂ − r.
-    pub(super) fn outward(&self) -> f64 {
-        outward_displacement(self.turned, self.pair_overlap)
+    /// y = x₂ − x₀.
+    pub(super) fn outward(&self, ring: &Ring) -> f64 {
+        outward_displacement(ring, self.turned, self.pair_overlap)
     }
 }
 
 /// The two legs of the path, which differ in how the floor load d grows with L.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Leg {
-    /// Gravity grows until L = ε: d = 3L/2. The parameter is the angle turned, in units of `first_turn`.
+    /// Gravity grows until L = ε: d = L/n + L. The parameter is the angle turned, in units of `first_turn`.
     GravityRamp,
-    /// The wall presses: d = L/2 + ε. The parameter grows with the logarithm of the angle turned.
+    /// The wall presses: d = L/n + ε. The parameter grows with the logarithm of the angle turned.
     Wall,
 }
 
 impl Leg {
-    fn floor_force(self, load: f64, epsilon: f64) -> f64 {
+    fn floor_force(self, load: f64, epsilon: f64, ring: &Ring) -> f64 {
+        let borne = self.floor_force_slope(ring) * load;
         match self {
-            Self::GravityRamp => 1.5 * load,
-            Self::Wall => 0.5 * load + epsilon,
+            Self::GravityRamp => borne,
+            Self::Wall => borne + epsilon,
         }
     }
 
-    fn floor_force_slope(self) -> f64 {
+    fn floor_force_slope(self, ring: &Ring) -> f64 {
+        let share = ring.bodies.recip();
         match self {
-            Self::GravityRamp => 1.5,
-            Self::Wall => 0.5,
+            Self::GravityRamp => share + 1.0,
+            Self::Wall => share,
         }
     }
 }
@@ -123,6 +125,7 @@ pub(super) struct Beginning {
 /// Constants of the contacts along a path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contacts {
+    pub(super) ring: Ring,
     law: ContactLaw,
     wall: ContactLaw,
     arms: Arms,
@@ -171,6 +174,7 @@ impl Contacts {
         bottom: BottomContact,
     ) -> Self {
         Self {
+            ring: stack.ring(),
             law: convention.law(stack.stiffness_ratio),
             wall: convention.wall_law(stack.stiffness_ratio),
             arms: convention.arms,
@@ -220,20 +224,26 @@ impl Contacts {
         closed: bool,
         unload: [bool; 2],
     ) -> (State, [bool; 2]) {
-        let (sin, cos) = libm::sincos(FRAC_PI_6 + state.turned);
+        let ring = &self.ring;
+        let (sin, cos) = libm::sincos(ring.angle() + state.turned);
         let distance = 2.0 - state.pair_overlap;
-        let floor_overlap = self.wall.overlap(leg.floor_force(state.load, self.epsilon));
+        let floor_overlap = self
+            .wall
+            .overlap(leg.floor_force(state.load, self.epsilon, ring));
         let (b, e) = (state.pair_shear, state.floor_shear);
         let Arms { pair, floor } = self.arms;
         let upper = Pressed::new(&self.law, pair, state.pair_overlap, b, unload[0]);
         let lower = Pressed::new(&self.wall, floor, floor_overlap, e, unload[1]);
         let a = self.law.force(state.pair_overlap);
-        // −dc/dx₂: the bottom cylinders overlap by −2y.
+        // What the neighbours push less per distance that the body moves outwards.
         let bottom_stiffness = match closed {
-            true => 2.0 * self.law.stiffness(-2.0 * state.outward()),
+            true => {
+                let overlap = ring.neighbour_overlap(state.outward(ring));
+                -ring.push * ring.neighbour_overlap(1.0) * self.law.stiffness(overlap)
+            }
             false => 0.0,
         };
-        let sinking = leg.floor_force_slope() / lower.stiffness;
+        let sinking = leg.floor_force_slope(ring) / lower.stiffness;
 
         // Rows: torque on 2, horizontal force on 2, vertical force on 1. Columns: ρ′, θ′, L′.
         let system = Matrix3::new(
@@ -244,8 +254,8 @@ impl Contacts {
             (upper.stiffness + lower.tangential + bottom_stiffness) * sin - upper.memory * cos,
             -upper.tangential * upper.radius * cos + lower.tangential * lower.radius,
             lower.memory * sinking,
-            -2.0 * upper.stiffness * cos - 2.0 * upper.memory * sin,
-            -2.0 * upper.tangential * upper.radius * sin,
+            -ring.bodies * upper.stiffness * cos - ring.bodies * upper.memory * sin,
+            -ring.bodies * upper.tangential * upper.radius * sin,
             -1.0,
         );
         let known = Vector3::new(
@@ -253,7 +263,7 @@ impl Contacts {
             (upper.tangential + lower.tangential + bottom_stiffness) * distance * cos
                 - a * cos
                 - b * sin,
-            2.0 * (upper.tangential * distance * sin - a * sin + b * cos),
+            ring.bodies * (upper.tangential * distance * sin - a * sin + b * cos),
         );
         let solution = system
             .lu()
@@ -276,14 +286,15 @@ impl Contacts {
     }
 
     pub(super) fn point(&self, state: &State, leg: Leg) -> PathPoint {
-        let (law, outward) = (&self.law, state.outward());
-        let floor_force = leg.floor_force(state.load, self.epsilon);
+        let (law, ring) = (&self.law, &self.ring);
+        let outward = state.outward(ring);
+        let floor_force = leg.floor_force(state.load, self.epsilon, ring);
         let wall_force = match leg {
             Leg::GravityRamp => 0.0,
             Leg::Wall => state.load - self.epsilon,
         };
         PathPoint {
-            tangent: half_angle_tangent(state.turned),
+            tangent: half_angle_tangent(ring, state.turned),
             pair_overlap: state.pair_overlap,
             floor_overlap: self.wall.overlap(floor_force),
             floor_force,
@@ -292,7 +303,7 @@ impl Contacts {
             floor_ratio: state.floor_shear / floor_force,
             bottom_force: match self.bottom {
                 BottomContact::Ignored => 0.0,
-                BottomContact::Followed => law.force((-2.0 * outward).max(0.0)),
+                BottomContact::Followed => law.force(ring.neighbour_overlap(outward).max(0.0)),
             },
             wall_force,
             wall_overlap: self.wall.overlap(wall_force),
@@ -311,36 +322,40 @@ struct Ray {
 impl Ray {
     /// The ray on which the springs of both contacts collect what the geometry demands (docs/theory.md, Eq. 83).
     fn of(contacts: &Contacts) -> Self {
-        let widening = 2.0 + 3f64.sqrt();
+        let ring = &contacts.ring;
+        let (widening, sine) = (2.0 + ring.rise, 0.5 * ring.radius);
         let excess = |pair_overlap: f64| {
             let ray = Self::along(contacts, pair_overlap);
-            ray.stretch(contacts).iter().sum::<f64>() + 0.5 * pair_overlap - widening
+            ray.stretch(contacts).iter().sum::<f64>() + sine * pair_overlap - widening
         };
         // Overlaps of 0 have no stiffness.
         let pair_overlap = bracketed_root(excess, 1e-100, 2.0 * widening).unwrap_or(f64::NAN);
         Self::along(contacts, pair_overlap)
     }
 
-    /// Forces of the balances at ψ = 30° and an overlap of the pair.
+    /// Forces of the balances at ψ₀ and an overlap of the pair.
     fn along(contacts: &Contacts, pair_overlap: f64) -> Self {
-        let (law, root) = (&contacts.law, 3f64.sqrt());
+        let (law, ring) = (&contacts.law, &contacts.ring);
+        let (sine, cosine) = (0.5 * ring.radius, 0.5 * ring.rise);
         let normal = law.force(pair_overlap);
         let bottom_force = match contacts.bottom {
             BottomContact::Ignored => 0.0,
-            BottomContact::Followed => law.force((pair_overlap - 2.0 * root).max(0.0)),
+            BottomContact::Followed => {
+                law.force((pair_overlap - 2.0 * ring.rise / ring.radius).max(0.0))
+            }
         };
-        let shear = (0.5 * normal + bottom_force) / (1.0 + 0.5 * root);
+        let shear = (sine * normal + ring.push * bottom_force) / (1.0 + cosine);
         Self {
             pair_overlap,
             shear,
             bottom_force,
-            load: root * normal + shear,
+            load: ring.bodies * (cosine * normal + sine * shear),
         }
     }
 
     /// How far the springs of pair and floor are stretched.
     fn stretch(&self, contacts: &Contacts) -> [f64; 2] {
-        let floor_force = Leg::GravityRamp.floor_force(self.load, 0.0);
+        let floor_force = Leg::GravityRamp.floor_force(self.load, 0.0, &contacts.ring);
         let floor_overlap = contacts.wall.overlap(floor_force);
         let contacts = [
             (&contacts.law, self.pair_overlap),

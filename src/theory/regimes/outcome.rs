@@ -89,7 +89,8 @@ pub struct LoadingOutcome {
 }
 
 impl LoadingOutcome {
-    /// Loads `stack` under the paper's arms. `None` if its path of equilibria ends before any event.
+    /// Loads `stack` under the paper's arms. `None` if its path of equilibria ends before any event,
+    /// and of spheres.
     ///
     /// ```
     /// use tristack::model::Stack;
@@ -107,6 +108,7 @@ impl LoadingOutcome {
 
     /// The same for a `stack` whose path is known.
     pub fn on(path: &EquilibriumPath, stack: &Stack) -> Option<Self> {
+        stack.refuse_spheres().ok()?;
         let (event, parameter) = last_event(path, stack)?;
         let last = path.critical_state(event, parameter);
         let release = (last.bottom_force > 0.0 && event != Event::WallContact)

@@ -47,8 +47,10 @@ impl Release {
 
 /// The two floor frictions between which a stack like this one has a yield force although it slips while
 /// c > 0: with less it falls under its own weight, with more the cylinders slip or the wall reaches the bottom
-/// ones. Neither depends on κ. `None` if such a stack always falls.
+/// ones. Neither depends on κ. `None` if such a stack always falls, and of
+/// spheres.
 pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
+    stack.refuse_spheres().ok()?;
     let epsilon = stack.epsilon();
     let needed = |beyond: f64| {
         let overlap = touching_overlap(beyond);

@@ -1,17 +1,15 @@
 //! The elastic equation z = r 𝒟(μ, α) ℰ(μ, α) (paper, Eqs. 8 to 10) and the state behind its root.
 
-use super::{SQRT_3, vanishing_alpha};
-use crate::model::{CRITICAL_FRICTION, Stack};
+use super::vanishing_alpha;
+use crate::model::{Ring, Stack};
 use crate::theory::root::bracketed_root;
 
-/// α of F = 0; a root beyond it would need the wall to pull.
-const HIGHEST_ALPHA: f64 = 2.0 / 3.0;
 const SCAN_POINTS: usize = 512;
 
 /// The state at yield according to the elastic equation; lengths in r, angle in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElasticRoot {
-    /// F + 3, the load on the floor in m g.
+    /// F + n + 1, the load on the floor in m g.
     pub load: f64,
     /// x = δ₁₁ − δ₂₁, how far cylinder 1 sinks between the bottom ones.
     pub x: f64,
@@ -31,34 +29,37 @@ impl ElasticRoot {
     }
 }
 
-/// Largest root z ≥ 3 ε r/2 of the elastic equation, with x, y and θ recovered from it; `None` if there
+/// Largest root z ≥ (n + 1) ε r/n of the elastic equation, with x, y and θ recovered from it; `None` if there
 /// is none.
 ///
 /// Solved as h(α) = α 𝒟 ℰ = ε for the smallest α, measured from the point where 𝒟 vanishes so that
 /// stiff stacks keep all their digits. With T = μ/u the relations of appendix A become
-/// y = μ z (κ(1 − T²) − 1) and x = (1 + y) z u (1 + T²)(1 + κ(1 + T²))/2 − √3 y. A root with y ≤ −r is
+/// y = μ z (κ(1 − T²) − 1) and x = (1 + y/x₀) z u (1 + T²)(1 + κ(1 + T²))/2 − y cot ψ₀. A root with y ≤ −x₀ is
 /// one of the elimination alone: it would put cylinder 2 on the other side and breaks the equilibrium.
 pub fn elastic_root(stack: &Stack) -> Option<ElasticRoot> {
     let root = eliminated_root(stack)?;
-    (root.y > -1.0).then_some(root)
+    (root.y > -stack.ring().radius).then_some(root)
 }
 
 fn eliminated_root(stack: &Stack) -> Option<ElasticRoot> {
     let mu = stack.floor_friction;
     let kappa = stack.stiffness_ratio;
     let epsilon = stack.epsilon();
-    let start = vanishing_alpha(mu).max(0.0);
-    let excess = |offset: f64| displacement_ratio(mu, kappa, offset) - epsilon;
-    let offset = first_crossing(excess, HIGHEST_ALPHA - start)?;
+    let ring = &stack.ring();
+    let start = vanishing_alpha(ring, mu).max(0.0);
+    let excess = |offset: f64| displacement_ratio(ring, mu, kappa, offset) - epsilon;
+    // α of F = 0; a root beyond it would need the wall to pull.
+    let highest = ring.bodies / stack.own_weight();
+    let offset = first_crossing(excess, highest - start)?;
     let alpha = start + offset;
-    let u = coefficient_u(mu, offset);
+    let u = coefficient_u(ring, mu, offset);
     let z = epsilon / alpha;
     let tangent_squared = (mu / u) * (mu / u);
     let y = mu * z * (kappa * (1.0 - tangent_squared) - 1.0);
     let sinking = z * u * (1.0 + tangent_squared) * (1.0 + kappa * (1.0 + tangent_squared)) / 2.0;
     Some(ElasticRoot {
-        load: 2.0 / alpha,
-        x: (1.0 + y) * sinking - SQRT_3 * y,
+        load: ring.bodies / alpha,
+        x: (1.0 + y / ring.radius) * sinking - ring.rise / ring.radius * y,
         y,
         z,
         theta: mu * kappa * z - y,
@@ -66,20 +67,20 @@ fn eliminated_root(stack: &Stack) -> Option<ElasticRoot> {
 }
 
 /// u = 1 − α at α = max(0, α₀) + `offset`, without forming 1 − α₀ by subtraction.
-fn coefficient_u(mu: f64, offset: f64) -> f64 {
-    (mu / CRITICAL_FRICTION).min(1.0) - offset
+fn coefficient_u(ring: &Ring, mu: f64, offset: f64) -> f64 {
+    (mu / ring.critical_friction).min(1.0) - offset
 }
 
 /// h(α) = α 𝒟(μ, α) ℰ(μ, α) at α = max(0, α₀) + `offset`, with the numerator of 𝒟 factored as
-/// (α − α₀)(u + μ μ_c).
-fn displacement_ratio(mu: f64, kappa: f64, offset: f64) -> f64 {
-    let vanishing = vanishing_alpha(mu);
+/// x₀ (α − α₀)(u + μ μ_c).
+fn displacement_ratio(ring: &Ring, mu: f64, kappa: f64, offset: f64) -> f64 {
+    let vanishing = vanishing_alpha(ring, mu);
     let alpha = vanishing.max(0.0) + offset;
     let beyond = offset + (-vanishing).max(0.0);
-    let u = coefficient_u(mu, offset);
+    let u = coefficient_u(ring, mu, offset);
     let u_squared = u * u;
     let sum = u_squared + mu * mu;
-    alpha * beyond * (u + mu * CRITICAL_FRICTION) * u_squared
+    ring.radius * alpha * beyond * (u + mu * ring.critical_friction) * u_squared
         / (mu * sum * (u_squared + kappa * sum))
 }
 
@@ -96,6 +97,7 @@ fn first_crossing(excess: impl Fn(f64) -> f64, end: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::CRITICAL_FRICTION;
     use crate::theory::small_displacement::quintic_displacement;
 
     /// Torque balance of cylinder 2, horizontal balance of 2, vertical balance of 1 (paper, Eqs. 1 to 3)
@@ -108,7 +110,8 @@ mod tests {
             theta,
             load,
         } = *root;
-        let (nx, ny) = (-(1.0 + y), SQRT_3 - x);
+        let ring = stack.ring();
+        let (nx, ny) = (-(ring.radius + y), ring.rise - x);
         let length = nx.hypot(ny);
         let (nx, ny) = (nx / length, ny / length);
         let (tx, ty) = (ny, -nx);
@@ -116,11 +119,11 @@ mod tests {
         let b = (y * tx + x * ty - theta) / stack.stiffness_ratio;
         let d = z;
         let e = (y + theta) / stack.stiffness_ratio;
-        let f_plus_weight = (load - 2.0) * stack.epsilon();
+        let f_plus_weight = (load - ring.bodies) * stack.epsilon();
         [
             (b - e) / d,
             (a * nx + b * (tx + 1.0)) / d,
-            (2.0 * a * ny + 2.0 * b * ty - f_plus_weight) / d,
+            (ring.bodies * (a * ny + b * ty) - f_plus_weight) / d,
             (e - stack.floor_friction * d) / d,
         ]
     }
@@ -154,7 +157,8 @@ mod tests {
     fn equilibrium_holds_to_round_off() {
         // Some hundred roundings of numbers up to ten times the load d.
         let round_off = 400.0 * f64::EPSILON;
-        for stack in grid() {
+        let stacks = grid().flat_map(|stack| (2..=5).map(move |bodies| Stack { bodies, ..stack }));
+        for stack in stacks {
             let Some(root) = elastic_root(&stack) else {
                 continue;
             };

@@ -1,7 +1,8 @@
 //! The paper's theories: rigid cylinders, and elastic ones whose displacements are small.
 //!
 //! Here α = ε r/z with the vertical displacement z of the bottom cylinders, and u = 1 − α. The load on
-//! the floor is F + 3 = 2 z/(ε r) = 2/α (paper, Eq. 7), so that F ≥ 0 means α ≤ 2/3.
+//! the floor is F + 3 = 2 z/(ε r) = 2/α (paper, Eq. 7), so that F ≥ 0 means α ≤ 2/3. With n spheres below it is
+//! F + n + 1 = n/α, √3 becomes cot ψ₀, and 𝒟 is multiplied by x₀ (docs/theory.md, Eq. 103).
 
 mod elastic;
 mod naive;
@@ -17,29 +18,17 @@ pub(crate) use perturbation::perturbation_load;
 use quintic::quintic_displacement;
 pub use rigid::{RigidYield, rigid_yield};
 
-use crate::model::CRITICAL_FRICTION;
-
-const SQRT_3: f64 = 1.732_050_807_568_877_2;
+use crate::model::{Ring, Stack};
 
 /// α at which 𝒟 (paper, Eq. 9) vanishes: α₀ = 1 − μ/μ_c, negative above μ_c.
-fn vanishing_alpha(floor_friction: f64) -> f64 {
-    (CRITICAL_FRICTION - floor_friction) / CRITICAL_FRICTION
+fn vanishing_alpha(ring: &Ring, floor_friction: f64) -> f64 {
+    (ring.critical_friction - floor_friction) / ring.critical_friction
 }
 
 /// z⋆ (paper, Eq. 12), the displacement at yield of infinitely stiff cylinders above μ_c, in r.
-pub(crate) fn displacement_of_stiff_cylinders(floor_friction: f64, stiffness_ratio: f64) -> f64 {
-    let mu = floor_friction;
+fn displacement_of_stiff_cylinders(stack: &Stack) -> f64 {
+    let (ring, mu) = (stack.ring(), stack.floor_friction);
     let geometry = 1.0 + mu * mu;
-    (mu - CRITICAL_FRICTION) * (mu + CRITICAL_FRICTION.recip())
-        / (mu * geometry * (1.0 + stiffness_ratio * geometry))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn root_three_is_its_own_definition() {
-        assert_eq!(SQRT_3, 3f64.sqrt());
-    }
+    ring.radius * (mu - ring.critical_friction) * (mu + ring.critical_friction.recip())
+        / (mu * geometry * (1.0 + stack.stiffness_ratio * geometry))
 }

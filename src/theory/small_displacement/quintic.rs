@@ -1,6 +1,5 @@
 //! The same root from the quintic (paper, Eq. 11), by the eigenvalues of its companion matrix.
 
-use super::SQRT_3;
 use crate::model::{CRITICAL_FRICTION, Stack};
 use nalgebra::SMatrix;
 
@@ -49,8 +48,8 @@ fn quintic_coefficients(stack: &Stack) -> [f64; 6] {
     ];
     let numerator = [
         -square[0],
-        -2.0 * SQRT_3 * mu * epsilon - square[1],
-        mu * mu + 2.0 * SQRT_3 * mu - square[2],
+        -2.0 * 3f64.sqrt() * mu * epsilon - square[1],
+        mu * mu + 2.0 * 3f64.sqrt() * mu - square[2],
     ];
     let left = product(first, second);
     let right = product(numerator, square);

@@ -1,8 +1,8 @@
-//! Rigid cylinders (paper, Eq. 4).
+//! Rigid cylinders (paper, Eq. 4) and spheres.
 
-use crate::model::CRITICAL_FRICTION;
+use crate::model::Stack;
 
-/// Yield force of rigid cylinders.
+/// Yield force of rigid bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidYield {
     /// f₀/(m g); absent where no force makes the stack slide.
@@ -11,23 +11,25 @@ pub struct RigidYield {
     pub diverges: bool,
 }
 
-/// f₀(μ)/(m g) = (3μ − μ_c)/(μ_c − μ) between μ_c/3 and μ_c, 0 below, infinite above (paper, Eq. 4).
+/// f₀(μ)/(m g) = (3μ − μ_c)/(μ_c − μ) between μ_c/3 and μ_c, 0 below, infinite above (paper, Eq. 4), with n + 1 in place
+/// of 3 (docs/theory.md, Eq. 102).
 ///
 /// ```
+/// use tristack::model::Stack;
 /// use tristack::theory::rigid_yield;
-/// let yield_force = rigid_yield(0.2).yield_force.unwrap();
-/// assert!((yield_force - 4.886_751_3).abs() < 1e-7);
-/// assert!(rigid_yield(0.3).diverges);
+/// let at = |mu| rigid_yield(&Stack::paper(mu, 1e4));
+/// assert!((at(0.2).yield_force.unwrap() - 4.886_751_3).abs() < 1e-7);
+/// assert!(at(0.3).diverges);
 /// ```
-pub fn rigid_yield(floor_friction: f64) -> RigidYield {
-    let mu = floor_friction;
-    if mu >= CRITICAL_FRICTION {
+pub fn rigid_yield(stack: &Stack) -> RigidYield {
+    let (mu, critical) = (stack.floor_friction, stack.ring().critical_friction);
+    if mu >= critical {
         return RigidYield {
             yield_force: None,
             diverges: true,
         };
     }
-    let force = (3.0 * mu - CRITICAL_FRICTION) / (CRITICAL_FRICTION - mu);
+    let force = (stack.own_weight() * mu - critical) / (critical - mu);
     RigidYield {
         yield_force: Some(force.max(0.0)),
         diverges: false,
@@ -37,6 +39,11 @@ pub fn rigid_yield(floor_friction: f64) -> RigidYield {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::CRITICAL_FRICTION;
+
+    fn rigid_yield(mu: f64) -> RigidYield {
+        super::rigid_yield(&Stack::paper(mu, 1e4))
+    }
 
     #[test]
     fn yield_force_begins_at_a_third_of_the_critical_friction_and_diverges_there() {

@@ -164,7 +164,8 @@ fn exact_load(stack: &Stack) -> f64 {
 }
 
 fn rigid_load(mu: f64) -> f64 {
-    rigid_yield(mu).yield_force.unwrap_or(f64::INFINITY) + 3.0
+    let rigid = rigid_yield(&Stack::paper(mu, 1e4));
+    rigid.yield_force.unwrap_or(f64::INFINITY) + 3.0
 }
 
 /// Exponents of ε below, and of 1/ε at and above μ_c, between two stiffnesses.

@@ -54,10 +54,9 @@ impl Input {
 
     pub fn stack(&self) -> Stack {
         Stack {
-            floor_friction: self.mu,
             cylinder_friction: self.mu_d,
-            stiffness: self.stiffness,
             stiffness_ratio: self.kappa,
+            ..Stack::paper(self.mu, self.stiffness)
         }
     }
 

@@ -211,3 +211,75 @@ fn a_material_takes_the_place_of_stiffness_and_stiffness_ratio() {
         );
     }
 }
+
+#[test]
+fn spheres_have_a_theory_with_their_own_critical_friction() {
+    let bench = Bench::without_codes();
+    let line = "theory --bodies 4 --mu 0.3,critical --stiffness 1e2";
+    let rows = json_rows(&standard_output(
+        &mut bench.tristack(&format!("{line} --format json")),
+    ));
+    let critical = 2f64.sqrt() - 1.0;
+    assert_eq!(rows[0]["bodies"], 4);
+    assert!((rows[1]["mu"].as_f64().expect("a number") - critical).abs() < 1e-15);
+    assert_eq!(
+        [&rows[0], &rows[1]].map(|row| row["rigid_diverges"].as_bool()),
+        [Some(false), Some(true)]
+    );
+    let rigid = (5.0 * 0.3 - critical) / (critical - 0.3);
+    assert!((rows[0]["rigid"].as_f64().expect("a number") - rigid).abs() < 1e-12);
+    assert!(standard_output(&mut bench.tristack(line)).starts_with("4 spheres below, mu = 0.3"));
+}
+
+#[test]
+fn what_is_not_theory_refuses_spheres_by_one_message() {
+    let bench = Bench::without_codes();
+    let case = |bodies: u8| {
+        let text = format!("[stack]\nmu = 0.3\nbodies = {bodies}\n");
+        std::fs::write(bench.path("case.toml"), text).expect("a case file");
+    };
+    case(3);
+    let stack = "--mu 0.3 --stiffness 1e2 --bodies 3";
+    for (line, key) in [
+        (format!("simulate --code native {stack}"), "--bodies"),
+        (
+            "simulate --code native --case case.toml".to_owned(),
+            "stack.bodies",
+        ),
+        (format!("sweep --code native {stack}"), "--bodies"),
+        (format!("crosscheck {stack}"), "--bodies"),
+        (
+            "crosscheck --explain native/0.3/100 --bodies 3".to_owned(),
+            "--bodies",
+        ),
+        (format!("plan --out plan {stack}"), "--bodies"),
+        (
+            "predict --youngs 1MPa --density 1000 --radius 1cm --length 1cm --mu 0.3 --bodies 3"
+                .to_owned(),
+            "--bodies",
+        ),
+    ] {
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        let refusal = format!(
+            "`{key}` is 3, but must be 2, or left out: of spheres there is the limit alone, by `tristack theory --bodies`"
+        );
+        assert!(message.contains(&refusal), "{line}: {message}");
+        assert_eq!(output.status.code(), Some(1), "{line}");
+    }
+    for bodies in [1, 6] {
+        let line = format!("theory --mu 0.3 --stiffness 1e2 --bodies {bodies}");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            message.contains("a whole number from 2 to 5: six that touch"),
+            "{message}"
+        );
+        assert_eq!(output.status.code(), Some(1));
+    }
+    case(2);
+    let written = bench.tristack("simulate --code native --case case.toml --out run");
+    standard_output(&mut { written });
+    let kept = std::fs::read_to_string(bench.path("run/case.json")).expect("a case");
+    assert!(!kept.contains("bodies"), "{kept}");
+}

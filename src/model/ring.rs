@@ -8,6 +8,8 @@ pub struct Ring {
     pub bodies: f64,
     /// x₀ = 1/sin(π/n), distance of their centres from the axis.
     pub radius: f64,
+    /// ψ₀, angle of the line from such a centre to that of the top body from the vertical.
+    pub angle: f64,
     /// 2 cos ψ₀, height of the centre of the top body over theirs.
     pub rise: f64,
     /// μ_c = tan(ψ₀/2), the rigid critical floor friction.
@@ -25,15 +27,11 @@ impl Ring {
         Self {
             bodies: f64::from(bodies),
             radius,
+            angle: libm::asin(0.5 * radius),
             rise,
             critical_friction: radius / (2.0 + rise),
             push: neighbours / radius,
         }
-    }
-
-    /// ψ₀, angle of the line between the centres of a bottom body and the top one from the vertical.
-    pub fn angle(&self) -> f64 {
-        libm::asin(0.5 * self.radius)
     }
 
     /// Overlap of neighbours whose centres have moved outwards by `outward`.
@@ -53,7 +51,7 @@ mod tests {
         assert_eq!((ring.bodies, ring.radius, ring.push), (2.0, 1.0, 1.0));
         assert_eq!(ring.rise, 3f64.sqrt());
         assert_eq!(ring.critical_friction, CRITICAL_FRICTION);
-        assert_eq!(ring.angle(), std::f64::consts::FRAC_PI_6);
+        assert_eq!(ring.angle, std::f64::consts::FRAC_PI_6);
         assert_eq!(libm::acos(0.5 * ring.radius), std::f64::consts::FRAC_PI_3);
     }
 
@@ -79,7 +77,7 @@ mod tests {
         assert!((friction(3) - (3f64.sqrt() - 2f64.sqrt())).abs() < 2e-16);
         assert!((friction(4) - (2f64.sqrt() - 1.0)).abs() < 2e-16);
         for bodies in 2..=5 {
-            let half = 0.5 * Ring::new(bodies).angle();
+            let half = 0.5 * Ring::new(bodies).angle;
             assert!((friction(bodies) - half.tan()).abs() < 2e-16);
         }
     }

@@ -69,9 +69,14 @@ impl Stack {
         Ring::new(self.bodies)
     }
 
-    /// n + 1, weight of all bodies in m g: what the floor carries besides F.
+    /// n + 1, weight of all bodies in m g.
     pub fn own_weight(&self) -> f64 {
         f64::from(self.bodies) + 1.0
+    }
+
+    /// F + n + 1, what the floor carries under the wall force F, both in m g.
+    pub fn floor_load(&self, force: f64) -> f64 {
+        force + self.own_weight()
     }
 
     /// κ where none is asked for, in a law of this power: the paper's, or that of Poisson's ratio 0.3.

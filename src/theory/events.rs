@@ -163,7 +163,7 @@ mod tests {
     fn outward_displacement_is_the_geometry_it_abbreviates() {
         let (turned, overlap) = (0.37, 0.21);
         for ring in rings() {
-            let direct = (2.0 - overlap) * (ring.angle() + turned).sin() - ring.radius;
+            let direct = (2.0 - overlap) * (ring.angle + turned).sin() - ring.radius;
             let outward = outward_displacement(&ring, turned, overlap);
             assert!((outward - direct).abs() < 1e-15);
         }
@@ -173,7 +173,7 @@ mod tests {
     fn tangent_of_the_undeformed_stack_is_the_critical_friction() {
         for ring in rings() {
             assert_eq!(half_angle_tangent(&ring, 0.0), ring.critical_friction);
-            let angle = ring.angle() + 0.3;
+            let angle = ring.angle + 0.3;
             assert!((half_angle_tangent(&ring, 0.3) - (angle / 2.0).tan()).abs() < 1e-15);
         }
     }

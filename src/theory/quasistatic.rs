@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn bottom_cylinders_part_only_above_a_stiffness_ratio() {
-        // dx₂/dT at T = μ_c vanishes for κ = 1/(1 − μ_c²) (docs/theory.md, Eqs. 53, 54 and 104).
+        // dx₂/dT at T = μ_c vanishes for κ = 1/(1 − μ_c²) (docs/theory.md, Eqs. 53, 54 and 105).
         for bodies in 2..=5 {
             let outward = |nearness: f64| {
                 let mut stack = Stack {

@@ -223,7 +223,7 @@ fn yield_force_error(plan: &Measurement, summaries: impl Iterator<Item = RunSumm
     let slip = extrapolate(&estimates, &steps, plan.stack.stiffness, |run| run.slip);
     let error = slip.zip(plan.limit.slip_onset);
     error.map_or(f64::INFINITY, |(slip, exact)| {
-        (slip.force - exact).abs() / (exact + 3.0)
+        (slip.force - exact).abs() / plan.stack.floor_load(exact)
     })
 }
 

@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
     /// Sets the yield force and compares it with the limit.
     fn compare(&mut self, force: f64, uncertainty: f64, reference: f64) {
         self.finding.force = Some((force, uncertainty));
-        let load = reference + 3.0;
+        let load = self.measurement.stack.floor_load(reference);
         let relative = uncertainty / load;
         let error = (force - reference) / load;
         self.grounds
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
 
     /// Digits that are missing are no error of the code. `uncertainty` in m g is what they leave open.
     fn doubt_few_digits(&mut self, uncertainty: f64, reference: f64) {
-        let too_large = uncertainty > MAX_TOLERANCE * (reference + 3.0);
+        let too_large = uncertainty > MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
         if let Some(digits) = self.digits().filter(|_| too_large) {
             self.doubt(format!(
                 "printed with {digits} digits, by which the yield force may be off by {uncertainty:.1e}; 17 are needed"
@@ -209,7 +209,7 @@ impl<'a> Reader<'a> {
     /// Arms that were not measured well enough are no error of the code.
     fn doubt_measured_arms(&mut self, reference: f64) {
         let open = self.measurement.convention_uncertainty.unwrap_or(0.0);
-        if open > MAX_TOLERANCE * (reference + 3.0) {
+        if open > MAX_TOLERANCE * self.measurement.stack.floor_load(reference) {
             let arms = self.measurement.convention.arms;
             self.doubt(format!(
                 "its arms are measured as {}, {}, by whose uncertainty the limit may be off by {open:.1e}",

@@ -12,6 +12,7 @@ const GRAINY_STEPS: f64 = 4.0;
 pub(crate) fn peak_allowance(measurement: &Measurement, reference: f64) -> Option<f64> {
     let travel = measurement.limit.peak_travel?;
     let fastest = &measurement.cases.first()?.protocol;
-    let load_per_step = (reference + 3.0) * fastest.wall_speed * fastest.time_step / travel;
+    let load_per_step =
+        measurement.stack.floor_load(reference) * fastest.wall_speed * fastest.time_step / travel;
     Some(GRAINY_STEPS * load_per_step)
 }

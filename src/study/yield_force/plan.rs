@@ -169,7 +169,7 @@ pub(crate) fn planned(
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
-        .map(|(own, paper)| (own - paper) / (paper + 3.0));
+        .map(|(own, paper)| (own - paper) / stack.floor_load(paper));
     let protocols = match method {
         Method::Extrapolated => planned_protocols(&limit, stack, &convention),
         Method::Literal => literal_protocols(&limit),

@@ -15,7 +15,7 @@
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
 //! carries c = N(−2y/x₀), and nothing tangential: by mirror symmetry its surfaces do not move against each
 //! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are. A sphere has
-//! two such neighbours, which press it outwards by 2c sin(π/n) (Eq. 99).
+//! two such neighbours, which press it outwards by 2c sin(π/n) (Eqs. 98 and 99).
 
 use super::super::events::{PathPoint, half_angle_tangent, outward_displacement};
 use super::super::root::bracketed_root;
@@ -184,7 +184,7 @@ impl Contacts {
     }
 
     /// The beginning of the path, at `fraction` of the angle turned under gravity: on the ray along which all lengths are
-    /// proportional to that angle, and all forces to its power p (docs/theory.md, Eqs. 82 and 83).
+    /// proportional to that angle, and all forces to its power p (docs/theory.md, Eqs. 82, 83 and 104).
     pub(super) fn beginning(&self, fraction: f64) -> Beginning {
         let ray = Ray::of(self);
         let [upper_stretch, _] = ray.stretch(self);
@@ -225,7 +225,7 @@ impl Contacts {
         unload: [bool; 2],
     ) -> (State, [bool; 2]) {
         let ring = &self.ring;
-        let (sin, cos) = libm::sincos(ring.angle() + state.turned);
+        let (sin, cos) = libm::sincos(ring.angle + state.turned);
         let distance = 2.0 - state.pair_overlap;
         let floor_overlap = self
             .wall
@@ -320,7 +320,7 @@ struct Ray {
 }
 
 impl Ray {
-    /// The ray on which the springs of both contacts collect what the geometry demands (docs/theory.md, Eq. 83).
+    /// The ray on which the springs of both contacts collect what the geometry demands (docs/theory.md, Eqs. 83 and 104).
     fn of(contacts: &Contacts) -> Self {
         let ring = &contacts.ring;
         let (widening, sine) = (2.0 + ring.rise, 0.5 * ring.radius);

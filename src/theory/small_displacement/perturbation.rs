@@ -53,7 +53,7 @@ mod tests {
 
     fn script_d(ring: &Ring, mu: f64, alpha: f64) -> f64 {
         let u = 1.0 - alpha;
-        let cotangent = ring.angle().tan().recip();
+        let cotangent = ring.angle.tan().recip();
         ring.radius * (mu * mu + 2.0 * cotangent * u * mu - u * u) / (mu * (u * u + mu * mu))
     }
 

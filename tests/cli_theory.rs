@@ -252,7 +252,7 @@ fn what_is_not_theory_refuses_spheres_by_one_message() {
             "crosscheck --explain native/0.3/100 --bodies 3".to_owned(),
             "--bodies",
         ),
-        (format!("plan --out plan {stack}"), "--bodies"),
+        (format!("plan --code yade --out plan {stack}"), "--bodies"),
         (
             "predict --youngs 1MPa --density 1000 --radius 1cm --length 1cm --mu 0.3 --bodies 3"
                 .to_owned(),

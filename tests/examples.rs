@@ -74,10 +74,9 @@ impl Example {
 /// The stack of a row, and the convention of its code as far as the limit depends on it.
 fn stack_and_convention(row: &Row) -> (Stack, ContactConvention) {
     let stack = Stack {
-        floor_friction: number(row, "mu"),
         cylinder_friction: number(row, "mu_d"),
-        stiffness: number(row, "stiffness"),
         stiffness_ratio: number(row, "kappa"),
+        ..Stack::paper(number(row, "mu"), number(row, "stiffness"))
     };
     let arms = |contact: &str| ContactArms {
         torque: number(row, &format!("{contact}_torque_arm")),

@@ -74,8 +74,9 @@ mod tests {
     #[test]
     fn critical_frictions_are_those_of_the_triangle_and_the_square() {
         let friction = |bodies| Ring::new(bodies).critical_friction;
-        assert!((friction(3) - (3f64.sqrt() - 2f64.sqrt())).abs() < 2e-16);
-        assert!((friction(4) - (2f64.sqrt() - 1.0)).abs() < 2e-16);
+        // √3 − √2 and √2 − 1, without the difference.
+        assert!((friction(3) * (3f64.sqrt() + 2f64.sqrt()) - 1.0).abs() < 4e-16);
+        assert!((friction(4) * (2f64.sqrt() + 1.0) - 1.0).abs() < 4e-16);
         for bodies in 2..=5 {
             let half = 0.5 * Ring::new(bodies).angle;
             assert!((friction(bodies) - half.tan()).abs() < 2e-16);

@@ -29,6 +29,7 @@ const CONSTRAINTS: [&str; 15] = [
     "anyOf",
     "allOf",
     "minimum",
+    "maximum",
     "minItems",
     "maxItems",
     "unevaluatedProperties",
@@ -123,6 +124,11 @@ impl Checker<'_> {
                 value
                     .as_f64()
                     .is_none_or(|number| Some(number) >= constraint.as_f64()),
+            ),
+            "maximum" => refused(
+                value
+                    .as_f64()
+                    .is_none_or(|number| Some(number) <= constraint.as_f64()),
             ),
             "minItems" => refused(value.as_array()?.len() as u64 >= constraint.as_u64()?),
             "maxItems" => refused(value.as_array()?.len() as u64 <= constraint.as_u64()?),

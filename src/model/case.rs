@@ -220,6 +220,13 @@ mod tests {
         let mut other = case();
         other.stack.cylinder_friction = 0.71;
         assert_ne!(other.content_hash(), hash);
+        other = case();
+        other.stack.bodies = 3;
+        assert_ne!(other.content_hash(), hash);
+        assert_eq!(other.validate().unwrap_err().key, "stack.bodies");
+        let text = other.to_json().replace("\"bodies\": 3", "\"bodies\": 2");
+        let written: Case = serde_json::from_str(&text).unwrap();
+        assert_eq!(written.content_hash(), hash);
     }
 
     #[test]

@@ -16,7 +16,7 @@ const NOTES: [&str; 10] = [
     "readOnly",
 ];
 /// Keywords whose values are schemas, or hold some.
-const CONSTRAINTS: [&str; 15] = [
+const CONSTRAINTS: [&str; 16] = [
     "$ref",
     "type",
     "const",

@@ -254,7 +254,7 @@ fn what_is_not_theory_refuses_spheres_by_one_message() {
         ),
         (format!("plan --code yade --out plan {stack}"), "--bodies"),
         (
-            "predict --youngs 1MPa --density 1000 --radius 1cm --length 1cm --mu 0.3 --bodies 3"
+            "predict --youngs 1MPa --density 1000kg/m3 --radius 1cm --length 1cm --mu 0.3 --bodies 3"
                 .to_owned(),
             "--bodies",
         ),

@@ -4,6 +4,8 @@
 
 #[path = "spheres/closed.rs"]
 mod closed;
+#[path = "spheres/march.rs"]
+mod march;
 #[path = "spheres/peaks.rs"]
 mod peaks;
 #[path = "spheres/scalar.rs"]

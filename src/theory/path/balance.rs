@@ -4,9 +4,9 @@
 //!
 //! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  n (a cos ψ + b sin ψ) = L,
 //!
-//! where n bodies carry cylinder 1 (2 cylinders, or 3 to 5 spheres) and L is the load on it: its growing weight along the gravity ramp, f + m g under
-//! the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the kinematic arms R̃ of the same
-//! form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
+//! where n bodies carry cylinder 1 (2 cylinders, or 3 to 5 spheres) and L is the load on it: its growing weight along the
+//! gravity ramp, f + m g under the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the kinematic arms R̃
+//! of the same form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
 //! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
 //!
 //! A spring that remembers its displacement gains force as its overlap grows: b′ and e′ have the further parts

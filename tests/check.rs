@@ -390,7 +390,8 @@ fn a_folder_with_hertz_contacts_is_checked_by_its_micro_tests() {
     }
     let bench = Bench::with_system_programs();
     fs::create_dir(bench.path("mydem")).expect("a directory");
-    let manifest = "schema = 1\nname = \"mydem\"\nextends = \"liggghts-hertz\"\ntitle = \"My DEM\"\n";
+    let manifest =
+        "schema = 1\nname = \"mydem\"\nextends = \"liggghts-hertz\"\ntitle = \"My DEM\"\n";
     fs::write(bench.path("mydem/code.toml"), manifest).expect("a manifest");
     let output = bench.tristack("check ./mydem").output().expect("it runs");
     let told = String::from_utf8_lossy(&output.stdout);

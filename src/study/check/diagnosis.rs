@@ -85,11 +85,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
 fn items_of(micro: Option<&Micro>) -> Vec<Item> {
     let none = || {
         let reason = "the manifest has no task `motion`: parameters and convention of single contacts cannot be measured";
-        vec![Item::not_tested(
-            Grade::Consistency,
-            "micro-tests",
-            reason,
-        )]
+        vec![Item::not_tested(Grade::Consistency, "micro-tests", reason)]
     };
     micro.map_or_else(none, Micro::items)
 }

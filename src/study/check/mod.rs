@@ -133,10 +133,12 @@ impl Check<'_> {
             return None;
         };
         let micro = self.micro_tests(installed.as_ref())?;
-        self.report.items.extend(match case.convention.law.is_linear() {
-            true => diagnosis::items(&run.series, &case, micro.as_ref()),
-            false => diagnosis::of_micro_tests(micro.as_ref()),
-        });
+        self.report
+            .items
+            .extend(match case.convention.law.is_linear() {
+                true => diagnosis::items(&run.series, &case, micro.as_ref()),
+                false => diagnosis::of_micro_tests(micro.as_ref()),
+            });
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,

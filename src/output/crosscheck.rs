@@ -84,7 +84,7 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
             .number(part.name, "m g", move |(_, slip)| {
                 (part.value)(&slip.budget)
             })
-            .means(part.how);
+            .means(part.meaning());
         let absent = |slip: &Extrapolation| (part.value)(&slip.budget).is_none();
         let mut slips = judgements.iter().filter_map(Judgement::slip).peekable();
         // People see no column without a number.

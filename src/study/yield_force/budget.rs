@@ -49,6 +49,17 @@ pub(crate) struct BudgetPart {
 }
 
 impl BudgetPart {
+    /// Its formula, in words, whatever the runs are.
+    pub(crate) fn meaning(&self) -> &'static str {
+        match self.name {
+            TIME_STEP => {
+                "run 4 minus run 2 (time step doubled); of springs that remember forces the line through runs 6 and 4 minus that \
+                 through 1 and 2"
+            }
+            _ => self.how,
+        }
+    }
+
     /// Its formula, in words, where the runs play these `roles`.
     pub(crate) fn how(&self, roles: &RunRoles) -> &'static str {
         match roles.coarse_and_fast {

@@ -9,7 +9,8 @@ use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
 };
 use tristack::paper::reproduction::{
-    Laws, Reproduction, converge, curves, exponents, force_series, scaling_measurements, snapshots,
+    Laws, Reproduction, Spheres, converge, curves, exponents, force_series, scaling_measurements,
+    snapshots,
 };
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
@@ -270,6 +271,7 @@ fn native_reproduction() -> Reproduction {
             notes: Vec::new(),
         },
         curves: curves(),
+        spheres: Spheres::default(),
         provenances: Vec::new(),
     }
 }

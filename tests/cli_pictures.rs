@@ -7,9 +7,9 @@ use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
 use tristack::dem::{compress_stack, compress_stack_into_frames};
-use tristack::model::Case;
+use tristack::model::{Arrangement, Case, Stack};
 use tristack::output::{representative_panels, run_svg, vtk_series};
-use tristack::series::{Frame, Frames, Partner};
+use tristack::series::{Frame, Frames, Partner, Series};
 
 const RUN: &str = "simulate --code native --mu 0.3 --stiffness 1e2";
 
@@ -19,14 +19,14 @@ fn run(bench: &Bench, more: &str) -> Case {
     Case::read(&bench.path("run/case.json")).expect("the case of the run")
 }
 
-/// Force on every cylinder from all contacts.
-fn resultants(frame: &Frame) -> [[f64; 2]; 3] {
-    let mut sums = [[0.0; 2]; 3];
+/// Force on every body from all contacts.
+fn resultants(frame: &Frame) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; frame.bodies.len()];
     for contact in &frame.contacts {
         let force = contact.force();
-        for axis in 0..2 {
-            sums[contact.cylinder][axis] += force[axis];
-            if let Partner::Cylinder(other) = contact.partner {
+        for axis in 0..3 {
+            sums[contact.body][axis] += force[axis];
+            if let Partner::Body(other) = contact.partner {
                 sums[other][axis] -= force[axis];
             }
         }
@@ -36,34 +36,39 @@ fn resultants(frame: &Frame) -> [[f64; 2]; 3] {
 
 #[test]
 fn frames_come_from_the_same_run_and_their_forces_balance() {
-    let case = run(&Bench::without_codes(), "");
-    let (series, frames) = compress_stack_into_frames(&case, || true).expect("a finite series");
-    assert_eq!(
-        series,
-        compress_stack(&case, || true).expect("a finite series")
-    );
-    let epsilon = case.stack.epsilon();
-    for panel in &representative_panels(&frames)[..2] {
-        for sum in resultants(panel.frame) {
-            assert!(sum[0].abs() < 2e-2 * epsilon, "{} {sum:?}", panel.title);
-            assert!(
-                (sum[1] / epsilon - 1.0).abs() < 2e-2,
-                "{} {sum:?}",
-                panel.title
-            );
+    for more in ["", "--bodies 3", "--bodies 5 --mu-d 0.9"] {
+        let case = run(&Bench::without_codes(), more);
+        let (series, frames) = compress_stack_into_frames(&case, || true).expect("a finite series");
+        assert_eq!(
+            series,
+            compress_stack(&case, || true).expect("a finite series")
+        );
+        let epsilon = case.stack.epsilon();
+        for panel in &representative_panels(&frames)[..2] {
+            for sum in resultants(panel.frame) {
+                for (axis, weight) in [0.0, 1.0, 0.0].into_iter().enumerate() {
+                    let error = sum[axis] / epsilon - weight;
+                    assert!(error.abs() < 2e-2, "{more} {} {sum:?}", panel.title);
+                }
+            }
         }
-    }
-    // Everything in the series is the same in both.
-    let known = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
-    assert_eq!(known.frames.len(), frames.frames.len());
-    for (one, other) in known.frames.iter().zip(&frames.frames) {
-        assert!((one.wall_height - other.wall_height).abs() < 1e-9);
-        for contact in one.contacts.iter() {
-            let same = other.contacts.iter().find(|candidate| {
-                (candidate.cylinder, candidate.partner) == (contact.cylinder, contact.partner)
-            });
-            let same = same.expect("the contact is known to both");
-            assert_eq!(same.force(), contact.force());
+        // Everything in the series is the same in both.
+        let known = Frames::of_series(&series, &case).expect("all columns");
+        assert_eq!(known.frames.len(), frames.frames.len());
+        for (one, other) in known.frames.iter().zip(&frames.frames) {
+            assert!((one.wall_height - other.wall_height).abs() < 1e-9);
+            let places = |frame: &Frame| -> Vec<[[f64; 3]; 2]> {
+                let bodies = frame.bodies.iter();
+                bodies.map(|body| [body.position, body.rotation]).collect()
+            };
+            assert_eq!(places(one), places(other));
+            for contact in one.contacts.iter() {
+                let same = other.contacts.iter().find(|candidate| {
+                    (candidate.body, candidate.partner) == (contact.body, contact.partner)
+                });
+                let same = same.expect("the contact is known to both");
+                assert_eq!(same.force(), contact.force());
+            }
         }
     }
 }
@@ -91,7 +96,7 @@ fn svg_shows_rest_yield_and_collapse_with_their_forces() {
 fn svg_of_an_external_code_leaves_out_what_it_does_not_report() {
     let case = run(&Bench::without_codes(), "");
     let series = compress_stack(&case, || true).expect("a finite series");
-    let frames = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
+    let frames = Frames::of_series(&series, &case).expect("all columns");
     let picture = run_svg("liggghts", &case, &frames);
     assert!(picture.contains("liggghts reports the forces of floor and wall alone"));
     assert!(!picture.contains(">a</tspan>"));
@@ -144,12 +149,24 @@ fn vtk_series_says_what_the_series_says() {
             fs::read_to_string(bench.path("para").join(file)).expect("a row")
         });
         let centres = [
-            sample.x1, sample.y1, 0.0, sample.x2, sample.y2, 0.0, sample.x3, sample.y3, 0.0,
+            sample.bodies[0].position[0],
+            sample.bodies[0].position[1],
+            0.0,
+            sample.bodies[1].position[0],
+            sample.bodies[1].position[1],
+            0.0,
+            sample.bodies[2].position[0],
+            sample.bodies[2].position[1],
+            0.0,
         ];
         assert_eq!(array(&cylinders, "Points"), centres);
         assert_eq!(
             array(&cylinders, "angle"),
-            [sample.theta1, sample.theta2, sample.theta3]
+            [
+                sample.bodies[0].rotation[2],
+                sample.bodies[1].rotation[2],
+                sample.bodies[2].rotation[2]
+            ]
         );
         let partners = array(&contacts, "partner");
         let weights = array(&contacts, "normal_force");
@@ -167,14 +184,14 @@ fn long_vtk_series_are_thinned_but_keep_the_largest_force_and_the_end() {
         time: f64::from(index),
         wall_force: if index == 778 { 2.0 } else { 1.0 },
         wall_height: 3.0,
-        cylinders: Vec::new(),
+        bodies: Vec::new(),
         contacts: Vec::new(),
     };
     let frames = Frames {
         frames: (0..1500).map(frame).collect(),
         pair_forces_known: true,
     };
-    let files = vtk_series(&frames, 0.01);
+    let files = vtk_series(&frames, &Stack::paper(0.3, 1e2));
     let collection = &files.last().expect("a collection").content;
     assert_eq!(files.len(), 2 * 502 + 1);
     for time in ["0", "778", "1497", "1499"] {
@@ -184,4 +201,182 @@ fn long_vtk_series_are_thinned_but_keep_the_largest_force_and_the_end() {
         );
     }
     assert!(collection.contains("502 of 1500 rows"));
+}
+
+/// A case of spheres with the protocol of cylinders.
+fn case_of_spheres(bodies: u8, arrangement: Arrangement) -> Case {
+    let mut case = run(&Bench::without_codes(), "");
+    case.stack.bodies = bodies;
+    case.stack.arrangement = arrangement;
+    case
+}
+
+/// Made-up rows at rest, at yield and in collapse, as a code would report them: ring, top and turn outwards, and the forces of
+/// floor and wall in m g.
+fn spheres(case: &Case) -> Frames {
+    let stack = &case.stack;
+    let epsilon = stack.epsilon();
+    let count = usize::from(stack.bodies) + 1;
+    let mut text = "step,time,wall_force".to_owned();
+    for number in 1..=count {
+        for name in "x y z thetax thetay thetaz floorx floory floorz".split(' ') {
+            text += &format!(",{name}{number}");
+        }
+    }
+    let states = [
+        (0_u32, 0.0, 0.004, 0.002, 1.4, 0.2),
+        (1, 30.0, 0.13, 0.09, 9.0, 2.7),
+        (2, 13.0, 0.60, 0.30, 4.5, 1.3),
+    ];
+    for (step, force, part, turn, normal, tangential) in states {
+        let mut rows = vec![[0.0; 9]; count];
+        let ring = stack.ring();
+        for place in stack.places() {
+            let [x, z] = place.outwards;
+            let radius = ring.radius + part * (1.9 - ring.radius);
+            // Rolling outwards is about [z, 0, −x].
+            rows[place.body] = [
+                radius * x,
+                1.0 - normal * epsilon,
+                radius * z,
+                turn * z,
+                0.0,
+                -turn * x,
+                -tangential * epsilon * x,
+                normal * epsilon,
+                -tangential * epsilon * z,
+            ];
+        }
+        let radius = ring.radius + part * (1.9 - ring.radius);
+        rows[stack.top()][1] = 1.0 + (4.0 - radius * radius).sqrt();
+        text += &format!("\n{step},{},{}", f64::from(step), force * epsilon);
+        for value in rows.iter().flatten() {
+            text += &format!(",{value}");
+        }
+    }
+    let (series, _) = Series::read_unplanned(text.as_bytes(), stack.bodies).expect("a series");
+    Frames::of_series(&series, case).expect("all columns")
+}
+
+/// The places and words of the texts in a picture that are numbers of spheres.
+fn numbers(picture: &str) -> Vec<(String, String)> {
+    let texts = picture
+        .lines()
+        .filter(|line| line.contains("font-size=\"14\" text-anchor=\"middle\""));
+    let parts = texts.map(|line| {
+        let (place, words) = line.split_once('>').expect("a text");
+        (
+            place.to_owned(),
+            words.trim_end_matches("</text>").to_owned(),
+        )
+    });
+    parts
+        .filter(|(_, words)| words.parse::<u8>().is_ok())
+        .collect()
+}
+
+#[test]
+fn forces_of_spheres_are_those_of_the_series() {
+    let case = case_of_spheres(3, Arrangement::default());
+    let epsilon = case.stack.epsilon();
+    let frames = spheres(&case);
+    let frame = &frames.frames[1];
+    assert_eq!(frame.bodies.len(), 4);
+    assert_eq!(frame.contacts.len(), 4);
+    for contact in &frame.contacts {
+        let place = case.stack.places().find(|place| place.body == contact.body);
+        let expected = match place.map(|place| place.outwards) {
+            Some([x, z]) => [-2.7 * x, 9.0, -2.7 * z],
+            None => [0.0, -30.0, 0.0],
+        };
+        for (part, expected) in contact.force().into_iter().zip(expected) {
+            assert!((part / epsilon - expected).abs() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn nearer_spheres_are_drawn_over_farther_ones() {
+    let case = case_of_spheres(3, Arrangement::default());
+    let picture = run_svg("native", &case, &spheres(&case));
+    // Sphere 4 is in front, 3 on the left, 2 on the right and farthest away.
+    let words: Vec<String> = numbers(&picture)
+        .into_iter()
+        .map(|(_, words)| words)
+        .collect();
+    let expected = ["2", "3", "1", "4"];
+    assert_eq!(words, expected.repeat(3));
+    assert!(picture.contains("Parallel projection, seen from 20° above the floor"));
+    assert!(!picture.contains("cylinder"));
+    assert!(picture.contains("on sphere 4:"));
+}
+
+#[test]
+fn spheres_with_other_numbers_are_the_same_picture() {
+    for bodies in 3..=5 {
+        let usual = case_of_spheres(bodies, Arrangement::default());
+        let other = case_of_spheres(
+            bodies,
+            Arrangement {
+                mirrored: true,
+                renumbered: 2,
+                ..Arrangement::default()
+            },
+        );
+        let [one, two] = [usual, other].map(|case| run_svg("native", &case, &spheres(&case)));
+        assert_ne!(one, two);
+        let places = |picture: &str| -> Vec<String> {
+            numbers(picture)
+                .into_iter()
+                .map(|(place, _)| place)
+                .collect()
+        };
+        assert_eq!(places(&one), places(&two));
+        let shapes = |picture: &str| -> Vec<String> {
+            let lines = picture.lines().filter(|line| !line.starts_with("<text"));
+            lines.map(str::to_owned).collect()
+        };
+        assert!(shapes(&one) == shapes(&two), "{bodies} spheres");
+    }
+}
+
+#[test]
+fn spheres_that_have_flown_apart_are_not_drawn() {
+    let case = case_of_spheres(3, Arrangement::default());
+    let mut frames = spheres(&case);
+    let last = frames.frames.last_mut().expect("a frame");
+    last.bodies[1].position[2] = f64::MAX;
+    last.bodies[2].position[0] = -1e9;
+    let picture = run_svg("native", &case, &frames);
+    assert_eq!(numbers(&picture).len(), 4 + 4 + 2);
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    assert!(picture.len() < 300_000);
+}
+
+#[test]
+fn vtk_series_of_spheres_is_in_space() {
+    let case = case_of_spheres(4, Arrangement::default());
+    let frames = spheres(&case);
+    let files = vtk_series(&frames, &case.stack);
+    assert_eq!(files.len(), 2 * 3 + 1);
+    assert_eq!(files[2].name, "spheres_0001.vtp");
+    let (bodies, contacts) = (&files[2].content, &files[3].content);
+    let frame = &frames.frames[1];
+    let points: Vec<f64> = frame.bodies.iter().flat_map(|body| body.position).collect();
+    assert_eq!(array(bodies, "Points"), points);
+    let rotations: Vec<f64> = frame.bodies.iter().flat_map(|body| body.rotation).collect();
+    assert_eq!(array(bodies, "rotation"), rotations);
+    assert_eq!(array(bodies, "radius"), [1.0; 5]);
+    assert_eq!(array(bodies, "sphere"), [1.0, 2.0, 3.0, 4.0, 5.0]);
+    assert_eq!(array(contacts, "sphere"), [2.0, 3.0, 4.0, 5.0, 1.0]);
+    assert_eq!(array(contacts, "partner"), [0.0, 0.0, 0.0, 0.0, -1.0]);
+    let forces = array(contacts, "force");
+    assert_eq!(forces.len(), 15);
+    assert!(forces[5].abs() > 2.6 && forces[3].abs() < 1e-12);
+    for (contact, force) in frame.contacts.iter().zip(forces.chunks(3)) {
+        let own = contact.force();
+        assert!((0..3).all(|axis| force[axis] == own[axis] / case.stack.epsilon()));
+    }
+    let collection = &files[6].content;
+    assert!(collection.contains("those between spheres are not reported"));
 }

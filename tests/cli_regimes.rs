@@ -31,7 +31,9 @@ fn regimes_are_printed_and_written_and_all_agree() {
     let header = read("regimes.csv").lines().next().map(str::to_owned);
     assert_eq!(
         header.as_deref(),
-        Some("map,stiffness,mu,mu_d,kappa,event,stage,force,T,largest_force,failure_mode,then")
+        Some(
+            "map,stiffness,mu,mu_d,kappa,bodies,event,stage,force,T,largest_force,failure_mode,then"
+        )
     );
     assert_eq!(read("regimes.csv").lines().count(), 1 + 3 * 25 * 40);
     assert!(read("regimes.md").contains("`tristack regimes --points 2`"));

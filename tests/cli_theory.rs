@@ -232,54 +232,39 @@ fn spheres_have_a_theory_with_their_own_critical_friction() {
 }
 
 #[test]
-fn what_is_not_theory_refuses_spheres_by_one_message() {
+fn what_is_about_cylinders_refuses_spheres_and_rings_have_two_to_five_bodies() {
     let bench = Bench::without_codes();
+    let line =
+        "predict --youngs 1MPa --density 1000kg/m3 --radius 1cm --length 1cm --mu 0.3 --bodies 3";
+    let walls =
+        "simulate --code native --mu 0.3 --stiffness 1e2 --bodies 3 --preparation side-walls";
+    for line in [line, walls] {
+        let output = bench.tristack(line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        let refusal = "`--bodies` is 3, but must be 2, or left out: this is about cylinders alone";
+        assert!(message.contains(refusal), "{line}: {message}");
+        assert_eq!(output.status.code(), Some(1), "{line}");
+    }
+    for command in ["theory", "simulate --code native", "crosscheck"] {
+        for bodies in [1, 6] {
+            let line = format!("{command} --mu 0.3 --stiffness 1e2 --bodies {bodies}");
+            let output = bench.tristack(&line).output().expect("it runs");
+            let message = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(
+                message.contains("a whole number from 2 to 5: six that touch"),
+                "{line}: {message}"
+            );
+            assert_eq!(output.status.code(), Some(1));
+        }
+    }
     let case = |bodies: u8| {
         let text = format!("[stack]\nmu = 0.3\nbodies = {bodies}\n");
         std::fs::write(bench.path("case.toml"), text).expect("a case file");
+        let line = format!("simulate --code native --case case.toml --out run-{bodies}");
+        standard_output(&mut bench.tristack(&line));
+        let kept = bench.path(&format!("run-{bodies}/case.json"));
+        std::fs::read_to_string(kept).expect("a case")
     };
-    case(3);
-    let stack = "--mu 0.3 --stiffness 1e2 --bodies 3";
-    for (line, key) in [
-        (format!("simulate --code native {stack}"), "--bodies"),
-        (
-            "simulate --code native --case case.toml".to_owned(),
-            "stack.bodies",
-        ),
-        (format!("sweep --code native {stack}"), "--bodies"),
-        (format!("crosscheck {stack}"), "--bodies"),
-        (
-            "crosscheck --explain native/0.3/100 --bodies 3".to_owned(),
-            "--bodies",
-        ),
-        (format!("plan --code yade --out plan {stack}"), "--bodies"),
-        (
-            "predict --youngs 1MPa --density 1000kg/m3 --radius 1cm --length 1cm --mu 0.3 --bodies 3"
-                .to_owned(),
-            "--bodies",
-        ),
-    ] {
-        let output = bench.tristack(&line).output().expect("it runs");
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        let refusal = format!(
-            "`{key}` is 3, but must be 2, or left out: of spheres there is the limit alone, by `tristack theory --bodies`"
-        );
-        assert!(message.contains(&refusal), "{line}: {message}");
-        assert_eq!(output.status.code(), Some(1), "{line}");
-    }
-    for bodies in [1, 6] {
-        let line = format!("theory --mu 0.3 --stiffness 1e2 --bodies {bodies}");
-        let output = bench.tristack(&line).output().expect("it runs");
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(
-            message.contains("a whole number from 2 to 5: six that touch"),
-            "{message}"
-        );
-        assert_eq!(output.status.code(), Some(1));
-    }
-    case(2);
-    let written = bench.tristack("simulate --code native --case case.toml --out run");
-    standard_output(&mut { written });
-    let kept = std::fs::read_to_string(bench.path("run/case.json")).expect("a case");
-    assert!(!kept.contains("bodies"), "{kept}");
+    assert!(!case(2).contains("bodies"));
+    assert!(case(3).contains("\"bodies\": 3"));
 }

@@ -75,7 +75,7 @@ fn csv_has_the_agreed_columns() {
     assert_eq!(
         text.lines().next(),
         Some(
-            "code,version,source,stiffness,mu,mu_d,kappa,pair_torque_arm,pair_kinematic_arm,floor_torque_arm,\
+            "code,version,source,stiffness,mu,mu_d,kappa,bodies,pair_torque_arm,pair_kinematic_arm,floor_torque_arm,\
              floor_kinematic_arm,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
              first_above_1e-4,first_above_1e-2,order,documented_order,round_off,step_error,verdict"
         )
@@ -192,7 +192,7 @@ fn with_wall_force_times(factor: f64, series: &Series, case: &Case) -> Series {
     for sample in &mut samples {
         sample.wall_force *= factor;
     }
-    let changed = Series::new(samples, &case.protocol);
+    let changed = Series::new(samples, case);
     changed.expect("the same rows")
 }
 
@@ -207,7 +207,7 @@ fn with_six_digits(series: &Series, case: &Case) -> Series {
         cells.collect::<Vec<_>>().join(",") + "\n"
     });
     let lines: String = lines.collect();
-    Series::read(lines.as_bytes(), &case.protocol).expect("the same rows")
+    Series::read(lines.as_bytes(), case).expect("the same rows")
 }
 
 #[test]

@@ -193,6 +193,7 @@ proptest! {
             wall_speed: 0.0,
             initial_motions: [InitialMotion { spin, ..InitialMotion::at(x, 1.0) }, InitialMotion::at(x + 3.0, 1.0)],
             drive: None,
+            space: None,
         };
         prop_assert!(is_typed(&test.parameters()));
     }

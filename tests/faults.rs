@@ -454,7 +454,7 @@ fn a_case_that_the_code_cannot_run_touches_nothing() {
 #[test]
 fn record_keeps_every_run_for_machines_without_the_code() {
     let bench = Bench::with_system_programs();
-    let recorded = replay::install(&bench, |_| Disturbance::None);
+    let recorded = replay::install(&bench, |_| Disturbance::None) + replay::install_rings(&bench);
     let reference = bench.path("reference");
     fs::create_dir(&reference).expect("a directory");
     fs::write(reference.join("notes.txt"), "mine").expect("a file of somebody else");

@@ -254,7 +254,7 @@ fn runs_with_shortcuts_are_shorter_and_have_the_same_bits_in_lanes() {
         plain.protocol.shortcuts = None;
         assert!(case.total_steps() < plain.total_steps() * 3 / 4);
         let series = series.as_ref().expect("a series").to_csv();
-        let read = Series::read(series.as_slice(), &case.protocol);
+        let read = Series::read(series.as_slice(), case);
         assert!(read.is_ok(), "what ends with the drop can be read again");
     }
 }

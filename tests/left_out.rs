@@ -198,7 +198,7 @@ fn after_settling(
     let campaign = Campaign::new(&codes, &settings, &Silent);
     let stack = Stack::paper(0.3, 1e2);
     let mut force = campaign.carry_out(vec![plan(code, &stack, code.convention())]);
-    let trajectory = plan_trajectory(code, &trajectory_stack(), code.convention());
+    let trajectory = plan_trajectory(code, &trajectory_stack(2), code.convention());
     let mut trajectory = campaign.carry_out(vec![trajectory]);
     (force.swap_remove(0), trajectory.swap_remove(0))
 }
@@ -416,7 +416,7 @@ fn passports_are_written_for_every_code_and_name_its_twins() {
     );
     assert_eq!(
         lammps["properties"]["rows"].as_array().expect("rows").len(),
-        41
+        62
     );
     let effects = lammps["arm_effects"]["rows"].as_array().expect("rows");
     for effect in effects {

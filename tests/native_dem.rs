@@ -116,12 +116,12 @@ fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sli
         let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[1];
         let series = compress_stack(&case, || true).expect("a finite series");
         let start = series.samples()[0];
-        assert!(start.x2 - start.x3 > 2.0);
+        assert!(start.bodies[1].position[0] - start.bodies[2].position[0] > 2.0);
         let weight = 3.0 * stack.epsilon();
-        assert!((start.floor_n2 + start.floor_n3 - weight).abs() < 1e-6 * weight);
-        assert!(start.floor_t2.abs() < stack.floor_friction * start.floor_n2);
+        assert!((start.floor[1][1] + start.floor[2][1] - weight).abs() < 1e-6 * weight);
+        assert!(start.floor[1][0].abs() < stack.floor_friction * start.floor[1][1]);
         // In equilibrium e/d = T/3, hardly more than mu_c/3 under gravity alone.
-        assert!((start.floor_t2.abs() / start.floor_n2 - 0.0893).abs() < 2e-3);
+        assert!((start.floor[1][0].abs() / start.floor[1][1] - 0.0893).abs() < 2e-3);
     }
 }
 
@@ -135,9 +135,13 @@ fn left_and_right_stay_mirror_images_up_to_the_yield() {
     .cases[0];
     let series = compress_stack(&case, || true).expect("a finite series");
     for sample in series.samples() {
-        assert!((sample.x2 + sample.x3).abs() < 1e-12, "{}", sample.step);
-        assert!((sample.theta2 + sample.theta3).abs() < 1e-12);
-        assert!(sample.x1.abs() < 1e-12);
+        assert!(
+            (sample.bodies[1].position[0] + sample.bodies[2].position[0]).abs() < 1e-12,
+            "{}",
+            sample.step
+        );
+        assert!((sample.bodies[1].rotation[2] + sample.bodies[2].rotation[2]).abs() < 1e-12);
+        assert!(sample.bodies[0].position[0].abs() < 1e-12);
     }
 }
 

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Bench, json, json_rows};
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -46,6 +47,7 @@ fn a_machine_without_codes_gets_the_whole_report_from_recorded_runs() {
         "Figures",
         "Claims",
         "Agreement",
+        "Spheres",
         "Environment",
         "not tested",
     ] {
@@ -116,6 +118,36 @@ fn claims_are_listed_for_programs_and_every_view_has_the_same_rows() {
             !claim["evidence"].as_str().expect("text").is_empty(),
             "{claim}"
         );
+    }
+}
+
+#[test]
+fn two_bodies_of_the_table_of_spheres_are_the_cylinders_of_the_table_of_points() {
+    let table = |name: &str| -> Vec<HashMap<String, String>> {
+        let text = file(&format!("tables/{name}.csv"));
+        let mut table = csv::Reader::from_reader(text.as_bytes());
+        let rows = table.deserialize().map(|row| row.expect("a row"));
+        rows.collect()
+    };
+    let number = |row: &HashMap<String, String>, column: &str| -> f64 {
+        row[column].parse().expect("a number")
+    };
+    let (spheres, points) = (table("spheres"), table("points"));
+    assert_eq!(spheres.len(), 8);
+    for row in spheres.iter().filter(|row| row["bodies"] == "2") {
+        let place = [number(row, "critical_friction"), number(row, "stiffness")];
+        let same = |point: &&HashMap<String, String>| {
+            [number(point, "mu"), number(point, "stiffness")] == place
+        };
+        let point = points.iter().find(same).expect("the same stack");
+        assert_eq!(row["force_critical"], point["quasistatic"]);
+    }
+    for row in &spheres {
+        let forces = ["force_below", "force_critical", "force_above"];
+        let [below, critical, above] = forces.map(|column| number(row, column));
+        // Rigid bodies have n − 1 at half the critical friction, and springs take some of that.
+        let rigid = number(row, "bodies") - 1.0;
+        assert!(0.9 * rigid < below && below < rigid && rigid < critical && critical < above);
     }
 }
 

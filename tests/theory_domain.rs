@@ -18,7 +18,12 @@ prop_compose! {
         stiffness_ratio in logarithmic(1e-3, 1e6),
         bodies in 2u8..=5,
     ) -> Stack {
-        Stack { floor_friction, cylinder_friction, stiffness, stiffness_ratio, bodies }
+        Stack {
+            cylinder_friction,
+            stiffness_ratio,
+            bodies,
+            ..Stack::paper(floor_friction, stiffness)
+        }
     }
 }
 

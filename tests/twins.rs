@@ -10,7 +10,7 @@ use tristack::model::{
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, Recording, RunSummary, SelectedCode, Settings};
 use tristack::study::trajectory::{
-    Branch, TIME_STEPS, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
+    Branch, TrajectoryJudgement, Twin, plan_trajectory, trajectory_stack,
 };
 use tristack::study::{Campaign, Verdict};
 
@@ -43,7 +43,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
         },
         SelectedCode::find(Code::NATIVE),
     ];
-    let plan = plan_trajectory(code, &trajectory_stack(), declared);
+    let plan = plan_trajectory(code, &trajectory_stack(2), declared);
     let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }
@@ -122,7 +122,7 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
         });
         for comparison in full {
             assert_eq!(comparison.verdict(), Verdict::Differs);
-            let finest = comparison.distances[TIME_STEPS.len() - 1].largest;
+            let finest = comparison.distances[3 - 1].largest;
             assert!(
                 finest > 10.0 * comparison.step_error,
                 "{what}: {comparison:?}"
@@ -153,7 +153,7 @@ fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
             assert_eq!(read, *summary);
             count += 1;
         }
-        assert_eq!(count, TIME_STEPS.len(), "{code}");
+        assert_eq!(count, 3, "{code}");
         let (table, archive) = recorded.to_files(code);
         let again = Recording::from_files(&table, &archive, Path::new("again"), code);
         assert!(again.expect("its own files") == recorded, "{code}");

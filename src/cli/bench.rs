@@ -6,6 +6,7 @@ use super::out::Out;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
 use crate::files::{FileError, Layout, Scratch};
+use crate::model::PAPER_BODIES;
 use crate::output::{
     DataTable, bench_machine, bench_markdown, json, performance_svg, pyramids, scaling,
 };
@@ -28,6 +29,9 @@ pub(super) struct Arguments {
     /// Number of measurements, whose medians are printed
     #[arg(long, value_name = "N")]
     repeats: Option<NonZeroUsize>,
+    /// Bodies on the floor of the stack: 2 cylinders, or 3 to 5 spheres
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, conflicts_with = "pyramids", value_parser = clap::value_parser!(u8).range(2..=5))]
+    bodies: u8,
     /// Time pyramids of a thousand to ten thousand cylinders instead of the stack
     #[arg(long)]
     pyramids: bool,
@@ -44,7 +48,10 @@ pub(super) struct Arguments {
 
 /// Measures, prints and writes the costs.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = timed_codes(&arguments.codes)?;
+    let mut codes = timed_codes(&arguments.codes)?;
+    if arguments.codes.is_empty() && arguments.bodies != PAPER_BODIES {
+        codes.retain(|code| code.stacks_spheres());
+    }
     let files = ["bench.csv", "bench.md", "scaling.csv", "performance.svg"];
     let layout = Layout::tables("bench.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
@@ -82,7 +89,7 @@ fn time_stack(
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
     let repeats = arguments.repeats.map(usize::from);
-    let costs = measure_stack(codes, repeats, context)?;
+    let costs = measure_stack(codes, arguments.bodies, repeats, context)?;
     let rows = || crate::output::bench(&costs);
     if !arguments.scaling && arguments.out.is_none() {
         return Ok(print(arguments.format, rows(), command, ""));

@@ -2,7 +2,7 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{RunOptions, StackOptions, as_flag, friction};
+use super::options::{Friction, RunOptions, StackOptions, as_flag, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
@@ -16,7 +16,8 @@ use crate::study::yield_force::{measure_with_twin, plan};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RowName {
     code: Code,
-    stack: Stack,
+    mu: Friction,
+    stiffness: f64,
 }
 
 /// Reads CODE/MU/STIFFNESS.
@@ -33,11 +34,15 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     let stiffness: f64 = stiffness
         .parse()
         .map_err(|_| format!("STIFFNESS is `{stiffness}`; accepted is a number"))?;
-    let stack = Stack::paper(mu, stiffness);
+    let stack = Stack::paper(mu.of_cylinders(), stiffness);
     stack
         .validate()
         .map_err(|error| as_flag(error).to_string())?;
-    Ok(RowName { code, stack })
+    Ok(RowName {
+        code,
+        mu,
+        stiffness,
+    })
 }
 
 /// Measures one row, of a stack with the parameters of `others`, and prints every step from its runs to its verdict.
@@ -52,7 +57,7 @@ pub(super) fn explain(
         true => power,
         false => row.code.convention().law.power,
     };
-    let stack = others.stack(row.stack.floor_friction, row.stack.stiffness, power)?;
+    let stack = others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
     let codes = [SelectedCode::find(row.code)];

@@ -5,7 +5,7 @@ use super::out::Out;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::{FileError, Layout, Links, read_bounded};
-use crate::model::{ContactConvention, ContactLaw, InvalidValue, shown};
+use crate::model::{ContactConvention, ContactLaw, InvalidValue, Stack, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
@@ -119,7 +119,7 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         return Err(Box::new(no_yield(&stack, &convention, &limit)).into());
     }
     let wall = convention.wall_law(stack.stiffness_ratio);
-    let mut series = at_speeds(arguments, &wall)?;
+    let mut series = at_speeds(arguments, (&stack, &wall))?;
     series.sort_by(|one, other| other.wall_speed.total_cmp(&one.wall_speed));
     let middle = &series[series.len() - SPEEDS.len() + 1];
     let [coarse, hastened] = [
@@ -130,7 +130,12 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         let file = file.as_deref();
         file.map(|file| {
             let time_step = factor * middle.time_step;
-            read((flag, file), middle.wall_speed, Some(time_step), &wall)
+            read(
+                (flag, file),
+                middle.wall_speed,
+                Some(time_step),
+                (&stack, &wall),
+            )
         })
         .transpose()
     });
@@ -154,7 +159,10 @@ fn passport(path: &Path) -> Result<MeasuredArms, FileError> {
 }
 
 /// The series at their speeds, which differ, and with one time step.
-fn at_speeds(arguments: &SeriesArguments, wall: &ContactLaw) -> Result<Vec<SeriesInput>, CliError> {
+fn at_speeds(
+    arguments: &SeriesArguments,
+    of: (&Stack, &ContactLaw),
+) -> Result<Vec<SeriesInput>, CliError> {
     let (files, speeds) = (&arguments.series, &arguments.speeds);
     if files.len() != speeds.len() {
         let accepted = format!("as many as files after --series, {}", files.len());
@@ -170,22 +178,22 @@ fn at_speeds(arguments: &SeriesArguments, wall: &ContactLaw) -> Result<Vec<Serie
     let mut series: Vec<SeriesInput> = Vec::new();
     for (file, &speed) in files.iter().zip(speeds) {
         let expected = arguments.dt.or(series.first().map(|first| first.time_step));
-        series.push(read(("--speeds", file), speed, expected, wall)?);
+        series.push(read(("--speeds", file), speed, expected, of)?);
     }
     Ok(series)
 }
 
-/// The series in `file`, which must show, under a `wall` of this law, the wall speed that `flag` says, and the expected
+/// The series of `stack` in `file`, which must show, under a `wall` of this law, the wall speed that `flag` says, and the expected
 /// time step.
 fn read(
     (flag, file): (&str, &Path),
     wall_speed: f64,
     time_step: Option<f64>,
-    wall: &ContactLaw,
+    (stack, wall): (&Stack, &ContactLaw),
 ) -> Result<SeriesInput, CliError> {
     let content = read_bounded(file, LARGEST_SERIES, Links::Followed);
     let content = content.map_err(FileError::reading(file))?;
-    let read = Series::read_unplanned(content.as_slice());
+    let read = Series::read_unplanned(content.as_slice(), stack.bodies);
     let (series, own_step) = read.map_err(FileError::series(file))?;
     let input = SeriesInput {
         name: shown(file),
@@ -200,7 +208,7 @@ fn read(
             expected_because(flag)
         )));
     }
-    if let Some((speed, uncertainty)) = input.shown_speed(wall)
+    if let Some((speed, uncertainty)) = input.shown_speed(wall, stack)
         && (speed - wall_speed).abs() > uncertainty
     {
         return Err(refused(format!(

@@ -1,6 +1,6 @@
 //! `tristack predict`.
 
-use super::options::{Format, StackOptions, as_flag, friction};
+use super::options::{Format, Friction, StackOptions, as_flag, friction};
 use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
@@ -46,7 +46,7 @@ pub(super) struct Arguments {
     length: f64,
     /// Floor friction; a number or the word `critical`
     #[arg(long, value_parser = friction, allow_negative_numbers = true)]
-    mu: f64,
+    mu: Friction,
     /// Uncertainty of the floor friction, as ±
     #[arg(
         long,
@@ -88,7 +88,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             Some(mass) => cylinder.weighing(mass),
             None => cylinder,
         },
-        mu: arguments.mu,
+        mu: arguments.mu.of_cylinders(),
         mu_uncertainty: arguments.mu_uncertainty,
         mu_d: arguments.stack.mu_d,
         kappa: arguments.stack.kappa(Power::Linear),

@@ -6,8 +6,8 @@ use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, Run};
-use crate::model::Power;
 use crate::model::shown;
+use crate::model::{PAPER_BODIES, Power};
 use crate::paper::reproduction::summaries_to_record;
 use crate::runs::{
     Progress, Recorded, RecordedRun, Recording, RunError, RunSummary, SelectedCode, Settings,
@@ -137,13 +137,23 @@ fn make(
     Ok(())
 }
 
+/// The rings of spheres whose quick profile is recorded.
+const RINGS: [u8; 2] = [3, 4];
+
 fn quick_profile(
     selected: &SelectedCode,
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<RunSummary>, RunError> {
     let power = selected.name.convention().law.power;
-    let stacks = Profile::Quick.stacks(power);
+    let mut stacks = Profile::Quick.stacks(power, PAPER_BODIES);
+    if selected.name.stacks_spheres() && power == Power::Linear {
+        stacks.extend(
+            RINGS
+                .map(|bodies| Profile::Quick.stacks(power, bodies))
+                .concat(),
+        );
+    }
     let plans = Profile::Quick.measurements_of(&stacks, &[selected.name], power);
     let workloads: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
     let codes = std::slice::from_ref(selected);
@@ -156,7 +166,7 @@ fn trajectory_runs(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<Run>, RunError> {
-    let plans = plans(std::iter::once(selected.name));
+    let plans = plans(std::iter::once(selected.name), PAPER_BODIES);
     // The code's own runs; native ones are never recorded.
     let own = plans
         .iter()

@@ -88,7 +88,7 @@ pub(super) struct Arguments {
     /// Picture of the stack with its contact forces, at rest, at yield and in collapse
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Directory for a time series that ParaView opens (stack.pvd): cylinders and contact forces, at most some 500 rows
+    /// Directory for a time series that ParaView opens (stack.pvd): bodies and contact forces, at most some 500 rows
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
     /// Time limit in seconds [default: 30 s plus 100 us per step for external codes, none for native]
@@ -205,7 +205,7 @@ fn draw(arguments: &Arguments, run: &Run) -> Result<ExitStatus, CliError> {
     }
     if let Some(directory) = &arguments.vtk {
         remove_vtk_rows(directory)?;
-        let files = vtk_series(&frames, run.case.stack.epsilon()).into_iter();
+        let files = vtk_series(&frames, &run.case.stack).into_iter();
         let files = || files.map(|file| (file.name, file.content)).collect();
         let written = Out::claimed(directory, VTK_COLLECTION).write(files);
         status = status.max(written);
@@ -229,8 +229,7 @@ fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
 /// leaves out the forces between the cylinders.
 fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
     if code != Code::NATIVE {
-        let speed = run.case.protocol.wall_speed;
-        return Ok(Frames::of_series(&run.series, speed)?);
+        return Ok(Frames::of_series(&run.series, &run.case)?);
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
     let (_, frames) = repeated.map_err(|error| {
@@ -248,14 +247,14 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         let code = arguments.code();
         let case = Case::read_with(path, |written| completed(written, code))?;
         let protocol = &case.protocol;
-        code.check_convention(&case.convention)?;
-        code.check_stiffness_ratio(case.stack.stiffness_ratio)?;
-        code.check_preparation(&protocol.preparation)?;
+        code.check_convention_of(&case)?;
+        code.check_preparation(&case.stack, &protocol.preparation)?;
         code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
     let convention = arguments.convention.of(arguments.code())?;
     let stack = arguments.stack.stack(convention.law.power)?;
+    let convention = convention.of_bodies(&stack);
     let accepted = arguments
         .code()
         .check_stiffness_ratio(stack.stiffness_ratio);
@@ -298,7 +297,7 @@ fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
     let convention = written.convention.unwrap_or_else(|| code.convention());
     let stack = written.stack.in_law(convention.law.power);
     stack.validate()?;
-    stack.refuse_spheres()?;
+    let convention = convention.of_bodies(&stack);
     convention.validate()?;
     let limit = quasistatic_limit(&stack, &convention);
     let time_step = own.time_step.unwrap_or(DEFAULT_TIME_STEP);
@@ -340,7 +339,10 @@ fn prepared(
             // Adding zero turns -0 into 0, which is the same push and must be the same case.
             let walls = SideWalls::paper(push.unwrap_or(0.0) + 0.0, stack.epsilon());
             let protocol = between_side_walls(protocol, walls);
-            let accepted = arguments.code().check_preparation(&protocol.preparation);
+            stack.refuse_spheres().map_err(as_flag)?;
+            let accepted = arguments
+                .code()
+                .check_preparation(stack, &protocol.preparation);
             accepted.map_err(as_flag)?;
             Ok(protocol)
         }
@@ -396,7 +398,9 @@ fn vtk_layout() -> Layout {
     Layout {
         witness: VTK_COLLECTION,
         is_ours: is_vtk_collection,
-        files: vec!["cylinders_*.vtp".to_owned(), "contacts_*.vtp".to_owned()],
+        files: ["cylinders_*.vtp", "spheres_*.vtp", "contacts_*.vtp"]
+            .map(str::to_owned)
+            .to_vec(),
         shared: false,
         scratch: None,
     }

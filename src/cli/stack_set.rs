@@ -1,6 +1,6 @@
 //! The stacks of a crosscheck on the command line.
 
-use super::options::{StackOptions, as_flag, friction};
+use super::options::{Friction, StackOptions, as_flag, friction};
 use crate::code::Code;
 use crate::model::{InvalidValue, Power, Stack};
 use crate::study::yield_force::{Measurement, Profile};
@@ -14,7 +14,7 @@ pub(super) struct StackSet {
     profile: Profile,
     /// Floor frictions of other stacks than those of the profile: numbers or the word `critical`, separated by commas
     #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction, allow_negative_numbers = true, conflicts_with = "profile")]
-    mu: Vec<f64>,
+    mu: Vec<Friction>,
     /// Stiffnesses k_n r/(m g) of these stacks, separated by commas
     #[arg(
         long,
@@ -62,9 +62,10 @@ impl StackSet {
             let frictions = self.mu.iter();
             frictions.map(move |&mu| (mu, stiffness))
         });
-        let profile = self.profile.stacks(power).into_iter();
-        let profile = profile.map(|stack| (stack.floor_friction, stack.stiffness));
-        let places: Vec<(f64, f64)> = match self.mu.is_empty() {
+        let profile = self.profile.stacks(power, self.others.bodies).into_iter();
+        let profile =
+            profile.map(|stack| (Friction::Number(stack.floor_friction), stack.stiffness));
+        let places: Vec<(Friction, f64)> = match self.mu.is_empty() {
             true => profile.collect(),
             false => own.collect(),
         };

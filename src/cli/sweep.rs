@@ -3,8 +3,8 @@
 use super::convention::settle_one;
 use super::crosscheck::conclude;
 use super::options::{
-    CodeParser, ConventionOptions, Format, RunOptions, StackListOptions, as_flag, friction,
-    selected_codes,
+    CodeParser, ConventionOptions, Format, Friction, RunOptions, StackListOptions, as_flag,
+    friction, selected_codes,
 };
 use super::out::Out;
 use super::progress::Reporter;
@@ -57,7 +57,7 @@ pub(super) struct Arguments {
 
 /// The values of `--mu`.
 #[derive(Debug, Clone, PartialEq)]
-struct Frictions(Vec<f64>);
+struct Frictions(Vec<Friction>);
 
 impl Frictions {
     /// A, A + STEP, … up to B, which is included if it lies on the grid.
@@ -70,7 +70,7 @@ impl Frictions {
                 .map(|value| Self(vec![value]))
                 .map_err(|_| accepted.to_owned());
         };
-        let number = |part: &str| friction(part).map_err(|_| accepted.to_owned());
+        let number = |part: &str| part.parse::<f64>().map_err(|_| accepted.to_owned());
         let (from, to, step) = (number(from)?, number(to)?, number(step)?);
         // As far as the ends and the step are known.
         let last_digits = 1e-9_f64.max(f64::EPSILON * (from.abs() + to.abs()) / step);
@@ -81,7 +81,7 @@ impl Frictions {
         let further = (1..=count as u32).map(|index| rounded(from + step * f64::from(index), step));
         let values: Vec<f64> = std::iter::once(from).chain(further).collect();
         match values.is_sorted_by(|left, right| left < right) {
-            true => Ok(Self(values)),
+            true => Ok(Self(values.into_iter().map(Friction::Number).collect())),
             false => Err(format!(
                 "{accepted}; numbers near {to} do not differ by {step:e}"
             )),
@@ -160,11 +160,16 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 mod tests {
     use super::*;
 
+    fn numbers(frictions: &Frictions) -> Vec<f64> {
+        let frictions = frictions.0.iter();
+        frictions.map(|friction| friction.of_cylinders()).collect()
+    }
+
     #[test]
     fn values_of_a_range_are_different_or_refused() {
         let values = Frictions::parse("0.3:0.30000000000003:1e-14").unwrap();
         assert_eq!(
-            values.0,
+            numbers(&values),
             [0.3, 0.30000000000001, 0.30000000000002, 0.30000000000003]
         );
         for text in [
@@ -179,12 +184,12 @@ mod tests {
     #[test]
     fn a_range_includes_both_ends_without_rounding_debris() {
         let values = Frictions::parse("0.1:0.5:0.1").unwrap();
-        assert_eq!(values.0, [0.1, 0.2, 0.3, 0.4, 0.5]);
+        assert_eq!(numbers(&values), [0.1, 0.2, 0.3, 0.4, 0.5]);
     }
 
     #[test]
     fn a_single_friction_is_a_sweep_of_one() {
-        assert_eq!(Frictions::parse("0.3").unwrap().0, [0.3]);
+        assert_eq!(numbers(&Frictions::parse("0.3").unwrap()), [0.3]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ConventionOptions, Format, StackListOptions, friction_of_any_bodies};
+use super::options::{ConventionOptions, Format, Friction, StackListOptions, friction};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -14,8 +14,8 @@ use clap::Args;
 )]
 pub(super) struct Arguments {
     /// Floor friction: numbers or the word `critical`, separated by commas
-    #[arg(long, required = true, value_delimiter = ',', value_parser = friction_of_any_bodies, allow_negative_numbers = true)]
-    mu: Vec<Option<f64>>,
+    #[arg(long, required = true, value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
+    mu: Vec<Friction>,
     #[command(flatten)]
     stack: StackListOptions,
     #[command(flatten)]
@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let convention = arguments.convention.of(Code::NATIVE)?;
     let stacks = arguments
         .stack
-        .stacks_of_any_bodies(&arguments.mu, convention.law.power)?;
+        .stacks(&arguments.mu, convention.law.power)?;
     let predictions: Vec<Predictions> = stacks
         .iter()
         .map(|stack| Predictions::new(stack, &convention))

@@ -8,7 +8,7 @@ use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::{InvalidValue, Power};
+use crate::model::{InvalidValue, PAPER_BODIES, Power};
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
 use crate::study::trajectory::{
@@ -29,6 +29,10 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     #[command(flatten)]
     codes: CodeOptions,
+    /// Bodies on the floor: 2 cylinders, or 3 to 5 spheres, of which one is displaced by 1e-3 r so that no symmetry is left;
+    /// their trajectories are compared up to the peak
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, value_parser = clap::value_parser!(u8).range(2..=5))]
+    bodies: u8,
     /// Directory for trajectories.csv, trajectories.json and trajectories.md
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -48,7 +52,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let files = ["trajectories.csv", "trajectories.md"];
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
-    let plans = plans(codes.iter().map(|selected| selected.name));
+    let names = codes.iter().map(|selected| selected.name);
+    let plans = plans(names, arguments.bodies);
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();
@@ -71,8 +76,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 }
 
 /// The plans for the codes, each under its declared convention.
-pub(super) fn plans(names: impl Iterator<Item = Code>) -> Vec<Trajectory> {
-    let stack = trajectory_stack();
+pub(super) fn plans(names: impl Iterator<Item = Code>, bodies: u8) -> Vec<Trajectory> {
+    let stack = trajectory_stack(bodies);
     names
         .map(|name| plan_trajectory(name, &stack, name.convention()))
         .collect()

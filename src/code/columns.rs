@@ -1,7 +1,8 @@
 //! The columns of a result under other names, as a manifest writes them: `wall_force = "f_top"`, or with a factor
 //! `floor_n2 = { from = "fn2", factor = -1.0 }`.
 
-use crate::series::{ColumnSource, ColumnSources, Motion, Series};
+use crate::model::PAPER_BODIES;
+use crate::series::{ColumnSource, ColumnSources, MotionRow, Sample};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
@@ -9,6 +10,9 @@ use serde::{Deserialize, Deserializer};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
+
+/// Bodies on the floor of the stack with most columns.
+const SPHERES: u8 = 5;
 
 /// Reads columns, whose names must be those of a series or a motion.
 pub(super) fn read_columns<'de, D: Deserializer<'de>>(
@@ -29,9 +33,16 @@ struct Name(String);
 impl<'de> Deserialize<'de> for Name {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = String::deserialize(deserializer)?;
-        let further = Motion::COLUMNS.into_iter();
-        let further = further.filter(|column| !Series::COLUMNS.contains(column));
-        let known: Vec<&str> = Series::COLUMNS.into_iter().chain(further).collect();
+        let series = [PAPER_BODIES, SPHERES].map(Sample::columns).into_iter();
+        let motions = [false, true].map(MotionRow::columns).into_iter();
+        let all = series.flatten().map(|column| column.name);
+        let all = all.chain(motions.flatten().map(|column| column.name));
+        let mut known: Vec<&str> = Vec::new();
+        for name in all {
+            if !known.contains(&name) {
+                known.push(name);
+            }
+        }
         if known.contains(&name.as_str()) {
             return Ok(Self(name));
         }

@@ -141,6 +141,8 @@ pub struct Declaration {
     pub velocity_lag: f64,
     /// The keys that are left out, which are unknown until they are measured.
     pub left_out: Vec<ConventionKey>,
+    /// Whether the code moves spheres in space.
+    pub in_space: bool,
 }
 
 /// The convention of a code after its probe: what its manifest declares, and what was measured in place of the rest.

@@ -7,7 +7,7 @@ use super::layers::Layers;
 use super::manifest::{Definition, ResultFile, TaskKind};
 use super::manifest_error::{ManifestError, refused};
 use super::search_path::FOLDER;
-use crate::model::{InvalidValue, Preparation, sha256_hex};
+use crate::model::{InvalidValue, PAPER_BODIES, Preparation, Stack, sha256_hex};
 use std::path::Path;
 use std::time::Duration;
 use toml::de::DeTable;
@@ -21,9 +21,10 @@ const LONGEST_STEP: Duration = Duration::from_micros(100);
 const SAFETY: f64 = 20.0;
 
 impl TaskKind {
-    /// The task that compresses a stack after `preparation`.
-    pub(super) fn of(preparation: &Preparation) -> Self {
+    /// The task that compresses `stack` after `preparation`.
+    pub(super) fn of(stack: &Stack, preparation: &Preparation) -> Self {
         match preparation {
+            _ if stack.bodies != PAPER_BODIES => Self::Spheres,
             Preparation::GravityRamp { .. } => Self::Stack,
             Preparation::SideWalls(_) => Self::SideWalls,
         }

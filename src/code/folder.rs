@@ -24,12 +24,14 @@ macro_rules! folder {
 pub(super) static BUILT_IN: [BuiltIn; 7] = [
     folder!("src/code/native", "code.toml"),
     folder!("liggghts_inputs", "code.toml" "stack.in" "side_walls.in" "probe.in" "pyramid.in" "contacts.in"
-        "top_wall.in" "wall.stl" "side_wall.stl"),
-    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "law.py" "cases.py"),
-    folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in"),
+        "top_wall.in" "wall.stl" "side_wall.stl" "spheres.in" "spheres_probe.in"),
+    folder!("yade_scripts", "code.toml" "stack.py" "side_walls.py" "probe.py" "contacts.py" "law.py" "cases.py"
+        "spheres.py" "spheres_probe.py" "spheres_scene.py"),
+    folder!("lammps_inputs", "code.toml" "stack.in" "probe.in" "pyramid.in" "contacts.in" "top_wall.in" "spheres.in"
+        "spheres_probe.in" "spheres_contacts.in"),
     folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in"),
     folder!("yade_scripts/hertz", "code.toml" "law.py" "probe.py"),
-    folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in"),
+    folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in" "spheres_contacts.in"),
 ];
 
 /// A folder with a manifest.

@@ -1,7 +1,9 @@
 //! The named formats of parameter files and results.
 
 use crate::model::{Case, ContactTest, Pyramid};
-use crate::series::{ColumnSources, Header, Motion, PyramidRun, Row, Series, SeriesError};
+use crate::series::{
+    Column, ColumnSources, Header, Motion, MotionRow, PyramidRun, Sample, Series, SeriesError,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -53,12 +55,12 @@ impl ResultFormat {
         sources: &ColumnSources,
         case: &Case,
     ) -> Result<Series, SeriesError> {
-        let protocol = &case.protocol;
         match self {
-            Self::Csv => Series::read_from(content, sources, protocol),
+            Self::Csv => Series::read_from(content, sources, case),
             Self::LammpsThermo => {
-                let (rows, absent) = last_table(content, sources)?;
-                Series::without(absent, rows, protocol)
+                let columns = Sample::columns(case.stack.bodies);
+                let (rows, absent) = last_table(content, columns, sources)?;
+                Series::without(absent, rows, case)
             }
         }
     }
@@ -70,27 +72,32 @@ impl ResultFormat {
         sources: &ColumnSources,
         test: &ContactTest,
     ) -> Result<Motion, SeriesError> {
+        let columns = MotionRow::columns(test.space.is_some());
         match self {
-            Self::Csv => Motion::read_from(content, sources, test.steps),
-            Self::LammpsThermo => Motion::new(last_table(content, sources)?.0, test.steps),
+            Self::Csv => Motion::read_from(content, columns, sources, test.steps),
+            Self::LammpsThermo => {
+                let (rows, _) = last_table(content, columns, sources)?;
+                Motion::new(rows, test.steps)
+            }
         }
     }
 }
 
-/// The rows of the last table in `log` with the columns of `R`, from its header to `Loop time`, and the names of the
+/// The rows of the last table in `log` with these `columns`, from its header to `Loop time`, and the names of the
 /// columns that it leaves out.
-fn last_table<R: Row>(
+fn last_table<R: Default>(
     log: &[u8],
+    columns: &'static [Column<R>],
     sources: &ColumnSources,
 ) -> Result<(Vec<R>, Vec<&'static str>), SeriesError> {
     let log = String::from_utf8_lossy(log);
     let lines: Vec<&str> = log.lines().collect();
     let tables = (0..lines.len()).rev().filter_map(|line| {
-        let header = Header::<R>::find(&header_words(lines[line]), sources, is_cut).ok()?;
+        let header = Header::find(columns, &header_words(lines[line]), sources, is_cut).ok()?;
         Some((line, header))
     });
     let (start, header) = tables.take(1).next().ok_or_else(|| {
-        let columns = R::columns().iter().filter(|column| !column.is_optional);
+        let columns = columns.iter().filter(|column| !column.is_optional);
         let columns: Vec<&str> = columns.map(|column| column.name).collect();
         let columns = columns.join(" ");
         SeriesError::absent(format!("the log has no table with the columns {columns}"))
@@ -116,7 +123,7 @@ fn is_cut(word: &str, name: &str) -> bool {
     Some(word) == name.get(..CUT)
 }
 
-fn parse_row<R: Row>(header: &Header<R>, row: usize, line: &str) -> Result<R, SeriesError> {
+fn parse_row<R: Default>(header: &Header<R>, row: usize, line: &str) -> Result<R, SeriesError> {
     let fields: Vec<&str> = line.split_whitespace().collect();
     let parsed = header.row(|place| fields.get(place).copied());
     parsed.map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
@@ -171,12 +178,11 @@ fn centres(dump: &str) -> Result<Vec<[f64; 2]>, SeriesError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::series::Sample;
 
     const ROW: &str = "0 0 1.5e-3 0 2.7 0 1 0.9 0 -1 0.9 0 0.1 -0.02 0.1 0.02";
 
     fn table(log: &str) -> Result<Vec<Sample>, SeriesError> {
-        last_table(log.as_bytes(), &ColumnSources::new()).map(|(rows, _)| rows)
+        last_table(log.as_bytes(), Sample::columns(2), &ColumnSources::new()).map(|(rows, _)| rows)
     }
 
     fn header() -> String {
@@ -193,7 +199,7 @@ mod tests {
             let samples = table(&log).unwrap();
             assert_eq!(samples.len(), 1);
             assert_eq!(samples[0].wall_force, 1.5e-3);
-            assert_eq!(samples[0].floor_t3, 0.02);
+            assert_eq!(samples[0].floor[2][0], 0.02);
         }
     }
 
@@ -202,8 +208,8 @@ mod tests {
         let swapped = header().replace("x1 y1", "y1 v_other x1");
         let row = ROW.replacen("0 2.7", "2.7 77 0", 1);
         let samples = table(&format!("{swapped}\n{row}\n")).unwrap();
-        assert_eq!((samples[0].x1, samples[0].y1), (0.0, 2.7));
-        assert_eq!(samples[0].floor_t3, 0.02);
+        assert_eq!(samples[0].bodies[0].position[..2], [0.0, 2.7]);
+        assert_eq!(samples[0].floor[2][0], 0.02);
     }
 
     #[test]

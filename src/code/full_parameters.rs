@@ -3,7 +3,7 @@
 
 use super::manifest::TaskKind;
 use super::parameters::{self, merged};
-use crate::model::{Case, ContactConvention, ContactTest, PreparationSteps, Pyramid};
+use crate::model::{Case, ContactConvention, ContactTest, PAPER_BODIES, PreparationSteps, Pyramid};
 use serde_json::{Map, Value, json};
 
 /// Raised when a parameter goes or changes its meaning.
@@ -17,67 +17,76 @@ pub(crate) struct Parameter {
     pub meaning: &'static str,
     /// The tasks that have it.
     pub tasks: &'static [TaskKind],
-    /// The laws with which they have it.
-    pub laws: Laws,
+    /// The condition under which they have it.
+    pub when: When,
 }
 
-/// The laws with which a task has a parameter.
+/// The condition under which a task has a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Laws {
-    /// Every law.
+pub(crate) enum When {
+    /// Always.
     Every,
-    /// Every law but the paper's linear one.
+    /// With every law but the paper's linear one.
     NotLinear,
-    /// Hertz's, at a stiffness ratio from 1 to 1.5.
+    /// With Hertz's, at a stiffness ratio from 1 to 1.5.
     Material,
+    /// In stacks of five spheres or more.
+    FiveSpheres,
+    /// In stacks of six.
+    SixSpheres,
 }
 
-impl Laws {
-    /// The condition in words; `None` of every law.
+impl When {
+    /// The condition in words; `None` if there is none.
     pub fn limits(self) -> Option<&'static str> {
         match self {
             Self::Every => None,
             Self::NotLinear => Some("laws other than linear alone"),
             Self::Material => Some("power 1.5 at a stiffness ratio from 1 to 1.5 alone"),
+            Self::FiveSpheres => Some("stacks of five spheres or more alone"),
+            Self::SixSpheres => Some("stacks of six spheres alone"),
         }
     }
 }
 
-use TaskKind::{Motion, Pyramid as Pile, SideWalls, Stack};
+use TaskKind::{Motion, Pyramid as Pile, SideWalls, Spheres, SpheresMotion, Stack};
 
-const EVERY: &[TaskKind] = &[Stack, SideWalls, Motion, Pile];
-const COMPRESSION: &[TaskKind] = &[Stack, SideWalls];
-const AT_REST: &[TaskKind] = &[Stack, SideWalls, Pile];
-const RAMP: &[TaskKind] = &[Stack, Pile];
-const WALL: &[TaskKind] = &[Stack, SideWalls, Motion];
+const EVERY: &[TaskKind] = &[Stack, SideWalls, Motion, Pile, Spheres, SpheresMotion];
+const COMPRESSION: &[TaskKind] = &[Stack, SideWalls, Spheres];
+const AT_REST: &[TaskKind] = &[Stack, SideWalls, Pile, Spheres];
+const RAMP: &[TaskKind] = &[Stack, Pile, Spheres];
+const WALL: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion];
 const WALLS: &[TaskKind] = &[SideWalls];
+const TESTS: &[TaskKind] = &[Motion, SpheresMotion];
 const TEST: &[TaskKind] = &[Motion];
+const TEST_IN_SPACE: &[TaskKind] = &[SpheresMotion];
 const PILE: &[TaskKind] = &[Pile];
+const RING: &[TaskKind] = &[Spheres];
 
 const TIME: &str = "√(m/k_n)";
 const SPEED: &str = "r √(k_n/m)";
 const DAMPING: &str = "√(m k_n)";
 
 macro_rules! parameters {
-    ($($name:literal, $unit:expr, $tasks:ident $(where $laws:ident)?, $meaning:literal;)*) => {
+    ($($name:literal, $unit:expr, $tasks:ident $(where $when:ident)?, $meaning:literal;)*) => {
         /// Every parameter of every task.
         pub(crate) static PARAMETERS: &[Parameter] = &[$(Parameter {
             name: $name,
             unit: $unit,
             meaning: $meaning,
             tasks: $tasks,
-            laws: parameters!(@laws $($laws)?),
+            when: parameters!(@when $($when)?),
         }),*];
     };
-    (@laws) => { Laws::Every };
-    (@laws $laws:ident) => { Laws::$laws };
+    (@when) => { When::Every };
+    (@when $when:ident) => { When::$when };
 }
 
 parameters! {
     "schema", "1", EVERY, "version of this list";
-    "radius", "r", EVERY, "radius of a cylinder: 1, the unit of length";
-    "mass", "m", EVERY, "mass of a cylinder: 1, the unit of mass";
-    "moment_of_inertia", "m r²", EVERY, "moment of inertia of a cylinder about its axis";
+    "radius", "r", EVERY, "radius of a body, a cylinder or sphere: 1, the unit of length";
+    "mass", "m", EVERY, "mass of a body: 1, the unit of mass";
+    "moment_of_inertia", "m r²", EVERY, "moment of inertia of a body: of a cylinder about its axis; of a sphere 0.4";
     "normal_stiffness", "k_n", EVERY, "stiffness of every contact along its normal, those of the walls included: 1";
     "tangential_stiffness", "k_n", EVERY, "stiffness of the tangential spring of every contact with friction";
     "normal_power", "1", EVERY where NotLinear, "exponent p of the normal force: normal_stiffness overlap^p; tangential_stiffness and damping are those at an overlap of r, and grow with its powers p - 1 and, in the convention of most codes, (p - 1)/2";
@@ -90,16 +99,30 @@ parameters! {
     "restitution", "1", EVERY, "restitution that the damping of both springs gives";
     "damping_normal", DAMPING, EVERY, "force of the dashpot beside the normal spring, over the speed of approach";
     "damping_tangential", DAMPING, EVERY, "force of the dashpot beside the tangential spring, over the speed of sliding";
-    "floor_friction", "1", EVERY, "friction coefficient of cylinder and floor; the other walls have none";
-    "cylinder_friction", "1", EVERY, "friction coefficient between cylinders";
+    "floor_friction", "1", EVERY, "friction coefficient of body and floor; the other walls have none";
+    "cylinder_friction", "1", EVERY, "friction coefficient between bodies";
     "gravity", "k_n r/m", EVERY, "gravity, downwards, at its full value, which it has from the first step where it does not rise; 0 in a micro-test";
     "time_step", TIME, EVERY, "time step";
-    "initial_x1", "r", COMPRESSION, "horizontal position of cylinder 1 (top) before the first step; every body starts at rest and without rotation";
+    "initial_x1", "r", COMPRESSION, "horizontal position of body 1 before the first step, of cylinders the one on top; every body starts at rest and without rotation";
     "initial_y1", "r", COMPRESSION, "height of its centre above the floor";
-    "initial_x2", "r", COMPRESSION, "horizontal position of cylinder 2 (right)";
+    "initial_x2", "r", COMPRESSION, "horizontal position of body 2 before the first step, of cylinders the one on the right";
     "initial_y2", "r", COMPRESSION, "height of its centre above the floor";
-    "initial_x3", "r", COMPRESSION, "horizontal position of cylinder 3 (left)";
+    "initial_x3", "r", COMPRESSION, "horizontal position of body 3 before the first step, of cylinders the one on the left";
     "initial_y3", "r", COMPRESSION, "height of its centre above the floor";
+    "spheres", "1", RING, "number of spheres: those of the ring and the one on top";
+    "top", "1", RING, "number of the sphere on top, from 1 on";
+    "initial_z1", "r", RING, "its other horizontal position; x, y and z are right-handed";
+    "initial_z2", "r", RING, "its other horizontal position; x, y and z are right-handed";
+    "initial_z3", "r", RING, "its other horizontal position; x, y and z are right-handed";
+    "initial_x4", "r", RING, "horizontal position of sphere 4 before the first step";
+    "initial_y4", "r", RING, "height of its centre above the floor";
+    "initial_z4", "r", RING, "its other horizontal position; x, y and z are right-handed";
+    "initial_x5", "r", RING where FiveSpheres, "horizontal position of sphere 5 before the first step";
+    "initial_y5", "r", RING where FiveSpheres, "height of its centre above the floor";
+    "initial_z5", "r", RING where FiveSpheres, "its other horizontal position; x, y and z are right-handed";
+    "initial_x6", "r", RING where SixSpheres, "horizontal position of sphere 6 before the first step";
+    "initial_y6", "r", RING where SixSpheres, "height of its centre above the floor";
+    "initial_z6", "r", RING where SixSpheres, "its other horizontal position; x, y and z are right-handed";
     "ramp_steps", "1", RAMP, "steps in which gravity rises from 0 as x³(10 − 15x + 6x²), x = step/ramp_steps";
     "push_speed", SPEED, WALLS, "speed with which the side walls, at ±2, move inwards";
     "push_steps", "1", WALLS, "steps in which they do; cylinder 1 is held where it starts";
@@ -114,24 +137,34 @@ parameters! {
     "withdrawal_steps", "1", WALLS, "steps in which they do; then they are gone";
     "rest_steps", "1", AT_REST, "steps of rest before the compression, or before the timed steps";
     "preparation_steps", "1", COMPRESSION, "steps before the compression in all";
-    "wall_speed", SPEED, WALL, "speed of the top wall, downwards; in a compression it starts where it just touches cylinder 1";
+    "wall_speed", SPEED, WALL, "speed of the top wall, downwards; in a compression it starts where it just touches the body on top";
     "compression_steps", "1", COMPRESSION, "steps of the compression, which step 0 of the series begins";
     "coarse_every", "1", COMPRESSION, "steps between rows from step 0 on";
     "fine_from_step", "1", COMPRESSION, "step from which rows are closer: a multiple of coarse_every";
     "fine_every", "1", COMPRESSION, "steps between rows from there to the last step, with which the series ends";
     "rows", "1", COMPRESSION, "number of rows in all";
-    "wall_height", "r", TEST, "height of the top wall at step 0";
-    "steps", "1", TEST, "number of steps; there is a row for each of them and for step 0";
-    "x1", "r", TEST, "horizontal position of cylinder 1 at step 0";
-    "y1", "r", TEST, "height of its centre above the floor";
-    "vx1", SPEED, TEST, "its horizontal velocity";
-    "vy1", SPEED, TEST, "its vertical velocity";
+    "wall_height", "r", TESTS, "height of the top wall at step 0";
+    "steps", "1", TESTS, "number of steps; there is a row for each of them and for step 0";
+    "x1", "r", TESTS, "horizontal position of body 1 at step 0";
+    "y1", "r", TESTS, "height of its centre above the floor";
+    "vx1", SPEED, TESTS, "its horizontal velocity";
+    "vy1", SPEED, TESTS, "its vertical velocity";
     "spin1", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
-    "x2", "r", TEST, "horizontal position of cylinder 2 at step 0";
-    "y2", "r", TEST, "height of its centre above the floor";
-    "vx2", SPEED, TEST, "its horizontal velocity";
-    "vy2", SPEED, TEST, "its vertical velocity";
+    "x2", "r", TESTS, "horizontal position of body 2 at step 0";
+    "y2", "r", TESTS, "height of its centre above the floor";
+    "vx2", SPEED, TESTS, "its horizontal velocity";
+    "vy2", SPEED, TESTS, "its vertical velocity";
     "spin2", "√(k_n/m)", TEST, "its angular velocity, counter-clockwise";
+    "z1", "r", TEST_IN_SPACE, "its other horizontal position; x, y and z are right-handed";
+    "vz1", SPEED, TEST_IN_SPACE, "its velocity along z";
+    "spinx1", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about x";
+    "spiny1", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about y";
+    "spinz1", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about z";
+    "z2", "r", TEST_IN_SPACE, "its other horizontal position; x, y and z are right-handed";
+    "vz2", SPEED, TEST_IN_SPACE, "its velocity along z";
+    "spinx2", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about x";
+    "spiny2", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about y";
+    "spinz2", "√(k_n/m)", TEST_IN_SPACE, "its angular velocity about z";
     "leg_steps", "1", TEST where NotLinear, "steps of each of the four legs in which cylinder 1 is moved as prescribed, without rotation, and cylinder 2 held, from rest at step 0; 0 where both move freely";
     "leg1_vx1", SPEED, TEST where NotLinear, "horizontal velocity of cylinder 1 in leg 1";
     "leg1_vy1", SPEED, TEST where NotLinear, "its vertical velocity there";
@@ -160,7 +193,7 @@ impl TaskKind {
         json!({
             "type": "object",
             "properties": described.collect::<Map<_, _>>(),
-            "required": own.iter().filter(|one| one.laws == Laws::Every).map(|one| one.name).collect::<Vec<_>>(),
+            "required": own.iter().filter(|one| one.when == When::Every).map(|one| one.name).collect::<Vec<_>>(),
         })
     }
 }
@@ -168,20 +201,25 @@ impl TaskKind {
 /// The parameters of a case.
 pub(super) fn of_case(case: &Case) -> Value {
     let (schedule, epsilon) = (case.protocol.schedule(), case.stack.epsilon());
-    let [top, height] = match &schedule.preparation {
-        PreparationSteps::GravityRamp { .. } => [1.0 + 3.0_f64.sqrt(), 1.0],
+    let mut centres = case.stack.initial_positions();
+    if let PreparationSteps::SideWalls(walls) = &schedule.preparation {
         // Cylinder 1 is held, and the others start with their weight on the floor.
-        PreparationSteps::SideWalls(walls) => {
-            [walls.landing_height(epsilon) + walls.fall, 1.0 - epsilon]
+        for (body, centre) in centres.iter_mut().enumerate() {
+            centre[1] = match body {
+                0 => walls.landing_height(epsilon) + walls.fall,
+                _ => 1.0 - epsilon,
+            };
         }
+    }
+    let axes = match case.stack.bodies {
+        PAPER_BODIES => "xy",
+        _ => "xyz",
     };
     merged([
         of_bodies(&case.convention),
         parameters::of_case(case),
+        parameters::initial_positions(&centres, axes),
         json!({
-            "initial_x1": 0.0, "initial_y1": top,
-            "initial_x2": 1.0, "initial_y2": height,
-            "initial_x3": -1.0, "initial_y3": height,
             "preparation_steps": schedule.preparation.total(),
             "rows": schedule.rows(),
         }),
@@ -277,7 +315,7 @@ mod tests {
                 assert!(given.values().all(Value::is_number), "numbers only");
                 let given: Vec<&str> = given.keys().map(String::as_str).collect();
                 let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&kind));
-                let own = own.filter(|one| one.laws == Laws::Every || !law.is_linear());
+                let own = own.filter(|one| one.when == When::Every || !law.is_linear());
                 let mut declared: Vec<&str> = own.map(|one| one.name).collect();
                 declared.sort_unstable();
                 assert_eq!(given, declared, "{kind:?}, {law}");

@@ -93,11 +93,22 @@ pub enum TaskKind {
     Motion,
     /// Carry a pyramid.
     Pyramid,
+    /// Compress a stack of spheres in space.
+    Spheres,
+    /// Move two spheres in space for a few steps.
+    SpheresMotion,
 }
 
 impl TaskKind {
     /// All kinds.
-    pub(crate) const ALL: [Self; 4] = [Self::Stack, Self::SideWalls, Self::Motion, Self::Pyramid];
+    pub(crate) const ALL: [Self; 6] = [
+        Self::Stack,
+        Self::SideWalls,
+        Self::Motion,
+        Self::Pyramid,
+        Self::Spheres,
+        Self::SpheresMotion,
+    ];
 
     /// Its name in manifests.
     pub(crate) fn as_str(self) -> &'static str {
@@ -106,6 +117,8 @@ impl TaskKind {
             Self::SideWalls => "side-walls",
             Self::Motion => "motion",
             Self::Pyramid => "pyramid",
+            Self::Spheres => "spheres",
+            Self::SpheresMotion => "spheres-motion",
         }
     }
 }

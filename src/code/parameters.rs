@@ -2,8 +2,8 @@
 
 use super::manifest_error::refused;
 use crate::model::{
-    Case, ContactConvention, ContactTest, Drive, InvalidValue, Material, PreparationSteps, Pyramid,
-    Stack,
+    Case, ContactConvention, ContactTest, Drive, InvalidValue, Material, PAPER_BODIES,
+    PreparationSteps, Pyramid, Stack,
 };
 use serde_json::{Map, Value, json};
 
@@ -23,6 +23,7 @@ pub(super) fn of_case(case: &Case) -> Value {
     merged([
         of_stack(&case.convention, &case.stack),
         of_preparation(&schedule.preparation, epsilon),
+        of_spheres(&case.stack),
         json!({
             "gravity": epsilon,
             "time_step": case.protocol.time_step,
@@ -34,6 +35,29 @@ pub(super) fn of_case(case: &Case) -> Value {
             "fine_every": schedule.fine_every,
         }),
     ])
+}
+
+/// Where spheres start, and how they are numbered; nothing of cylinders.
+fn of_spheres(stack: &Stack) -> Value {
+    if stack.bodies == PAPER_BODIES {
+        return json!({});
+    }
+    let centres = stack.initial_positions();
+    merged([
+        json!({ "spheres": centres.len(), "top": stack.top() + 1 }),
+        initial_positions(&centres, "xyz"),
+    ])
+}
+
+/// initial_x1, initial_y1, …
+pub(super) fn initial_positions(centres: &[[f64; 3]], axes: &str) -> Value {
+    let mut own = json!({});
+    for (number, centre) in (1..).zip(centres) {
+        for (axis, coordinate) in axes.chars().zip(centre) {
+            own[format!("initial_{axis}{number}")] = (*coordinate).into();
+        }
+    }
+    own
 }
 
 fn of_stack(convention: &ContactConvention, stack: &Stack) -> Value {
@@ -98,6 +122,33 @@ fn of_preparation(preparation: &PreparationSteps, epsilon: f64) -> Value {
 pub(super) fn of_contact_test(test: &ContactTest) -> Value {
     let (mu, mu_d) = (test.floor_friction, test.cylinder_friction);
     let [one, two] = &test.initial_motions;
+    let bodies = match &test.space {
+        None => merged([
+            json!({ "x1": one.x, "y1": one.y, "vx1": one.vx, "vy1": one.vy, "spin1": one.spin }),
+            json!({ "x2": two.x, "y2": two.y, "vx2": two.vx, "vy2": two.vy, "spin2": two.spin }),
+            of_drive(test),
+        ]),
+        Some(space) => {
+            let bodies = test.initial_motions.iter().zip(space);
+            let mut own = json!({});
+            for (number, (plane, beyond)) in (1..).zip(bodies) {
+                for (name, value) in [
+                    ("x", plane.x),
+                    ("y", plane.y),
+                    ("z", beyond.z),
+                    ("vx", plane.vx),
+                    ("vy", plane.vy),
+                    ("vz", beyond.vz),
+                    ("spinx", beyond.spinx),
+                    ("spiny", beyond.spiny),
+                    ("spinz", plane.spin),
+                ] {
+                    own[format!("{name}{number}")] = value.into();
+                }
+            }
+            own
+        }
+    };
     merged([
         of_contacts(&test.convention, test.stiffness_ratio, mu, mu_d),
         json!({
@@ -107,9 +158,7 @@ pub(super) fn of_contact_test(test: &ContactTest) -> Value {
             // Downwards.
             "wall_speed": test.wall_speed,
         }),
-        json!({ "x1": one.x, "y1": one.y, "vx1": one.vx, "vy1": one.vy, "spin1": one.spin }),
-        json!({ "x2": two.x, "y2": two.y, "vx2": two.vx, "vy2": two.vy, "spin2": two.spin }),
-        of_drive(test),
+        bodies,
     ])
 }
 

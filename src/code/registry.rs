@@ -5,7 +5,7 @@ use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
 use super::search_path::SEARCH_PATH;
-use crate::model::{ContactConvention, InvalidValue, Law, Power, Preparation};
+use crate::model::{ContactConvention, InvalidValue, Law, Power, Preparation, Stack};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -181,6 +181,7 @@ impl Code {
             convention: definition.convention,
             velocity_lag: definition.integration.velocity_lag,
             left_out: definition.left_out.clone(),
+            in_space: definition.runs(TaskKind::SpheresMotion),
         }
     }
 
@@ -264,13 +265,22 @@ impl Code {
     }
 
     /// Refuses a preparation for which the code has no deck.
-    pub(crate) fn check_preparation(self, asked: &Preparation) -> Result<(), InvalidValue> {
-        self.check_task(TaskKind::of(asked))
+    pub(crate) fn check_preparation(
+        self,
+        stack: &Stack,
+        asked: &Preparation,
+    ) -> Result<(), InvalidValue> {
+        self.check_task(TaskKind::of(stack, asked))
     }
 
     /// Whether it has a deck for pyramids.
     pub fn builds_pyramids(self) -> bool {
         self.definition().runs(TaskKind::Pyramid)
+    }
+
+    /// Whether it has a deck for stacks of spheres.
+    pub fn stacks_spheres(self) -> bool {
+        self.definition().runs(TaskKind::Spheres)
     }
 
     /// Refuses a kind of task for which the code has no deck.
@@ -287,6 +297,8 @@ impl Code {
         let able: Vec<&str> = able.collect();
         let task = match kind {
             TaskKind::Pyramid => "a pyramid",
+            TaskKind::Spheres => "a stack of spheres",
+            TaskKind::SpheresMotion => "a micro-test of spheres",
             _ => "a micro-test",
         };
         let accepted = format!("one of {} for {task}", able.join(", "));

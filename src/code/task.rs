@@ -58,7 +58,7 @@ impl Task for Case {
     type Outcome = Series;
 
     fn kind(&self) -> TaskKind {
-        TaskKind::of(&self.protocol.preparation)
+        TaskKind::of(&self.stack, &self.protocol.preparation)
     }
 
     fn convention(&self) -> &ContactConvention {
@@ -91,7 +91,10 @@ impl Task for ContactTest {
     type Outcome = Motion;
 
     fn kind(&self) -> TaskKind {
-        TaskKind::Motion
+        match self.space {
+            Some(_) => TaskKind::SpheresMotion,
+            None => TaskKind::Motion,
+        }
     }
 
     fn convention(&self) -> &ContactConvention {
@@ -199,9 +202,18 @@ impl ParameterFile {
 impl Code {
     /// Refuses a task under another convention than that of the code, or with a stiffness ratio that it cannot have. Micro-tests are asked for under the declaration,
     /// whatever they have shown.
-    pub(super) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
+    pub(crate) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
+        // Spheres are solid, whatever the cylinders are.
+        let as_of_cylinders = |own: ContactConvention| ContactConvention {
+            moment_of_inertia: own.moment_of_inertia,
+            ..*task.convention()
+        };
         match task.kind() {
             TaskKind::Motion => self.check_declaration(task.convention()),
+            TaskKind::Spheres => self.check_convention(&as_of_cylinders(self.convention())),
+            TaskKind::SpheresMotion => {
+                self.check_declaration(&as_of_cylinders(self.declaration().convention))
+            }
             _ => self.check_convention(task.convention()),
         }?;
         self.check_stiffness_ratio(task.stiffness_ratio())

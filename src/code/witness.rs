@@ -44,6 +44,7 @@ pub fn witness_test(convention: ContactConvention) -> ContactTest {
         wall_speed: 0.001,
         initial_motions: [first, second],
         drive: None,
+        space: None,
     }
 }
 

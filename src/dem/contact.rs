@@ -1,15 +1,16 @@
 //! The contact law: a damped normal spring, a damped and capped tangential one.
 
+use super::geometry::{Geometry, Linear, Plane, Tangential};
 use super::real::{Composite, Real, composite};
 use crate::model::{
     Arms, ContactArms, ContactConvention, ContactLaw, CoulombOperand, HistoryUpdate, SlidingSpring,
     TensileForce,
 };
 
-/// The second body of a contact; the first is a cylinder.
+/// The second body of a contact; the first is a cylinder or sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counterpart {
-    /// Another cylinder.
+    /// Another cylinder or sphere.
     Cylinder,
     /// A plane wall.
     Wall,
@@ -17,19 +18,19 @@ pub enum Counterpart {
 
 /// A contact between two bodies as it is at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact<R> {
+pub struct Contact<R: Real, G: Geometry<R> = Plane> {
     /// The second body.
     pub counterpart: Counterpart,
     /// Unit normal, towards the first body.
-    pub normal: [R; 2],
+    pub normal: G::Vector,
     /// Overlap δ.
     pub overlap: R,
     /// Velocity of the first centre relative to the second body along the normal.
     pub separation_speed: R,
-    /// The same along t = (−n_y, n_x).
-    pub sliding_speed: R,
+    /// The same in the tangent plane: in the plane along t = (−n_y, n_x).
+    pub sliding_speed: G::Tangent,
     /// Sum of the angular velocities of the two bodies.
-    pub spin: R,
+    pub spin: G::Rotation,
     /// Friction coefficient.
     pub friction: R,
     /// Time step.
@@ -38,29 +39,35 @@ pub struct Contact<R> {
 
 /// Force of a contact on its first body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForce<R> {
+pub struct ContactForce<R: Real, G: Geometry<R> = Plane> {
     /// Normal force, positive in compression.
     pub normal: R,
-    /// Tangential force along t = (−n_y, n_x).
-    pub tangential: R,
-    /// Torque arm R; the torque on either body is −R times the tangential force.
+    /// Tangential force: in the plane along t = (−n_y, n_x).
+    pub tangential: G::Tangent,
+    /// Torque arm R; the torque on either body is −R times n × the tangential force.
     pub arm: R,
 }
 
-composite!(ContactForce {
-    normal,
-    tangential,
-    arm
-});
+impl<R: Real, G: Geometry<R>> Composite<R> for ContactForce<R, G> {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.normal.visit(&other.normal, visit);
+        self.tangential.visit(&other.tangential, visit);
+        self.arm.visit(&other.arm, visit);
+    }
+}
 
-impl<R: Real> ContactForce<R> {
+impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
     /// As a vector, the normal of the contact being `normal`.
     #[inline(always)]
-    pub(super) fn in_the_plane(&self, normal: [R; 2]) -> [R; 2] {
-        [
-            self.normal * normal[0] - self.tangential * normal[1],
-            self.normal * normal[1] + self.tangential * normal[0],
-        ]
+    pub(super) fn as_vector(&self, normal: G::Vector) -> G::Vector {
+        G::put_together(normal, self.normal, self.tangential)
+    }
+
+    /// Torque on either body.
+    #[inline(always)]
+    pub(super) fn torque(&self, normal: G::Vector) -> G::Rotation {
+        G::torque(normal, self.tangential).times(self.arm).negated()
     }
 
     /// No force, in numbers like `number`.
@@ -69,14 +76,14 @@ impl<R: Real> ContactForce<R> {
         let zero = number.like(0.0);
         Self {
             normal: zero,
-            tangential: zero,
+            tangential: G::no_tangent(zero),
             arm: zero,
         }
     }
 }
 
 /// A law that gives the force of a contact from its motion, step by step.
-pub trait ContactModel<R: Real>: Copy {
+pub trait ContactModel<R: Real, G: Geometry<R> = Plane>: Copy {
     /// State of a contact that lasts from one step to the next.
     type Memory: Copy + Composite<R>;
 
@@ -84,16 +91,18 @@ pub trait ContactModel<R: Real>: Copy {
     fn initial(&self, number: R) -> Self::Memory;
 
     /// The force of `contact`, whose memory is advanced to the present.
-    fn evaluate(&self, contact: &Contact<R>, memory: &mut Self::Memory) -> ContactForce<R>;
+    fn evaluate(&self, contact: &Contact<R, G>, memory: &mut Self::Memory) -> ContactForce<R, G>;
 }
 
 /// A contact law that a convention describes.
-pub(super) trait ConventionalModel<R: Real>: ContactModel<R> + Composite<R> {
+pub(super) trait ConventionalModel<R: Real, G: Geometry<R> = Plane>:
+    ContactModel<R, G> + Composite<R>
+{
     /// The law of `convention` at stiffness ratio κ, in numbers like `number`.
     fn of_convention(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self;
 }
 
-impl<R: Real> ConventionalModel<R> for SpringDashpot<R> {
+impl<R: Real, G: Geometry<R>> ConventionalModel<R, G> for SpringDashpot<R> {
     fn of_convention(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self {
         Self::like(number, convention, stiffness_ratio)
     }
@@ -130,14 +139,31 @@ composite!(
 
 /// Memory of a [`SpringDashpot`] contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spring<R> {
+pub struct Spring<R: Real, G: Geometry<R> = Plane> {
     /// u, tangential displacement accumulated while the contact sticks.
-    pub length: R,
+    pub length: G::Tangent,
     /// Normal of the contact when u was last brought up to date.
-    pub normal: [R; 2],
+    pub normal: G::Vector,
 }
 
-composite!(Spring { length, normal });
+impl<R: Real, G: Geometry<R>> Spring<R, G> {
+    /// The spring of a new contact, in numbers like `number`.
+    #[inline(always)]
+    pub(super) fn unstretched(number: R) -> Self {
+        Self {
+            length: G::no_tangent(number),
+            normal: G::vector([number.like(0.0); 3]),
+        }
+    }
+}
+
+impl<R: Real, G: Geometry<R>> Composite<R> for Spring<R, G> {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.length.visit(&other.length, visit);
+        self.normal.visit(&other.normal, visit);
+    }
+}
 
 impl<R: Real> SpringDashpot<R> {
     /// The law of `convention` at stiffness ratio κ, in numbers like `number`.
@@ -178,61 +204,52 @@ impl<R: Real> SpringDashpot<R> {
     /// Advances the spring by one step in which the surfaces move at v_t, and returns the tangential force
     /// h_t = −k_t u − η_t v_t, limited to μ |f_n| (paper, "Numerical results").
     #[inline(always)]
-    fn tangential_force(&self, spring: &mut R, limit: R, velocity: R, time_step: R) -> R {
-        let zero = limit.like(0.0);
-        let stretched = *spring + velocity * time_step;
-        let elastic = -(self.law.tangential_stiffness * stretched);
-        let damping = self.law.damping_tangential * velocity;
-        let sticking = elastic - damping;
-        let (operand, damping_in_operand) = match self.coulomb_operand {
-            CoulombOperand::SpringAndDamping => (sticking, damping),
-            CoulombOperand::Spring => (elastic, zero),
+    fn tangential_force<T: Tangential<R>>(
+        &self,
+        spring: &mut T,
+        limit: R,
+        velocity: T,
+        time_step: R,
+    ) -> T {
+        let stiffness = self.law.tangential_stiffness;
+        let stretched = spring.plus(velocity.times(time_step));
+        let elastic = stretched.times(stiffness).negated();
+        let damping = velocity.times(self.law.damping_tangential);
+        let sticking = elastic.minus(damping);
+        let operand = match self.coulomb_operand {
+            CoulombOperand::SpringAndDamping => sticking,
+            CoulombOperand::Spring => elastic,
         };
-        let sticks = operand.abs().less(limit);
-        if operand.all(sticks) {
+        let sticks = operand.is_below(limit);
+        if limit.all(sticks) {
             *spring = stretched;
             return sticking;
         }
-        let sliding = R::select(operand.less(zero), -limit, limit);
-        let length = match self.sliding_spring {
-            SlidingSpring::Frozen => *spring,
-            SlidingSpring::FollowsLimit => {
-                -(sliding + damping_in_operand) / self.law.tangential_stiffness
+        let sliding = operand.of_length(limit);
+        let length = match (self.sliding_spring, self.coulomb_operand) {
+            (SlidingSpring::Frozen, _) => *spring,
+            (SlidingSpring::FollowsLimit, CoulombOperand::Spring) => {
+                sliding.negated().over(stiffness)
+            }
+            (SlidingSpring::FollowsLimit, CoulombOperand::SpringAndDamping) => {
+                sliding.plus(damping).negated().over(stiffness)
             }
         };
-        *spring = R::select(sticks, stretched, length);
-        R::select(sticks, sticking, sliding)
-    }
-
-    /// The factor by which the spring's length changes while the normal turns.
-    #[inline(always)]
-    fn transport(&self, from: [R; 2], to: [R; 2]) -> R {
-        let cosine = along(from, to);
-        match self.history_update {
-            HistoryUpdate::Rotated => cosine.like(1.0),
-            HistoryUpdate::Projected => cosine,
-            HistoryUpdate::Linearised => {
-                let sine = tangential(from, to);
-                cosine + sine * sine
-            }
-        }
+        *spring = stretched.or_where_not(sticks, &length);
+        sticking.or_where_not(sticks, &sliding)
     }
 }
 
-impl<R: Real> ContactModel<R> for SpringDashpot<R> {
-    type Memory = Spring<R>;
+impl<R: Real, G: Geometry<R>> ContactModel<R, G> for SpringDashpot<R> {
+    type Memory = Spring<R, G>;
 
     #[inline(always)]
-    fn initial(&self, number: R) -> Spring<R> {
-        let zero = number.like(0.0);
-        Spring {
-            length: zero,
-            normal: [zero; 2],
-        }
+    fn initial(&self, number: R) -> Spring<R, G> {
+        Spring::unstretched(number)
     }
 
     #[inline(always)]
-    fn evaluate(&self, contact: &Contact<R>, memory: &mut Spring<R>) -> ContactForce<R> {
+    fn evaluate(&self, contact: &Contact<R, G>, memory: &mut Spring<R, G>) -> ContactForce<R, G> {
         self.exert(contact, contact.overlap, memory)
     }
 }
@@ -240,26 +257,40 @@ impl<R: Real> ContactModel<R> for SpringDashpot<R> {
 impl<R: Real> SpringDashpot<R> {
     /// The force of `contact`, whose normal spring exerts `elastic`, and whose memory is advanced to the present.
     #[inline(always)]
-    pub(super) fn exert(
+    pub(super) fn exert<G: Geometry<R>>(
         &self,
-        contact: &Contact<R>,
+        contact: &Contact<R, G>,
         elastic: R,
-        memory: &mut Spring<R>,
-    ) -> ContactForce<R> {
+        memory: &mut Spring<R, G>,
+    ) -> ContactForce<R, G> {
         let one = contact.overlap.like(1.0);
         let arms = match contact.counterpart {
             Counterpart::Cylinder => self.arms.pair,
             Counterpart::Wall => self.arms.floor,
         };
         let kinematic_arm = one + arms.kinematic * contact.overlap;
-        let velocity = contact.sliding_speed - kinematic_arm * contact.spin;
+        let rolling = G::rolling(contact.normal, contact.spin);
+        let velocity = contact.sliding_speed.minus(rolling.times(kinematic_arm));
         let normal = self.normal_force(elastic, contact.separation_speed);
         let limit = contact.friction * normal.abs();
-        if self.history_update != HistoryUpdate::Rotated {
-            memory.length *= self.transport(memory.normal, contact.normal);
+        let time_step = contact.time_step;
+        // In space the normal of a wall costs as much as another one to follow, and never turns.
+        let is_kept = match self.history_update {
+            HistoryUpdate::Rotated if G::IS_SMALL => true,
+            HistoryUpdate::Rotated | HistoryUpdate::Projected => {
+                !G::IS_SMALL && contact.counterpart == Counterpart::Wall
+            }
+            HistoryUpdate::Linearised => false,
+        };
+        if !is_kept {
+            memory.length = G::transport(
+                self.history_update,
+                memory.length,
+                [memory.normal, contact.normal],
+                contact.spin.times(time_step),
+            );
             memory.normal = contact.normal;
         }
-        let time_step = contact.time_step;
         ContactForce {
             normal,
             tangential: self.tangential_force(&mut memory.length, limit, velocity, time_step),
@@ -268,21 +299,10 @@ impl<R: Real> SpringDashpot<R> {
     }
 }
 
-/// Component of `vector` along `normal`.
-#[inline(always)]
-pub(super) fn along<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
-    normal[0] * vector[0] + normal[1] * vector[1]
-}
-
-/// Component of `vector` along t = (−n_y, n_x).
-#[inline(always)]
-pub(super) fn tangential<R: Real>(normal: [R; 2], vector: [R; 2]) -> R {
-    normal[0] * vector[1] - normal[1] * vector[0]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dem::geometry::Space;
 
     const CONTACT: Contact<f64> = Contact {
         counterpart: Counterpart::Wall,
@@ -378,7 +398,8 @@ mod tests {
                 history_update,
                 ..paper()
             };
-            law.transport(CONTACT.normal, turned)
+            let normals = [CONTACT.normal, turned];
+            <Plane as Geometry<f64>>::transport(law.history_update, 1.0, normals, 0.0)
         };
         let half_square = 0.5 * turn * turn;
         assert_eq!(factor(HistoryUpdate::Rotated), 1.0);
@@ -389,16 +410,16 @@ mod tests {
     #[test]
     fn a_force_is_put_together_from_its_components_and_taken_apart_into_them() {
         let normal = [0.6, 0.8];
-        let force = ContactForce {
+        let force = ContactForce::<f64> {
             normal: 2.0,
             tangential: 5.0,
             arm: 1.0,
         };
         // 2 n + 5 t with t = (-0.8, 0.6).
-        let vector: [f64; 2] = force.in_the_plane(normal);
+        let vector: [f64; 2] = force.as_vector(normal);
         assert!((vector[0] + 2.8).abs() < 1e-15 && (vector[1] - 4.6).abs() < 1e-15);
-        assert!((along(normal, vector) - 2.0).abs() < 1e-15);
-        assert!((tangential(normal, vector) - 5.0).abs() < 1e-15);
+        assert!((Plane::along(normal, vector) - 2.0).abs() < 1e-15);
+        assert!((Plane::tangential(normal, vector) - 5.0).abs() < 1e-15);
     }
 
     #[test]
@@ -462,5 +483,61 @@ mod tests {
         let mut memory = stretched(1.0);
         law.evaluate(&turned, &mut memory);
         assert_eq!((memory.length, memory.normal), (0.8, [-0.6, 0.8]));
+    }
+
+    const IN_SPACE: Contact<f64, Space> = Contact {
+        counterpart: Counterpart::Wall,
+        normal: [0.0, 1.0, 0.0],
+        overlap: 1.0,
+        separation_speed: 0.0,
+        sliding_speed: [0.3, 0.0, -0.4],
+        spin: [0.0; 3],
+        friction: 0.5,
+        time_step: 0.1,
+    };
+
+    #[test]
+    fn in_space_a_force_at_its_limit_is_along_the_motion_and_a_spin_adds_to_that_across_it() {
+        let mut memory: Spring<f64, Space> = Spring {
+            length: [0.0; 3],
+            normal: IN_SPACE.normal,
+        };
+        let law = SpringDashpot::<f64> {
+            arms: Arms::PAPER,
+            ..paper()
+        };
+        // ω × n of a spin about x is along z.
+        let contact = Contact {
+            sliding_speed: [30.0, 0.0, -20.0],
+            spin: [20.0, 0.0, 0.0],
+            ..IN_SPACE
+        };
+        let force = law.evaluate(&contact, &mut memory);
+        let [x, y, z] = force.tangential;
+        assert!((x + 0.5 * 0.6).abs() < 1e-15 && y == 0.0 && (z - 0.5 * 0.8).abs() < 1e-15);
+        let torque = force.torque(contact.normal);
+        assert!((torque[0] + 0.4).abs() < 1e-15 && (torque[2] - x).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_spring_in_space_turns_as_its_convention_says() {
+        let turn: f64 = 1e-2;
+        let (from, to) = ([0.0, 1.0, 0.0], [turn.sin(), turn.cos(), 0.0]);
+        // Half of it is in the plane of the turn.
+        let spring = [3.0, 0.0, 4.0];
+        let carried = |update, turned| Space::transport(update, spring, [from, to], turned);
+        let size = |vector: [f64; 3]| Space::along(vector, vector).sqrt();
+        let projected = carried(HistoryUpdate::Projected, [0.0; 3]);
+        assert!((size(projected) - (9.0 * turn.cos().powi(2) + 16.0).sqrt()).abs() < 1e-14);
+        let kept = carried(HistoryUpdate::Rotated, [0.0; 3]);
+        assert!((size(kept) - 5.0).abs() < 1e-14 && Space::along(kept, to).abs() < 1e-15);
+        let product = carried(HistoryUpdate::Linearised, [0.0; 3]);
+        let along_turn = product[0] * turn.cos() - product[1] * turn.sin();
+        let expected = 3.0 * (turn.cos() + turn.sin().powi(2));
+        assert!((along_turn - expected).abs() < 1e-14 && product[2] == 4.0);
+        // About the normal by half the sum of the angles.
+        let twisted = carried(HistoryUpdate::Linearised, [0.0, 2e-3, 0.0]);
+        assert!((twisted[0] - product[0] - 4.0 * 1e-3).abs() < 1e-14);
+        assert!((twisted[2] - product[2] + 3.0 * 1e-3).abs() < 1e-6);
     }
 }

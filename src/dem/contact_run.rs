@@ -1,11 +1,13 @@
 //! A micro-test in the native DEM.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
+use super::geometry::Facing;
+use super::geometry::{Geometry, Plane, Space};
 use super::power_law::PowerLaw;
-use super::scene::{Cylinder, Scene};
-use super::wall::{Facing, PlaneWall};
-use crate::model::{ContactTest, Drive, InitialMotion};
-use crate::series::{Motion, MotionRow, SeriesError};
+use super::scene::{Body, Scene};
+use super::wall::PlaneWall;
+use crate::model::{ContactTest, Drive, MotionInSpace};
+use crate::series::{Motion, MotionRow, RowInSpace, SeriesError};
 
 const BODIES: [usize; 2] = [0, 1];
 const TOP_WALL: usize = 1;
@@ -16,20 +18,44 @@ const TOP_WALL: usize = 1;
 /// If the motion leaves the finite numbers.
 pub fn run_contact_test(test: &ContactTest) -> Result<Motion, SeriesError> {
     match test.convention.law.is_linear() {
-        true => run_contact_test_with::<SpringDashpot<f64>>(test, law(test)),
-        false => run_contact_test_with::<PowerLaw<f64>>(test, law(test)),
+        true => run_by::<SpringDashpot<f64>>(test),
+        false => run_by::<PowerLaw<f64>>(test),
     }
 }
 
-fn law<Model: ConventionalModel<f64>>(test: &ContactTest) -> Model {
-    Model::of_convention(0.0, &test.convention, test.stiffness_ratio)
+fn run_by<Model>(test: &ContactTest) -> Result<Motion, SeriesError>
+where
+    Model: ConventionalModel<f64> + ConventionalModel<f64, Space>,
+{
+    let (convention, stiffness_ratio) = (&test.convention, test.stiffness_ratio);
+    match test.space {
+        None => {
+            let of = <Model as ConventionalModel<f64, Plane>>::of_convention;
+            run_contact_test_with(test, of(0.0, convention, stiffness_ratio))
+        }
+        Some(_) => {
+            let of = <Model as ConventionalModel<f64, Space>>::of_convention;
+            run_contact_test_in::<Model, Space>(test, of(0.0, convention, stiffness_ratio))
+        }
+    }
 }
 
-/// Runs `test` with any contact law.
+/// Runs `test` with any contact law in the plane.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers.
 pub fn run_contact_test_with<Model: ContactModel<f64>>(
+    test: &ContactTest,
+    model: Model,
+) -> Result<Motion, SeriesError> {
+    run_contact_test_in::<Model, Plane>(test, model)
+}
+
+/// The same in the plane or in space.
+///
+/// # Errors
+/// If the motion leaves the finite numbers.
+pub fn run_contact_test_in<Model: ContactModel<f64, G>, G: Geometry<f64>>(
     test: &ContactTest,
     model: Model,
 ) -> Result<Motion, SeriesError> {
@@ -43,8 +69,8 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
         wall(Facing::Up, 0.0, 0.0, test.floor_friction),
         wall(Facing::Down, -test.wall_height, test.wall_speed, 0.0),
     ];
-    let cylinders = BODIES.map(|body| launched(&test.initial_motions[body]));
-    let mut scene = Scene::new(cylinders, walls, model, test.time_step);
+    let bodies = BODIES.map(|body| launched(test, body));
+    let mut scene = Scene::<2, 2, f64, Model, G>::new(bodies, walls, model, test.time_step);
     scene.cylinder_friction = test.cylinder_friction;
     scene.moment_of_inertia = test.convention.moment_of_inertia;
     let rows = (0..=test.steps).map(|step| {
@@ -59,47 +85,75 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     Motion::new(rows.collect(), test.steps)
 }
 
-/// The cylinders at a step of a prescribed motion.
-fn driven(test: &ContactTest, drive: &Drive, step: u64) -> [Cylinder; 2] {
+/// The bodies at a step of a prescribed motion.
+fn driven<G: Geometry<f64>>(test: &ContactTest, drive: &Drive, step: u64) -> [Body<f64, G>; 2] {
     let [one, other] = test.initial_motions;
     let [distance, velocity] = drive.motion_at(step, test.time_step);
-    let moved = Cylinder {
-        velocity,
-        ..Cylinder::at(one.x + distance[0], one.y + distance[1])
+    let at = |x, y| Body::resting(G::vector([x, y, 0.0]));
+    let moved = Body {
+        velocity: G::vector([velocity[0], velocity[1], 0.0]),
+        ..at(one.x + distance[0], one.y + distance[1])
     };
-    [moved, Cylinder::at(other.x, other.y)]
+    [moved, at(other.x, other.y)]
 }
 
-fn launched(initial_motion: &InitialMotion) -> Cylinder {
-    Cylinder {
-        velocity: [initial_motion.vx, initial_motion.vy],
-        spin: initial_motion.spin,
-        ..Cylinder::at(initial_motion.x, initial_motion.y)
+fn launched<G: Geometry<f64>>(test: &ContactTest, body: usize) -> Body<f64, G> {
+    let plane = &test.initial_motions[body];
+    let beyond = test
+        .space
+        .map_or(MotionInSpace::default(), |space| space[body]);
+    Body {
+        velocity: G::vector([plane.vx, plane.vy, beyond.vz]),
+        spin: G::rotation([beyond.spinx, beyond.spiny, plane.spin]),
+        ..Body::resting(G::vector([plane.x, plane.y, beyond.z]))
     }
 }
 
-fn row<Model: ContactModel<f64>>(scene: &Scene<2, 2, f64, Model>, step: u64) -> MotionRow {
-    let [one, two] = BODIES.map(|index| &scene.cylinders[index]);
-    let [on_one, on_two] = BODIES.map(|index| scene.load(index));
+fn row<Model: ContactModel<f64, G>, G: Geometry<f64>>(
+    scene: &Scene<2, 2, f64, Model, G>,
+    step: u64,
+) -> MotionRow {
     let wall_force = BODIES.map(|index| scene.wall_force(TOP_WALL, index).normal);
+    let bodies = BODIES.map(|index| {
+        let (body, load) = (&scene.cylinders[index], scene.load(index));
+        let [x, y, z] = G::components(body.position);
+        let [vx, vy, vz] = G::components(body.velocity);
+        let [spinx, spiny, spin] = G::rotation_components(body.spin);
+        let [fx, fy, fz] = G::components(load.force);
+        let [torquex, torquey, torque] = G::rotation_components(load.torque);
+        let beyond = RowInSpace {
+            z,
+            vz,
+            fz,
+            spin: [spinx, spiny],
+            torque: [torquex, torquey],
+        };
+        ([x, y, vx, vy, spin, fx, fy, torque], beyond)
+    });
+    let [
+        ([x1, y1, vx1, vy1, spin1, fx1, fy1, torque1], one),
+        (two, other),
+    ] = bodies;
+    let [x2, y2, vx2, vy2, spin2, fx2, fy2, torque2] = two;
     MotionRow {
         step,
-        x1: one.position[0],
-        y1: one.position[1],
-        vx1: one.velocity[0],
-        vy1: one.velocity[1],
-        spin1: one.spin,
-        fx1: on_one.force[0],
-        fy1: on_one.force[1],
-        torque1: on_one.torque,
-        x2: two.position[0],
-        y2: two.position[1],
-        vx2: two.velocity[0],
-        vy2: two.velocity[1],
-        spin2: two.spin,
-        fx2: on_two.force[0],
-        fy2: on_two.force[1],
-        torque2: on_two.torque,
+        x1,
+        y1,
+        vx1,
+        vy1,
+        spin1,
+        fx1,
+        fy1,
+        torque1,
+        x2,
+        y2,
+        vx2,
+        vy2,
+        spin2,
+        fx2,
+        fy2,
+        torque2,
         wall_force: wall_force[0] + wall_force[1],
+        space: [one, other],
     }
 }

@@ -1,20 +1,21 @@
 //! A contact from one step to the next, in lanes of which perhaps only some touch.
 
 use super::contact::{Contact, ContactForce, ContactModel};
+use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real};
 
 /// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactState<R, Memory> {
+pub(super) struct ContactState<R: Real, Memory, G: Geometry<R> = Plane> {
     memory: Memory,
-    pub(super) force: ContactForce<R>,
+    pub(super) force: ContactForce<R, G>,
     /// Whether any lane has touched since the last reset.
     loaded: bool,
 }
 
-impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
+impl<R: Real, Memory: Copy + Composite<R>, G: Geometry<R>> ContactState<R, Memory, G> {
     #[inline(always)]
-    pub(super) fn initial<Model: ContactModel<R, Memory = Memory>>(
+    pub(super) fn initial<Model: ContactModel<R, G, Memory = Memory>>(
         model: &Model,
         number: R,
     ) -> Self {
@@ -28,12 +29,12 @@ impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
     /// The force of `contact` in the lanes where it `touches`; in the others the force is zero and the memory that of a
     /// new contact.
     #[inline(always)]
-    pub(super) fn evaluate<const KEEP: bool, Model: ContactModel<R, Memory = Memory>>(
+    pub(super) fn evaluate<const KEEP: bool, Model: ContactModel<R, G, Memory = Memory>>(
         &mut self,
         model: &Model,
-        contact: &Contact<R>,
+        contact: &Contact<R, G>,
         touches: Touch<R>,
-    ) -> ContactForce<R> {
+    ) -> ContactForce<R, G> {
         let mut memory = self.memory;
         let force = model.evaluate(contact, &mut memory);
         let nothing = Self::initial(model, contact.overlap);
@@ -46,7 +47,7 @@ impl<R: Real, Memory: Copy + Composite<R>> ContactState<R, Memory> {
     }
 
     #[inline(always)]
-    pub(super) fn separate<const KEEP: bool, Model: ContactModel<R, Memory = Memory>>(
+    pub(super) fn separate<const KEEP: bool, Model: ContactModel<R, G, Memory = Memory>>(
         &mut self,
         model: &Model,
         number: R,
@@ -74,7 +75,7 @@ impl<R: Real> Touch<R> {
     }
 }
 
-impl<R: Real, Memory: Composite<R>> Composite<R> for ContactState<R, Memory> {
+impl<R: Real, Memory: Composite<R>, G: Geometry<R>> Composite<R> for ContactState<R, Memory, G> {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.memory.visit(&other.memory, visit);
         self.force.visit(&other.force, visit);

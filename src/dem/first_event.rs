@@ -139,7 +139,7 @@ impl std::fmt::Display for EventRun {
             cylinder_friction,
             stiffness,
             stiffness_ratio,
-            bodies: _,
+            ..
         } = self.stack;
         write!(
             formatter,
@@ -211,7 +211,7 @@ impl Run {
         if until == Until::LastEvent && self.observation.last.is_some() {
             return true;
         }
-        self.scene.lower_top_wall(0, 0.0);
+        self.scene.lower_top_wall(0, TOP, 0.0);
         let (mut step, mut travel) = (0, 0.0);
         while travel < loading.wall_travel {
             if !wanted(step) {

@@ -1,11 +1,15 @@
 //! The sampled states of a native run with all contact forces.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
+use super::geometry::{Geometry, Space};
 use super::power_law::PowerLaw;
-use super::stack_run::{compress_stack_watched, law};
-use super::stack_scene::{FLOOR, StackScene, TOP, TOP_WALL};
-use crate::model::Case;
-use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedCylinder, Series, SeriesError};
+use super::scene::Scene;
+use super::stack_run::compress_stack_watched;
+use super::stack_scene::{
+    ConventionalStack, FLOOR, LoadedStack, SphereScene, StackScene, TOP_WALL,
+};
+use crate::model::{Case, PAPER_BODIES};
+use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedBody, Series, SeriesError};
 
 /// Compresses the stack like [`compress_stack`](super::compress_stack), to the same bits, and keeps every contact force
 /// at every row of the series.
@@ -22,14 +26,32 @@ pub fn compress_stack_into_frames(
     }
 }
 
-fn into_frames<Model: ConventionalModel<f64>>(
+fn into_frames<Model>(
     case: &Case,
     wanted: impl Fn() -> bool,
-) -> Result<(Series, Frames), SeriesError> {
+) -> Result<(Series, Frames), SeriesError>
+where
+    Model: ConventionalModel<f64> + ConventionalModel<f64, Space>,
+{
+    match case.stack.bodies {
+        PAPER_BODIES => watched(case, StackScene::<f64, Model>::of_case(case, 0.0), wanted),
+        _ => watched(case, SphereScene::<f64, Model>::of_case(case, 0.0), wanted),
+    }
+}
+
+fn watched<const BODIES: usize, const WALLS: usize, Model, G>(
+    case: &Case,
+    scene: Scene<BODIES, WALLS, f64, Model, G>,
+    wanted: impl Fn() -> bool,
+) -> Result<(Series, Frames), SeriesError>
+where
+    Model: ContactModel<f64, G>,
+    G: Geometry<f64>,
+    Scene<BODIES, WALLS, f64, Model, G>: LoadedStack,
+{
     let mut scenes = Vec::new();
-    let model: Model = law(case, 0.0);
-    let series = compress_stack_watched(case, (model, 0.0), wanted, |scene| {
-        scenes.push(frame(scene));
+    let series = compress_stack_watched(case, scene, wanted, |scene| {
+        scenes.push(frame(case, scene));
     })?;
     let stamped = scenes.into_iter().zip(series.samples());
     let frames = stamped.map(|(frame, sample)| Frame {
@@ -45,63 +67,97 @@ fn into_frames<Model: ConventionalModel<f64>>(
 }
 
 /// The present state of the scene, at time 0.
-fn frame<Model: ContactModel<f64>>(scene: &StackScene<f64, Model>) -> Frame {
-    let cylinders = scene.cylinders.iter().map(|cylinder| PlacedCylinder {
-        position: cylinder.position,
-        angle: cylinder.angle,
-        velocity: Some(cylinder.velocity),
+fn frame<const BODIES: usize, const WALLS: usize, Model, G>(
+    case: &Case,
+    scene: &Scene<BODIES, WALLS, f64, Model, G>,
+) -> Frame
+where
+    Model: ContactModel<f64, G>,
+    G: Geometry<f64>,
+{
+    let bodies = scene.cylinders.iter().take(count(case));
+    let bodies = bodies.map(|body| PlacedBody {
+        position: G::components(body.position),
+        rotation: G::rotation_components(body.angle),
+        velocity: Some(G::components(body.velocity)),
     });
-    let contacts = pair_contacts(scene).chain(wall_contacts(scene));
-    let loaded = |contact: &ContactPoint| contact.force() != [0.0; 2];
+    let contacts = pair_contacts(case, scene).chain(wall_contacts(case, scene));
     Frame {
         step: 0,
         time: 0.0,
-        wall_force: scene.wall_force(TOP_WALL, TOP).normal,
+        wall_force: scene.wall_force(TOP_WALL, case.stack.top()).normal,
         wall_height: -scene.walls[TOP_WALL].offset,
-        cylinders: cylinders.collect(),
-        contacts: contacts.filter(loaded).collect(),
+        bodies: bodies.collect(),
+        contacts: contacts.filter(ContactPoint::is_loaded).collect(),
     }
 }
 
-fn pair_contacts<Model: ContactModel<f64>>(
-    scene: &StackScene<f64, Model>,
-) -> impl Iterator<Item = ContactPoint> + '_ {
-    let count = scene.cylinders.len();
-    let pairs = (1..count).flat_map(|first| (0..first).map(move |second| (first, second)));
+/// The bodies that there are.
+fn count(case: &Case) -> usize {
+    usize::from(case.stack.bodies) + 1
+}
+
+fn pair_contacts<const BODIES: usize, const WALLS: usize, Model, G>(
+    case: &Case,
+    scene: &Scene<BODIES, WALLS, f64, Model, G>,
+) -> impl Iterator<Item = ContactPoint>
+where
+    Model: ContactModel<f64, G>,
+    G: Geometry<f64>,
+{
+    let pairs = (1..count(case)).flat_map(|first| (0..first).map(move |second| (first, second)));
     pairs.map(|(first, second)| {
-        let [one, other] = [first, second].map(|index| scene.cylinders[index].position);
-        let apart = [one[0] - other[0], one[1] - other[1]];
-        let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
+        let [one, other] =
+            [first, second].map(|index| G::components(scene.cylinders[index].position));
+        let apart = [0, 1, 2].map(|axis: usize| one[axis] - other[axis]);
+        let [x, y, z] = apart;
+        let distance = (x * x + y * y + z * z).sqrt();
+        let middle = [0, 1, 2].map(|axis: usize| 0.5 * (one[axis] + other[axis]));
+        let normal = apart.map(|component| component / distance);
         let force = scene.pair_force(first, second);
-        ContactPoint {
-            cylinder: first,
-            partner: Partner::Cylinder(second),
-            position: [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])],
-            normal: apart.map(|component| component / distance),
-            normal_force: force.normal,
-            tangential_force: force.tangential,
-        }
+        let parts = (force.normal, force.tangential);
+        contact::<G>(case, first, Partner::Body(second), middle, normal, parts)
     })
 }
 
-fn wall_contacts<Model: ContactModel<f64>>(
-    scene: &StackScene<f64, Model>,
-) -> impl Iterator<Item = ContactPoint> + '_ {
+fn wall_contacts<const BODIES: usize, const WALLS: usize, Model, G>(
+    case: &Case,
+    scene: &Scene<BODIES, WALLS, f64, Model, G>,
+) -> impl Iterator<Item = ContactPoint>
+where
+    Model: ContactModel<f64, G>,
+    G: Geometry<f64>,
+{
     let walls = [(FLOOR, Partner::Floor), (TOP_WALL, Partner::TopWall)].into_iter();
     walls.flat_map(move |(wall, partner)| {
-        (0..scene.cylinders.len()).map(move |cylinder| {
+        (0..count(case)).map(move |body| {
             let plane = &scene.walls[wall];
-            let normal = plane.facing.normal(0.0);
-            let [x, _] = scene.cylinders[cylinder].position;
-            let force = scene.wall_force(wall, cylinder);
-            ContactPoint {
-                cylinder,
-                partner,
-                position: [x, plane.offset * normal[1]],
-                normal,
-                normal_force: force.normal,
-                tangential_force: force.tangential,
-            }
+            let normal = G::components(plane.facing.normal::<_, G>(0.0));
+            let [x, _, z] = G::components(scene.cylinders[body].position);
+            let position = [x, plane.offset * normal[1], z];
+            let force = scene.wall_force(wall, body);
+            let parts = (force.normal, force.tangential);
+            contact::<G>(case, body, partner, position, normal, parts)
         })
     })
+}
+
+/// A contact with its normal and tangential force.
+fn contact<G: Geometry<f64>>(
+    case: &Case,
+    body: usize,
+    partner: Partner,
+    position: [f64; 3],
+    normal: [f64; 3],
+    (along, across): (f64, G::Tangent),
+) -> ContactPoint {
+    let direction = G::vector(normal);
+    if case.stack.bodies == PAPER_BODIES {
+        let ([x, y, _], [nx, ny, _]) = (position, normal);
+        // In the plane n × f is the component of f along t.
+        let [_, _, across] = G::rotation_components(G::torque(direction, across));
+        return ContactPoint::in_plane(body, partner, [x, y], [nx, ny], [along, across]);
+    }
+    let force = G::components(G::put_together(direction, along, across));
+    ContactPoint::in_space(body, partner, position, normal, force)
 }

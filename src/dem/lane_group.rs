@@ -1,9 +1,8 @@
 //! Stacks that advance in lockstep, one in each lane, each at its own step of its own case.
 
-use super::contact::ContactModel;
 use super::loading::LoadingProgram;
 use super::real::{Real, Work};
-use super::stack_scene::StackScene;
+use super::stack_scene::LoadedStack;
 use crate::model::Case;
 use crate::series::{DropWatch, Sample};
 
@@ -64,34 +63,34 @@ impl Lane {
 }
 
 /// Supplies the lanes with runs, and receives the results.
-pub(super) trait Supervisor<R: Real, Model: ContactModel<R>> {
+pub(super) trait Supervisor<Stack> {
     /// Puts the next run into a lane, if there is one.
-    fn fill(&mut self, stack: &mut StackScene<R, Model>, lane: usize) -> Option<Lane>;
+    fn fill(&mut self, stack: &mut Stack, lane: usize) -> Option<Lane>;
     /// Whether to continue; called every few milliseconds.
-    fn wanted(&mut self, stack: &StackScene<R, Model>, lanes: &[Option<Lane>]) -> bool;
+    fn wanted(&mut self, stack: &Stack, lanes: &[Option<Lane>]) -> bool;
     /// Called when a row has been taken.
-    fn sampled(&mut self, _stack: &StackScene<R, Model>) {}
+    fn sampled(&mut self, _stack: &Stack) {}
     /// Receives the run of a lane when it has ended, possibly early.
     fn ended(&mut self, lane: Lane);
 }
 
 /// As many stacks as there are lanes.
-pub(super) struct LaneGroup<R: Real, Model: ContactModel<R>> {
-    stack: StackScene<R, Model>,
+pub(super) struct LaneGroup<Stack: LoadedStack> {
+    stack: Stack,
     lanes: Vec<Option<Lane>>,
 }
 
-impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
+impl<Stack: LoadedStack> LaneGroup<Stack> {
     /// Lanes without runs, which share the properties of `stack`.
-    pub(super) fn new(stack: StackScene<R, Model>) -> Self {
+    pub(super) fn new(stack: Stack) -> Self {
         Self {
             stack,
-            lanes: vec![None; R::LANES],
+            lanes: vec![None; Stack::Number::LANES],
         }
     }
 
     /// Runs everything that `supervisor` supplies, until nothing is left or the runs are given up.
-    pub(super) fn run(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
+    pub(super) fn run(&mut self, supervisor: &mut impl Supervisor<Stack>) {
         for lane in 0..self.lanes.len() {
             self.lanes[lane] = supervisor.fill(&mut self.stack, lane);
         }
@@ -131,21 +130,21 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     }
 
     fn carry_out(&mut self, part: Part) {
-        let scene = &mut self.stack;
-        scene.time_step.vectorize(Stepping { scene, part });
+        let stack = &mut self.stack;
+        stack.number().vectorize(Stepping { stack, part });
     }
 
     /// One step with an action or a row.
-    fn eventful_step(&mut self, supervisor: &mut impl Supervisor<R, Model>) {
+    fn eventful_step(&mut self, supervisor: &mut impl Supervisor<Stack>) {
         for (index, lane) in eventful(&mut self.lanes) {
-            let mut act = |action| self.stack.act(index, action);
+            let case = lane.case;
+            let mut act = |action| self.stack.act(index, &case, action);
             lane.program.actions_at(lane.step, &mut act);
         }
         self.carry_out(Part::Forces);
         for (index, lane) in eventful(&mut self.lanes) {
             if let Some(row) = lane.program.row_at(lane.step) {
-                let time = row as f64 * lane.case.protocol.time_step;
-                lane.take(self.stack.sample(index, row, time));
+                lane.take(self.stack.sample(index, &lane.case, row));
                 supervisor.sampled(&self.stack);
             }
         }
@@ -156,7 +155,7 @@ impl<R: Real, Model: ContactModel<R>> LaneGroup<R, Model> {
     }
 
     /// Counts the step, and removes the run if it was its last.
-    fn step_on(&mut self, index: usize, supervisor: &mut impl Supervisor<R, Model>) {
+    fn step_on(&mut self, index: usize, supervisor: &mut impl Supervisor<Stack>) {
         let slot = &mut self.lanes[index];
         let Some(lane) = slot else { return };
         lane.step += 1;
@@ -180,20 +179,20 @@ enum Part {
     Steps(u64),
 }
 
-struct Stepping<'a, R: Real, Model: ContactModel<R>> {
-    scene: &'a mut StackScene<R, Model>,
+struct Stepping<'a, Stack> {
+    stack: &'a mut Stack,
     part: Part,
 }
 
-impl<R: Real, Model: ContactModel<R>> Work for Stepping<'_, R, Model> {
+impl<Stack: LoadedStack> Work for Stepping<'_, Stack> {
     #[inline(always)]
     fn carry_out(self) {
         match self.part {
-            Part::Forces => self.scene.evaluate_forces(),
-            Part::Motion => self.scene.advance(),
+            Part::Forces => self.stack.evaluate_forces(),
+            Part::Motion => self.stack.advance(),
             Part::Steps(steps) => {
                 for _ in 0..steps {
-                    self.scene.step();
+                    self.stack.step();
                 }
             }
         }

@@ -1,12 +1,10 @@
 //! Many stacks at once, one in each lane of the machine's vector registers.
 
-use super::contact::{ConventionalModel, SpringDashpot};
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::lanes::{Lanes, Pair};
-use super::power_law::PowerLaw;
-use super::real::{Composite, Real};
-use super::stack_run::law;
-use super::stack_scene::StackScene;
+use super::real::Real;
+use super::stack_run::{OnStack, on_stack};
+use super::stack_scene::{ConventionalStack, numbers, set_numbers};
 use crate::model::{Arms, Case, ContactConvention, Preparation};
 use crate::series::{DropWatch, Sample, Series, SeriesError};
 use pulp::Simd;
@@ -59,10 +57,15 @@ impl Checkpoint {
 
 /// The numbers of the scene of `case`.
 fn count_of_numbers(case: &Case) -> usize {
-    match case.convention.law.is_linear() {
-        true => stack::<f64, SpringDashpot<f64>>(case, 0.0).numbers(0).len(),
-        false => stack::<f64, PowerLaw<f64>>(case, 0.0).numbers(0).len(),
+    struct Count;
+    impl OnStack<f64> for Count {
+        type Outcome = usize;
+
+        fn on<Stack: ConventionalStack<Number = f64>>(self, stack: Stack) -> usize {
+            numbers(&stack, 0).len()
+        }
     }
+    on_stack(case, 0.0, Count)
 }
 
 /// Source of runs, and receiver of their series.
@@ -88,6 +91,7 @@ pub trait OpenRuns {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneKind {
     convention: ContactConvention,
+    bodies: u8,
     between_side_walls: bool,
 }
 
@@ -101,6 +105,7 @@ impl LaneKind {
                 moment_of_inertia: 1.0,
                 ..case.convention
             },
+            bodies: case.stack.bodies,
             between_side_walls: matches!(case.protocol.preparation, Preparation::SideWalls(_)),
         }
     }
@@ -172,28 +177,17 @@ impl LaneWidth {
 
 fn compress<R: Real>(number: R, queue: &mut impl RunQueue) {
     let Some(first) = queue.next() else { return };
-    match first.case.convention.law.is_linear() {
-        true => compress_from::<R, SpringDashpot<R>>(first, number, queue),
-        false => compress_from::<R, PowerLaw<R>>(first, number, queue),
+    let (case, kind) = (first.case, LaneKind::of(&first.case));
+    let next = Some(first);
+    on_stack(&case, number, Many { kind, next, queue });
+}
+
+impl<R: Real, Queue: RunQueue> OnStack<R> for Many<'_, Queue> {
+    type Outcome = ();
+
+    fn on<Stack: ConventionalStack<Number = R>>(mut self, stack: Stack) {
+        LaneGroup::new(stack).run(&mut self);
     }
-}
-
-fn compress_from<R: Real, Model: ConventionalModel<R>>(
-    first: OpenRun,
-    number: R,
-    queue: &mut impl RunQueue,
-) {
-    let stack: StackScene<R, Model> = stack(&first.case, number);
-    let mut many = Many {
-        kind: LaneKind::of(&first.case),
-        next: Some(first),
-        queue,
-    };
-    LaneGroup::new(stack).run(&mut many);
-}
-
-fn stack<R: Real, Model: ConventionalModel<R>>(case: &Case, number: R) -> StackScene<R, Model> {
-    StackScene::of(case, law(case, number), number)
 }
 
 struct Many<'a, Queue> {
@@ -202,17 +196,15 @@ struct Many<'a, Queue> {
     queue: &'a mut Queue,
 }
 
-impl<R: Real, Model: ConventionalModel<R>, Queue: RunQueue> Supervisor<R, Model>
-    for Many<'_, Queue>
-{
-    fn fill(&mut self, stack_of_all: &mut StackScene<R, Model>, lane: usize) -> Option<Lane> {
+impl<Stack: ConventionalStack, Queue: RunQueue> Supervisor<Stack> for Many<'_, Queue> {
+    fn fill(&mut self, stack_of_all: &mut Stack, lane: usize) -> Option<Lane> {
         let run = self.next.take().or_else(|| self.queue.next())?;
         assert_eq!(LaneKind::of(&run.case), self.kind, "one kind for all lanes");
-        let mut fresh: StackScene<R, Model> = stack(&run.case, stack_of_all.time_step);
+        let mut fresh = Stack::of_case(&run.case, stack_of_all.number());
         let kept = run.checkpoint.filter(|kept| kept.fits(&run.case));
         let (step, samples) = match kept {
             Some(checkpoint) => {
-                fresh.set_numbers(&checkpoint.numbers);
+                set_numbers(&mut fresh, &checkpoint.numbers);
                 (checkpoint.step, checkpoint.samples)
             }
             None => (0, Vec::new()),
@@ -221,22 +213,22 @@ impl<R: Real, Model: ConventionalModel<R>, Queue: RunQueue> Supervisor<R, Model>
         Some(Lane::new(run.index, run.case, step, samples))
     }
 
-    fn wanted(&mut self, stack: &StackScene<R, Model>, lanes: &[Option<Lane>]) -> bool {
+    fn wanted(&mut self, stack: &Stack, lanes: &[Option<Lane>]) -> bool {
         self.queue.wanted(&Open { stack, lanes })
     }
 
     fn ended(&mut self, lane: Lane) {
-        let series = Series::new(lane.samples, &lane.case.protocol);
+        let series = Series::new(lane.samples, &lane.case);
         self.queue.ended(lane.index, series);
     }
 }
 
-struct Open<'a, R: Real, Model: ConventionalModel<R>> {
-    stack: &'a StackScene<R, Model>,
+struct Open<'a, Stack> {
+    stack: &'a Stack,
     lanes: &'a [Option<Lane>],
 }
 
-impl<R: Real, Model: ConventionalModel<R>> OpenRuns for Open<'_, R, Model> {
+impl<Stack: ConventionalStack> OpenRuns for Open<'_, Stack> {
     fn steps(&self) -> Vec<(usize, u64)> {
         let lanes = self.lanes.iter().flatten();
         lanes.map(|lane| (lane.index, lane.step)).collect()
@@ -249,7 +241,7 @@ impl<R: Real, Model: ConventionalModel<R>> OpenRuns for Open<'_, R, Model> {
             let checkpoint = Checkpoint {
                 step: lane.step,
                 samples: lane.samples.clone(),
-                numbers: self.stack.numbers(index),
+                numbers: numbers(self.stack, index),
             };
             (lane.index, checkpoint)
         });

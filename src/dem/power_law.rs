@@ -3,7 +3,8 @@
 use super::contact::{
     Contact, ContactForce, ContactModel, ConventionalModel, Counterpart, Spring, SpringDashpot,
 };
-use super::real::{Real, composite};
+use super::geometry::{Geometry, Linear, Plane};
+use super::real::{Composite, Real, composite};
 use crate::model::{ContactConvention, ContactLaw};
 
 /// The law of any power, with the conventions by which codes differ.
@@ -16,17 +17,25 @@ pub struct PowerLaw<R> {
 }
 
 /// Memory of a [`PowerLaw`] contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadedSpring<R> {
+#[derive(Debug, Clone, Copy)]
+pub struct LoadedSpring<R: Real, G: Geometry<R> = Plane> {
     /// Its `length` is the displacement u, or k_t u as the force remembers it.
-    pub spring: Spring<R>,
+    pub spring: Spring<R, G>,
     /// Overlap in the last step; 0 of a new contact.
     pub overlap: R,
 }
 
-composite!(PowerLaw { pair, wall }, LoadedSpring { spring, overlap });
+composite!(PowerLaw { pair, wall });
 
-impl<R: Real> ConventionalModel<R> for PowerLaw<R> {
+impl<R: Real, G: Geometry<R>> Composite<R> for LoadedSpring<R, G> {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.spring.visit(&other.spring, visit);
+        self.overlap.visit(&other.overlap, visit);
+    }
+}
+
+impl<R: Real, G: Geometry<R>> ConventionalModel<R, G> for PowerLaw<R> {
     fn of_convention(number: R, convention: &ContactConvention, stiffness_ratio: f64) -> Self {
         let wall = convention.wall_law(stiffness_ratio);
         Self {
@@ -45,11 +54,11 @@ impl<R: Real> PowerLaw<R> {
     }
 }
 
-impl<R: Real> ContactModel<R> for PowerLaw<R> {
-    type Memory = LoadedSpring<R>;
+impl<R: Real, G: Geometry<R>> ContactModel<R, G> for PowerLaw<R> {
+    type Memory = LoadedSpring<R, G>;
 
     #[inline(always)]
-    fn initial(&self, number: R) -> LoadedSpring<R> {
+    fn initial(&self, number: R) -> LoadedSpring<R, G> {
         LoadedSpring {
             spring: self.pair.initial(number),
             overlap: number.like(0.0),
@@ -57,7 +66,11 @@ impl<R: Real> ContactModel<R> for PowerLaw<R> {
     }
 
     #[inline(always)]
-    fn evaluate(&self, contact: &Contact<R>, memory: &mut LoadedSpring<R>) -> ContactForce<R> {
+    fn evaluate(
+        &self,
+        contact: &Contact<R, G>,
+        memory: &mut LoadedSpring<R, G>,
+    ) -> ContactForce<R, G> {
         let (law, overlap) = (self.law(contact.counterpart), contact.overlap);
         let two = overlap.like(2.0);
         let own = law.coefficients(overlap, R::sqrt, |overlap| two / (two - overlap));
@@ -77,16 +90,17 @@ impl<R: Real> ContactModel<R> for PowerLaw<R> {
         if law.history.is_rescaled() {
             let shrinks = overlap.less(*last);
             let one = overlap.like(1.0);
-            spring.length *= R::select(shrinks, (overlap / *last).sqrt(), one);
+            let factor = R::select(shrinks, (overlap / *last).sqrt(), one);
+            spring.length = spring.length.times(factor);
             *last = overlap;
         }
         if !law.history.keeps_force() {
             return springs.exert(contact, own.secant * overlap, spring);
         }
         // As a displacement at the present stiffness it grows by k_t du.
-        spring.length = spring.length / own.tangential_stiffness;
+        spring.length = spring.length.over(own.tangential_stiffness);
         let force = springs.exert(contact, own.secant * overlap, spring);
-        spring.length *= own.tangential_stiffness;
+        spring.length = spring.length.times(own.tangential_stiffness);
         force
     }
 }
@@ -99,7 +113,8 @@ mod tests {
     const TIME_STEP: f64 = 0.1;
 
     fn of(law: Law) -> PowerLaw<f64> {
-        PowerLaw::of_convention(0.0, &ContactConvention::with_law(law), 2.0)
+        let convention = ContactConvention::with_law(law);
+        ConventionalModel::<f64>::of_convention(0.0, &convention, 2.0)
     }
 
     fn contact(overlap: f64, sliding_speed: f64) -> Contact<f64> {

@@ -1,10 +1,9 @@
-//! Cylinders between plane walls, and one leapfrog step of them all.
+//! Cylinders or spheres between plane walls, and one leapfrog step of them all.
 
-use super::contact::{
-    Contact, ContactForce, ContactModel, Counterpart, SpringDashpot, along, tangential,
-};
+use super::contact::{Contact, ContactForce, ContactModel, Counterpart, SpringDashpot};
 use super::contact_state::{ContactState, Touch};
-use super::real::{Composite, Real, composite};
+use super::geometry::{Geometry, Linear, Plane, Space};
+use super::real::{Composite, Real};
 use super::wall::PlaneWall;
 use crate::model::CYLINDER_INERTIA;
 
@@ -27,91 +26,110 @@ macro_rules! unrolled {
     };
 }
 
-/// A cylinder of unit mass and radius. Velocities belong to the half step before the positions.
+/// A cylinder or sphere of unit mass and radius. Velocities belong to the half step before the positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cylinder<R = f64> {
+pub struct Body<R: Real = f64, G: Geometry<R> = Plane> {
     /// Centre.
-    pub position: [R; 2],
-    /// Rotation, counter-clockwise.
-    pub angle: R,
+    pub position: G::Vector,
+    /// Rotation, counter-clockwise; in space the time integral of the angular velocity.
+    pub angle: G::Rotation,
     /// Velocity of the centre.
-    pub velocity: [R; 2],
+    pub velocity: G::Vector,
     /// Angular velocity, counter-clockwise.
-    pub spin: R,
+    pub spin: G::Rotation,
 }
 
-composite!(
-    Cylinder {
-        position,
-        angle,
-        velocity,
-        spin
-    },
-    Load { force, torque },
-);
+/// A body in the plane.
+pub type Cylinder<R = f64> = Body<R, Plane>;
+
+/// A body in space.
+pub type Sphere<R = f64> = Body<R, Space>;
+
+impl<R: Real, G: Geometry<R>> Composite<R> for Body<R, G> {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.position.visit(&other.position, visit);
+        self.angle.visit(&other.angle, visit);
+        self.velocity.visit(&other.velocity, visit);
+        self.spin.visit(&other.spin, visit);
+    }
+}
 
 impl<R: Real> Cylinder<R> {
     /// A cylinder at rest.
     pub fn at(x: R, y: R) -> Self {
-        let zero = x.like(0.0);
+        Self::resting([x, y])
+    }
+}
+
+impl<R: Real, G: Geometry<R>> Body<R, G> {
+    /// A body at rest.
+    pub fn resting(position: G::Vector) -> Self {
+        let zero = [G::components(position)[0].like(0.0); 3];
         Self {
-            position: [x, y],
-            angle: zero,
-            velocity: [zero; 2],
-            spin: zero,
+            position,
+            angle: G::rotation(zero),
+            velocity: G::vector(zero),
+            spin: G::rotation(zero),
         }
     }
 
     /// Kicks the velocities over a whole step, then drifts the positions.
     #[inline(always)]
-    pub(super) fn advance(&mut self, load: &Load<R>, moment_of_inertia: R, time_step: R) {
-        for axis in 0..2 {
-            self.velocity[axis] += load.force[axis] * time_step;
-            self.position[axis] += self.velocity[axis] * time_step;
-        }
-        self.spin += load.torque / moment_of_inertia * time_step;
-        self.angle += self.spin * time_step;
+    pub(super) fn advance(&mut self, load: &Load<R, G>, moment_of_inertia: R, time_step: R) {
+        self.velocity = self.velocity.plus(load.force.times(time_step));
+        self.position = self.position.plus(self.velocity.times(time_step));
+        let kick = G::divided(load.torque, moment_of_inertia).times(time_step);
+        self.spin = self.spin.plus(kick);
+        self.angle = self.angle.plus(self.spin.times(time_step));
+    }
+
+    /// Difference of two centres, and its square.
+    #[inline(always)]
+    pub(super) fn apart([i, j]: [&Self; 2]) -> (G::Vector, R) {
+        let apart = i.position.minus(j.position);
+        (apart, G::along(apart, apart))
     }
 }
 
-impl<R: Real> Contact<R> {
-    /// The contact of two cylinders, from the difference of their positions and its square.
+impl<R: Real, G: Geometry<R>> Contact<R, G> {
+    /// The contact of two bodies, from the difference of their positions and its square.
     #[inline(always)]
     pub(super) fn of_pair(
-        [i, j]: [&Cylinder<R>; 2],
-        (apart, square): ([R; 2], R),
+        [i, j]: [&Body<R, G>; 2],
+        (apart, square): (G::Vector, R),
         friction: R,
         time_step: R,
     ) -> Self {
         let distance = square.sqrt();
-        let normal = [apart[0] / distance, apart[1] / distance];
-        let velocity = [i.velocity[0] - j.velocity[0], i.velocity[1] - j.velocity[1]];
+        let normal = G::divided(apart, distance);
+        let velocity = i.velocity.minus(j.velocity);
         Self {
             counterpart: Counterpart::Cylinder,
             normal,
             overlap: distance.like(2.0) - distance,
-            separation_speed: along(normal, velocity),
-            sliding_speed: tangential(normal, velocity),
-            spin: i.spin + j.spin,
+            separation_speed: G::along(normal, velocity),
+            sliding_speed: G::tangential(normal, velocity),
+            spin: i.spin.plus(j.spin),
             friction,
             time_step,
         }
     }
 
-    /// The contact of a cylinder with a wall.
+    /// The contact of a body with a wall.
     #[inline(always)]
     pub(super) fn with_wall(
-        body: &Cylinder<R>,
+        body: &Body<R, G>,
         plane: &PlaneWall<R>,
         overlap: R,
         time_step: R,
     ) -> Self {
         Self {
             counterpart: Counterpart::Wall,
-            normal: plane.facing.normal(overlap),
+            normal: plane.facing.normal::<R, G>(overlap),
             overlap,
-            separation_speed: plane.facing.along(body.velocity) - plane.speed,
-            sliding_speed: plane.facing.tangential(body.velocity),
+            separation_speed: G::along_wall(plane.facing, body.velocity) - plane.speed,
+            sliding_speed: G::tangential_to_wall(plane.facing, body.velocity),
             spin: body.spin,
             friction: plane.friction,
             time_step,
@@ -119,17 +137,20 @@ impl<R: Real> Contact<R> {
     }
 }
 
-/// Cylinders, walls and the state of all their contacts. Their numbers are known to the compiler, which keeps them in
+/// Cylinders or spheres, walls and the state of all their contacts. Their numbers are known to the compiler, which keeps them in
 /// registers as far as possible.
 #[derive(Debug, Clone)]
 pub struct Scene<
     const CYLINDERS: usize,
     const WALLS: usize,
     R: Real = f64,
-    Model: ContactModel<R> = SpringDashpot<R>,
+    Model: ContactModel<R, G> = SpringDashpot<R>,
+    G: Geometry<R> = Plane,
 > {
-    /// The cylinders.
-    pub cylinders: [Cylinder<R>; CYLINDERS],
+    /// The cylinders, or spheres.
+    pub cylinders: [Body<R, G>; CYLINDERS],
+    /// How many of them there are in space, the first ones; the others are skipped. In the plane there are all.
+    pub sphere_count: usize,
     /// The walls.
     pub walls: [PlaneWall<R>; WALLS],
     /// The walls that exist; the others are skipped.
@@ -145,26 +166,37 @@ pub struct Scene<
     /// Time step.
     pub time_step: R,
     /// Contacts of pairs, by the higher index and the lower one.
-    pair_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; CYLINDERS],
-    wall_contacts: [[ContactState<R, Model::Memory>; CYLINDERS]; WALLS],
-    loads: [Load<R>; CYLINDERS],
+    pair_contacts: [[ContactState<R, Model::Memory, G>; CYLINDERS]; CYLINDERS],
+    wall_contacts: [[ContactState<R, Model::Memory, G>; CYLINDERS]; WALLS],
+    loads: [Load<R, G>; CYLINDERS],
 }
 
 /// Force and torque on a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Load<R = f64> {
+pub struct Load<R: Real = f64, G: Geometry<R> = Plane> {
     /// Force.
-    pub force: [R; 2],
+    pub force: G::Vector,
     /// Torque about the centre, counter-clockwise.
-    pub torque: R,
+    pub torque: G::Rotation,
 }
 
-impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>>
-    Scene<CYLINDERS, WALLS, R, Model>
+impl<R: Real, G: Geometry<R>> Composite<R> for Load<R, G> {
+    #[inline(always)]
+    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
+        self.force.visit(&other.force, visit);
+        self.torque.visit(&other.torque, visit);
+    }
+}
+
+impl<const CYLINDERS: usize, const WALLS: usize, R, Model, G> Scene<CYLINDERS, WALLS, R, Model, G>
+where
+    R: Real,
+    Model: ContactModel<R, G>,
+    G: Geometry<R>,
 {
     /// A scene without friction between cylinders and without gravity; every contact is free of stress.
     pub fn new(
-        cylinders: [Cylinder<R>; CYLINDERS],
+        cylinders: [Body<R, G>; CYLINDERS],
         walls: [PlaneWall<R>; WALLS],
         model: Model,
         time_step: R,
@@ -176,6 +208,7 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
             wall_contacts: [[contact; CYLINDERS]; WALLS],
             loads: [Load::weight(zero); CYLINDERS],
             cylinders,
+            sphere_count: CYLINDERS,
             walls,
             wall_exists: [true; WALLS],
             model,
@@ -187,17 +220,17 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
     }
 
     /// Force of a wall on a cylinder, as of the last evaluation of the forces.
-    pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R> {
+    pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R, G> {
         &self.wall_contacts[wall][cylinder].force
     }
 
     /// Force and torque on a cylinder, as of the last evaluation of the forces.
-    pub fn load(&self, cylinder: usize) -> &Load<R> {
+    pub fn load(&self, cylinder: usize) -> &Load<R, G> {
         &self.loads[cylinder]
     }
 
     /// Force between two cylinders, the one with the higher index first, as of the last evaluation of the forces.
-    pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R> {
+    pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R, G> {
         &self.pair_contacts[first][second].force
     }
 
@@ -223,27 +256,47 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
 
     /// The loads on all cylinders.
     #[inline(always)]
-    fn forces<const KEEP: bool>(&mut self) -> [Load<R>; CYLINDERS] {
+    fn forces<const KEEP: bool>(&mut self) -> [Load<R, G>; CYLINDERS] {
         let mut loads = [Load::weight(self.gravity); CYLINDERS];
-        unrolled!(first below CYLINDERS {
-            unrolled!(second below first {
-                self.evaluate_pair::<KEEP>(first, second, &mut loads);
+        if G::IS_SMALL {
+            unrolled!(first below CYLINDERS {
+                unrolled!(second below first {
+                    self.evaluate_pair::<KEEP>(first, second, &mut loads);
+                });
             });
-        });
+        } else {
+            for first in 0..self.sphere_count {
+                for second in 0..first {
+                    self.evaluate_pair::<KEEP>(first, second, &mut loads);
+                }
+            }
+        }
         for wall in 0..WALLS {
-            if self.wall_exists[wall] {
+            if !self.wall_exists[wall] {
+                continue;
+            }
+            if G::IS_SMALL {
                 unrolled!(cylinder below CYLINDERS {
                     self.evaluate_wall::<KEEP>(wall, cylinder, &mut loads);
                 });
+            } else {
+                for cylinder in 0..self.sphere_count {
+                    self.evaluate_wall::<KEEP>(wall, cylinder, &mut loads);
+                }
             }
         }
         loads
     }
 
     #[inline(always)]
-    fn accelerate(&mut self, loads: &[Load<R>; CYLINDERS]) {
+    fn accelerate(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
         let dt = self.time_step;
-        for (cylinder, load) in self.cylinders.iter_mut().zip(loads) {
+        let count = if G::IS_SMALL {
+            CYLINDERS
+        } else {
+            self.sphere_count
+        };
+        for (cylinder, load) in self.cylinders.iter_mut().zip(loads).take(count) {
             cylinder.advance(load, self.moment_of_inertia, dt);
         }
         for (wall, exists) in self.walls.iter_mut().zip(self.wall_exists) {
@@ -258,11 +311,9 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         &mut self,
         first: usize,
         second: usize,
-        loads: &mut [Load<R>; CYLINDERS],
+        loads: &mut [Load<R, G>; CYLINDERS],
     ) {
-        let [i, j] = [first, second].map(|index| self.cylinders[index].position);
-        let apart = [i[0] - j[0], i[1] - j[1]];
-        let square = apart[0] * apart[0] + apart[1] * apart[1];
+        let (apart, square) = Body::apart([&self.cylinders[first], &self.cylinders[second]]);
         let touches = square.less(square.like(4.0));
         if !square.any(touches) {
             self.pair_contacts[first][second].separate::<KEEP, _>(&self.model, square);
@@ -278,9 +329,9 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         &mut self,
         first: usize,
         second: usize,
-        (apart, square): ([R; 2], R),
+        (apart, square): (G::Vector, R),
         touches: Touch<R>,
-        loads: &mut [Load<R>; CYLINDERS],
+        loads: &mut [Load<R, G>; CYLINDERS],
     ) {
         let pair = [first, second].map(|index| &self.cylinders[index]);
         let contact = Contact::of_pair(
@@ -291,10 +342,10 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         );
         let state = &mut self.pair_contacts[first][second];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
-        let force = exerted.in_the_plane(contact.normal);
-        let torque = exerted.arm * exerted.tangential;
-        loads[first].add(touches, force, -torque);
-        loads[second].add(touches, [-force[0], -force[1]], -torque);
+        let force = exerted.as_vector(contact.normal);
+        let torque = exerted.torque(contact.normal);
+        loads[first].add(touches, force, torque);
+        loads[second].add(touches, force.negated(), torque);
     }
 
     #[inline(always)]
@@ -302,10 +353,10 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         &mut self,
         wall: usize,
         cylinder: usize,
-        loads: &mut [Load<R>; CYLINDERS],
+        loads: &mut [Load<R, G>; CYLINDERS],
     ) {
         let plane = &self.walls[wall];
-        let overlap = plane.overlap(self.cylinders[cylinder].position);
+        let overlap = plane.overlap::<G>(self.cylinders[cylinder].position);
         let touches = overlap.like(0.0).less(overlap);
         if !overlap.any(touches) {
             self.wall_contacts[wall][cylinder].separate::<KEEP, _>(&self.model, overlap);
@@ -323,40 +374,44 @@ impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R>
         cylinder: usize,
         overlap: R,
         touches: Touch<R>,
-        loads: &mut [Load<R>; CYLINDERS],
+        loads: &mut [Load<R, G>; CYLINDERS],
     ) {
         let plane = self.walls[wall];
         let contact =
             Contact::with_wall(&self.cylinders[cylinder], &plane, overlap, self.time_step);
         let state = &mut self.wall_contacts[wall][cylinder];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
-        let force = plane.facing.in_the_plane(&exerted);
-        let torque = exerted.arm * exerted.tangential;
-        loads[cylinder].add(touches, force, -torque);
+        let force = G::put_together_at_wall(plane.facing, exerted.normal, exerted.tangential);
+        loads[cylinder].add(touches, force, exerted.torque(contact.normal));
     }
 }
 
-impl<R: Real> Load<R> {
+impl<R: Real, G: Geometry<R>> Load<R, G> {
     #[inline(always)]
     pub(super) fn weight(gravity: R) -> Self {
+        let zero = gravity.like(0.0);
         Self {
-            force: [gravity.like(0.0), -gravity],
-            torque: gravity.like(0.0),
+            force: G::vector([zero, -gravity, zero]),
+            torque: G::rotation([zero; 3]),
         }
     }
 
     #[inline(always)]
-    pub(super) fn add(&mut self, touches: Touch<R>, force: [R; 2], torque: R) {
+    pub(super) fn add(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
         let sum = Self {
-            force: [self.force[0] + force[0], self.force[1] + force[1]],
-            torque: self.torque + torque,
+            force: self.force.plus(force),
+            torque: self.torque.plus(torque),
         };
         *self = touches.choose(sum, *self);
     }
 }
 
-impl<const CYLINDERS: usize, const WALLS: usize, R: Real, Model: ContactModel<R> + Composite<R>>
-    Composite<R> for Scene<CYLINDERS, WALLS, R, Model>
+impl<const CYLINDERS: usize, const WALLS: usize, R, Model, G> Composite<R>
+    for Scene<CYLINDERS, WALLS, R, Model, G>
+where
+    R: Real,
+    Model: ContactModel<R, G> + Composite<R>,
+    G: Geometry<R>,
 {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.cylinders.visit(&other.cylinders, visit);

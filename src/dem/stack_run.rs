@@ -1,13 +1,47 @@
-//! The three-cylinder stack: prepared, compressed, sampled.
+//! The stack: prepared, compressed, sampled.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::double_double::DoubleDouble;
+use super::geometry::Space;
 use super::lane_group::{Lane, LaneGroup, Supervisor};
 use super::power_law::PowerLaw;
 use super::real::Real;
-use super::stack_scene::StackScene;
+use super::stack_scene::{ConventionalStack, LoadedStack, SphereScene, StackScene};
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
+
+/// Work on the scene of a case, whichever it is.
+pub(super) trait OnStack<R: Real> {
+    /// The result.
+    type Outcome;
+
+    /// Does the work on `stack`, that of the case at the start of its preparation.
+    fn on<Stack: ConventionalStack<Number = R>>(self, stack: Stack) -> Self::Outcome;
+}
+
+/// Does `work` on the scene of `case` in numbers like `number`.
+pub(super) fn on_stack<R: Real, Work: OnStack<R>>(
+    case: &Case,
+    number: R,
+    work: Work,
+) -> Work::Outcome {
+    match case.convention.law.is_linear() {
+        true => on_stack_with::<R, SpringDashpot<R>, Work>(case, number, work),
+        false => on_stack_with::<R, PowerLaw<R>, Work>(case, number, work),
+    }
+}
+
+fn on_stack_with<R, Model, Work>(case: &Case, number: R, work: Work) -> Work::Outcome
+where
+    R: Real,
+    Model: ConventionalModel<R> + ConventionalModel<R, Space>,
+    Work: OnStack<R>,
+{
+    match case.stack.bodies {
+        2 => work.on(StackScene::<R, Model>::of_case(case, number)),
+        _ => work.on(SphereScene::<R, Model>::of_case(case, number)),
+    }
+}
 
 /// Prepares and compresses the stack of `case`, and samples the compression as planned. The run is given up once
 /// `wanted` is false.
@@ -15,10 +49,7 @@ use crate::series::{Series, SeriesError};
 /// # Errors
 /// If the motion leaves the finite numbers, or the run is given up.
 pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Series, SeriesError> {
-    match case.convention.law.is_linear() {
-        true => compress_stack_with::<SpringDashpot<f64>>(case, law(case, 0.0), wanted),
-        false => compress_stack_with::<PowerLaw<f64>>(case, law(case, 0.0), wanted),
-    }
+    on_stack(case, 0.0, Compress { case, wanted })
 }
 
 /// The same in double-double arithmetic, 106 bits, at some forty times the cost: the difference from [`compress_stack`]
@@ -30,23 +61,20 @@ pub fn compress_stack_precisely(
     case: &Case,
     wanted: impl Fn() -> bool,
 ) -> Result<Series, SeriesError> {
-    match case.convention.law.is_linear() {
-        true => precisely::<SpringDashpot<_>>(case, wanted),
-        false => precisely::<PowerLaw<_>>(case, wanted),
+    on_stack(case, DoubleDouble::new(0.0), Compress { case, wanted })
+}
+
+struct Compress<'a, Wanted> {
+    case: &'a Case,
+    wanted: Wanted,
+}
+
+impl<R: Real, Wanted: Fn() -> bool> OnStack<R> for Compress<'_, Wanted> {
+    type Outcome = Result<Series, SeriesError>;
+
+    fn on<Stack: ConventionalStack<Number = R>>(self, stack: Stack) -> Self::Outcome {
+        compress_stack_watched(self.case, stack, self.wanted, |_| ())
     }
-}
-
-fn precisely<Model: ConventionalModel<DoubleDouble>>(
-    case: &Case,
-    wanted: impl Fn() -> bool,
-) -> Result<Series, SeriesError> {
-    let zero = DoubleDouble::new(0.0);
-    compress_stack_watched(case, (law::<_, Model>(case, zero), zero), wanted, |_| ())
-}
-
-/// The contact law of `case`, in numbers like `number`.
-pub(super) fn law<R: Real, Model: ConventionalModel<R>>(case: &Case, number: R) -> Model {
-    Model::of_convention(number, &case.convention, case.stack.stiffness_ratio)
 }
 
 /// Like [`compress_stack`], with any contact law.
@@ -58,15 +86,15 @@ pub fn compress_stack_with<Model: ContactModel<f64>>(
     model: Model,
     wanted: impl Fn() -> bool,
 ) -> Result<Series, SeriesError> {
-    compress_stack_watched(case, (model, 0.0), wanted, |_| ())
+    compress_stack_watched(case, StackScene::of(case, model, 0.0), wanted, |_| ())
 }
 
-/// Like [`compress_stack`], in numbers like `number`; `watch` receives every sampled state.
-pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
+/// Like [`compress_stack`], of a `stack` at the start of its preparation; `watch` receives every sampled state.
+pub(super) fn compress_stack_watched<Stack: LoadedStack>(
     case: &Case,
-    (model, number): (Model, R),
+    stack: Stack,
     wanted: impl Fn() -> bool,
-    watch: impl FnMut(&StackScene<R, Model>),
+    watch: impl FnMut(&Stack),
 ) -> Result<Series, SeriesError> {
     let mut single = Single {
         case: Some(*case),
@@ -74,8 +102,8 @@ pub(super) fn compress_stack_watched<R: Real, Model: ContactModel<R>>(
         watch,
         samples: Vec::new(),
     };
-    LaneGroup::new(StackScene::of(case, model, number)).run(&mut single);
-    Series::new(single.samples, &case.protocol)
+    LaneGroup::new(stack).run(&mut single);
+    Series::new(single.samples, case)
 }
 
 /// Supervises the one run of a stack.
@@ -86,23 +114,21 @@ struct Single<Wanted, Watch> {
     samples: Vec<crate::series::Sample>,
 }
 
-impl<R, Model, Wanted, Watch> Supervisor<R, Model> for Single<Wanted, Watch>
+impl<Stack, Wanted, Watch> Supervisor<Stack> for Single<Wanted, Watch>
 where
-    R: Real,
-    Model: ContactModel<R>,
     Wanted: Fn() -> bool,
-    Watch: FnMut(&StackScene<R, Model>),
+    Watch: FnMut(&Stack),
 {
-    fn fill(&mut self, _: &mut StackScene<R, Model>, _: usize) -> Option<Lane> {
+    fn fill(&mut self, _: &mut Stack, _: usize) -> Option<Lane> {
         let case = self.case.take()?;
         Some(Lane::new(0, case, 0, Vec::new()))
     }
 
-    fn wanted(&mut self, _: &StackScene<R, Model>, _: &[Option<Lane>]) -> bool {
+    fn wanted(&mut self, _: &Stack, _: &[Option<Lane>]) -> bool {
         (self.wanted)()
     }
 
-    fn sampled(&mut self, stack: &StackScene<R, Model>) {
+    fn sampled(&mut self, stack: &Stack) {
         (self.watch)(stack);
     }
 

@@ -19,6 +19,20 @@ pub struct InitialMotion {
     pub spin: f64,
 }
 
+/// What a sphere has when a micro-test in space begins, beyond what a cylinder has.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionInSpace {
+    /// Position of the centre along z; x, y and z are right-handed.
+    pub z: f64,
+    /// Velocity along z.
+    pub vz: f64,
+    /// Angular velocity about x.
+    pub spinx: f64,
+    /// Angular velocity about y.
+    pub spiny: f64,
+}
+
 /// How cylinder 1 is moved where its motion is prescribed: in four legs of as many steps, without rotation. The other
 /// cylinder is held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -56,6 +70,9 @@ pub struct ContactTest {
     /// How cylinder 1 is moved; left out, both move freely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive: Option<Drive>,
+    /// Of spheres, which move in space; left out, cylinders move in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<[MotionInSpace; 2]>,
 }
 
 impl Drive {

@@ -2,6 +2,7 @@
 
 use super::Arms;
 use super::law::{ContactLaw, Law};
+use super::stack::{PAPER_BODIES, Stack};
 use super::validity::{InvalidValue, within};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,9 @@ pub const PAPER_RESTITUTION: f64 = 0.7;
 
 /// Moment of inertia of a solid cylinder, m r²/2.
 pub(crate) const CYLINDER_INERTIA: f64 = 0.5;
+
+/// Moment of inertia of a solid sphere in m r².
+const SPHERE_INERTIA: f64 = 0.4;
 
 /// The force that Coulomb's limit μ |f_n| is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -116,6 +120,18 @@ impl ContactConvention {
     /// The paper's convention but for the law.
     pub const fn with_law(law: Law) -> Self {
         Self { law, ..Self::PAPER }
+    }
+
+    /// The convention for a stack of cylinders or spheres: whatever codes make of cylinders, their spheres are solid.
+    #[must_use]
+    pub fn of_bodies(self, stack: &Stack) -> Self {
+        match stack.bodies {
+            PAPER_BODIES => self,
+            _ => Self {
+                moment_of_inertia: SPHERE_INERTIA,
+                ..self
+            },
+        }
     }
 
     /// The law of contacts between cylinders at stiffness ratio κ.

@@ -102,6 +102,7 @@ impl Impact {
             wall_speed: 0.0,
             initial_motions,
             drive: None,
+            space: None,
         }
     }
 

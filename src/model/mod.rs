@@ -5,6 +5,7 @@
 //! K δᵖ, K rᵖ⁻¹ takes the place of k_n. The yield force alone is given in m g, as in the paper (arXiv:2511.06807).
 
 mod arms;
+mod arrangement;
 mod case;
 mod case_file;
 mod contact_test;
@@ -25,9 +26,10 @@ mod written_stack;
 
 pub(crate) use arms::ARM_RANGE;
 pub use arms::{Arms, ContactArms};
+pub use arrangement::{Arrangement, MOST_BODIES, Place};
 pub use case::{Case, CaseError};
 pub use case_file::{PartialCase, PartialProtocol};
-pub use contact_test::{ContactTest, Drive, InitialMotion};
+pub use contact_test::{ContactTest, Drive, InitialMotion, MotionInSpace};
 pub(crate) use convention::CYLINDER_INERTIA;
 pub use convention::{
     ContactConvention, CoulombOperand, HistoryUpdate, PAPER_RESTITUTION, SlidingSpring,

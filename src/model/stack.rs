@@ -1,7 +1,7 @@
 //! The dimensionless groups of the problem.
 
 use super::validity::{InvalidValue, positive, within};
-use super::{ContactConvention, Material, Power, Ring};
+use super::{Arrangement, ContactConvention, Material, Power, Ring};
 use serde::{Deserialize, Serialize};
 
 /// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), the double nearest to it.
@@ -41,6 +41,9 @@ pub struct Stack {
     /// Number n of bodies on the floor: 2, the paper's cylinders, or 3 to 5 spheres in a ring, with one on top.
     #[serde(default = "paper_bodies", skip_serializing_if = "are_cylinders")]
     pub bodies: u8,
+    /// How spheres lie and are numbered.
+    #[serde(default, skip_serializing_if = "Arrangement::is_usual")]
+    pub arrangement: Arrangement,
 }
 
 pub(super) fn paper_bodies() -> u8 {
@@ -61,6 +64,7 @@ impl Stack {
             stiffness,
             stiffness_ratio: PAPER_STIFFNESS_RATIO,
             bodies: PAPER_BODIES,
+            arrangement: Arrangement::default(),
         }
     }
 
@@ -79,6 +83,11 @@ impl Stack {
         force + self.own_weight()
     }
 
+    /// The same in k_n r, as series have it.
+    pub(crate) fn floor_force(&self, wall_force: f64) -> f64 {
+        wall_force + self.own_weight() * self.epsilon()
+    }
+
     /// κ where none is asked for, in a law of this power: the paper's, or that of Poisson's ratio 0.3.
     pub fn usual_stiffness_ratio(power: Power) -> f64 {
         match power {
@@ -92,12 +101,17 @@ impl Stack {
         1.0 / self.stiffness
     }
 
-    /// Bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m at a
-    /// stiffness k (largest eigenvalue, computed for κ from 1e-3 to 100), the highest of all contacts with the lowest κ.
+    /// Bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m of cylinders
+    /// and (5 + 18/κ) k/m of solid spheres at a stiffness k (largest eigenvalues, computed for κ from 1e-3 to 100), the
+    /// highest of all contacts with the lowest κ.
     pub(crate) fn highest_frequency(&self, convention: &ContactConvention) -> f64 {
         let stiffness = convention.highest_stiffness(self.stiffness_ratio);
         let ratio = convention.law.lowest_stiffness_ratio(self.stiffness_ratio);
-        (stiffness * (4.0 + 12.0 / ratio)).sqrt()
+        let [normal, tangential] = match self.bodies {
+            PAPER_BODIES => [4.0, 12.0],
+            _ => [5.0, 18.0],
+        };
+        (stiffness * (normal + tangential / ratio)).sqrt()
     }
 
     /// √(m/k) of the contacts with cylinder 1 under its weight, in √(m/k_n), from 1 on: 1 with linear
@@ -117,11 +131,8 @@ impl Stack {
 
     /// Every value in its range, or the first one that is not.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        let (fewest, most) = BODIES_RANGE;
-        let accepted = format!(
-            "a whole number from {fewest} to {most}: six that touch in a ring lie around a seventh and do not carry it"
-        );
-        self.bodies_are((fewest..=most).contains(&self.bodies), &accepted)?;
+        self.validate_bodies()?;
+        self.validate_arrangement()?;
         let (lowest, highest) = STIFFNESS_RANGE;
         positive(
             "stack.floor_friction",
@@ -141,6 +152,15 @@ impl Stack {
         )
     }
 
+    /// A ring that carries a body on top.
+    pub(crate) fn validate_bodies(&self) -> Result<(), InvalidValue> {
+        let (fewest, most) = BODIES_RANGE;
+        let accepted = format!(
+            "a whole number from {fewest} to {most}: six that touch in a ring lie around a seventh and do not carry it"
+        );
+        self.bodies_are((fewest..=most).contains(&self.bodies), &accepted)
+    }
+
     /// What its bodies are.
     pub(crate) fn kind(&self) -> &'static str {
         match self.bodies {
@@ -151,9 +171,7 @@ impl Stack {
 
     /// Refuses spheres: what is not about the limit is about the paper's cylinders.
     pub fn refuse_spheres(&self) -> Result<(), InvalidValue> {
-        let accepted = format!(
-            "{PAPER_BODIES}, or left out: of spheres there is the limit alone, by `tristack theory --bodies`"
-        );
+        let accepted = format!("{PAPER_BODIES}, or left out: this is about cylinders alone");
         self.bodies_are(self.bodies == PAPER_BODIES, &accepted)
     }
 

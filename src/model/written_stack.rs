@@ -1,7 +1,7 @@
 //! A stack as case files spell it.
 
-use super::Power;
 use super::stack::{BODIES_RANGE, PAPER_CYLINDER_FRICTION, Stack, paper_bodies};
+use super::{Arrangement, Power};
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 use serde_json::json;
@@ -31,6 +31,9 @@ pub struct WrittenStack {
     #[serde(default = "paper_bodies")]
     #[schemars(range(min = BODIES_RANGE.0, max = BODIES_RANGE.1))]
     pub bodies: u8,
+    /// How spheres lie and are numbered.
+    #[serde(default)]
+    pub arrangement: Arrangement,
 }
 
 /// Adds the other names of the keys, which JSON Schema does not know as such.
@@ -74,6 +77,7 @@ impl WrittenStack {
             stiffness: self.stiffness,
             stiffness_ratio: self.stiffness_ratio.unwrap_or(usual),
             bodies: self.bodies,
+            arrangement: self.arrangement,
         }
     }
 }
@@ -86,6 +90,7 @@ impl From<Stack> for WrittenStack {
             stiffness: stack.stiffness,
             stiffness_ratio: Some(stack.stiffness_ratio),
             bodies: stack.bodies,
+            arrangement: stack.arrangement,
         }
     }
 }

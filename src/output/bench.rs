@@ -61,7 +61,7 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     .means("how many times as many native lanes make")
     .shown_as("times fewer", plain)
     .number("largest_error", "1", |(cost, _)| cost.largest_error)
-    .means("largest distance of these yield forces from the exact limit, relative to F + 3")
+    .means("largest distance of these yield forces from the exact limit, relative to F + n + 1")
     .shown_as("largest error", one_digit)
     .number("peak_megabytes", "MB", |(cost, _)| {
         cost.peak_bytes

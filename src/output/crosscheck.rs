@@ -2,11 +2,12 @@
 
 use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use crate::model::PAPER_BODIES;
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source};
 
 const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the \
-                          paper's, relative to F + 3";
+                          paper's, relative to F + n + 1";
 
 /// The rows.
 pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
@@ -53,7 +54,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .means("its numerical uncertainty")
     .number("error", "1", |row| row.error())
     .means(
-        "(slip_onset − reference_onset)/(reference_onset + 3), by which the row is judged; of the peak \
+        "(slip_onset − reference_onset)/(reference_onset + n + 1), by which the row is judged; of the peak \
          where there is no onset",
     )
     .shown_as("error", relative)
@@ -126,12 +127,14 @@ pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
 pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     let command = markdown_code(command);
     let mut page = format!(
-        "# Crosscheck of the three-cylinder stack\n\n\
+        "# Crosscheck of {}\n\n\
          Made by tristack {} with {command}.\n\n\
          Yield force F = f/(m g) at vanishing wall speed, against the exact quasi-static limit under the \
-         same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + 3. The tolerance \
+         same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + n + 1, \
+         the load on the floor under n bodies and the one on top. The tolerance \
          is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {MAX_TOLERANCE:e}. Model form is the distance of the \
          limit under the code's convention from the one under the paper's.\n\n",
+        title(judgements),
         env!("CARGO_PKG_VERSION")
     );
     page += &codes(judgements).shown().markdown();
@@ -151,6 +154,16 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page + &remarks
 }
 
+/// What is crosschecked.
+fn title(judgements: &[Judgement]) -> &'static str {
+    match judgements.first().map(|row| row.study.stack.bodies) {
+        Some(3) => "a sphere on three",
+        Some(4) => "a sphere on four",
+        Some(5) => "a sphere on five",
+        _ => "the three-cylinder stack",
+    }
+}
+
 /// The command that explains one of the rows, from the same runs, which can be made here.
 fn explaining(judgements: &[Judgement]) -> String {
     if judgements.iter().any(|row| row.source == Source::Files) {
@@ -161,8 +174,11 @@ fn explaining(judgements: &[Judgement]) -> String {
         true => " --shortcuts",
         false => "",
     };
+    let bodies = judgements.first().map(|row| row.study.stack.bodies);
+    let bodies = bodies.filter(|&bodies| bodies != PAPER_BODIES);
+    let bodies = bodies.map_or(String::new(), |bodies| format!(" --bodies {bodies}"));
     format!(
-        " How each part is computed, and all runs behind a row: `tristack crosscheck{shortcuts} --explain \
+        " How each part is computed, and all runs behind a row: `tristack crosscheck{bodies}{shortcuts} --explain \
          CODE/MU/STIFFNESS`."
     )
 }

@@ -39,8 +39,8 @@ fn reference(row: &Judgement) -> String {
     let text = format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
          1. Reference value D: exact quasi-static limit with arms {}, {} ({}): F = {}\n   \
-         (guaranteed to {MIN_TOLERANCE:e} of F + 3; docs/theory.md). Model form, its distance from the paper's \
-         convention: {}\n   of F + 3; a property of the model, no error of the code.\n\n",
+         (guaranteed to {MIN_TOLERANCE:e} of F + n + 1; docs/theory.md). Model form, its distance from the paper's \
+         convention: {}\n   of F + n + 1; a property of the model, no error of the code.\n\n",
         row.code,
         row.version,
         row.source.as_str(),
@@ -157,7 +157,7 @@ fn extrapolation(row: &Judgement, slip: &Extrapolation) -> String {
 
 fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let reference = row.judged_reference();
-    let load = reference.map_or(f64::NAN, |force| force + 3.0);
+    let load = reference.map_or(f64::NAN, |force| row.study.stack.floor_load(force));
     let parts = Budget::PARTS.into_iter().filter_map(|part| {
         let value = (part.value)(&slip.budget)?;
         Some((part.heading, part.how(&row.study.roles), value))
@@ -167,7 +167,7 @@ fn budget(row: &Judgement, slip: &Extrapolation) -> String {
         .left("part of u_num", |(name, ..)| name.to_string())
         .left("how", |(_, how, _)| how.to_string())
         .right("m g", |(.., value)| format!("{value:.1e}"))
-        .right("of F + 3", move |(.., value)| {
+        .right("of F + n + 1", move |(.., value)| {
             format!("{:.1e}", value / load)
         })
         .rows(parts.chain([total]));
@@ -194,7 +194,7 @@ fn round_off(slip: &Extrapolation, twin: Option<&Result<TwinForce, String>>) -> 
 fn conclusion(row: &Judgement) -> String {
     let evidence = Evidence::of(row);
     let mut text = format!(
-        "6. Comparison error E = S - D: {} of F + 3; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
+        "6. Comparison error E = S - D: {} of F + n + 1; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
          and at most {MAX_TOLERANCE:e}): {}\n",
         optional(row.error(), relative),
         optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),

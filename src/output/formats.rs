@@ -8,6 +8,7 @@ use super::{
     scaling, simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
+use crate::model::PAPER_BODIES;
 use crate::series::{Column, MotionRow, Sample};
 
 const TOP: &str = "# Tables, results and parameters
@@ -93,14 +94,14 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
 }
 
 /// The files that codes deliver, without rows.
-pub(super) fn result_files() -> [DataTable<'static>; 2] {
+pub(super) fn result_files() -> [DataTable<'static>; 4] {
     [
         file(
             "series",
             "A row is one moment of a compression. Positions and angles are those of its step, and forces those at these \
              positions; where they depend on velocities, on those that the code has then, half a step before in most.",
             "`tristack simulate` (series.csv), and the result of the tasks `stack` and `side-walls`",
-            &Sample::COLUMNS,
+            Sample::columns(PAPER_BODIES),
         ),
         file(
             "motion",
@@ -108,6 +109,19 @@ pub(super) fn result_files() -> [DataTable<'static>; 2] {
              at these positions.",
             "the result of the task `motion`",
             &MotionRow::COLUMNS,
+        ),
+        file(
+            "spheres-series",
+            "A row is one moment of a compression of spheres in space, y upwards. Of a stack of fewer spheres the columns of the \
+             others are left out.",
+            "`tristack simulate --bodies` (series.csv), and the result of the task `spheres`",
+            Sample::columns(5),
+        ),
+        file(
+            "spheres-motion",
+            "A row is one step of a micro-test of spheres in space, y upwards, from step 0 on.",
+            "the result of the task `spheres-motion`",
+            MotionRow::columns(true),
         ),
     ]
 }
@@ -126,7 +140,7 @@ fn task() -> DataTable<'static> {
         if kinds.len() < TaskKind::ALL.len() {
             notes.push(kinds.join(", "));
         }
-        notes.extend(parameter.laws.limits().map(str::to_owned));
+        notes.extend(parameter.when.limits().map(str::to_owned));
         let meaning = match notes.is_empty() {
             true => parameter.meaning.to_owned(),
             false => format!("{} ({})", parameter.meaning, notes.join("; ")),

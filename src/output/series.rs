@@ -40,7 +40,7 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .means("the exact limit of the yield force, which is larger where contact 2–3 is closed at the onset")
     .shown_as("exact limit", digits::<9>)
     .number("error", "1", |row| Some(row.grounds.deviation()?.0))
-    .means("(slip_onset − reference_onset)/(reference_onset + 3); of the peak where there is no onset")
+    .means("(slip_onset − reference_onset)/(reference_onset + n + 1); of the peak where there is no onset")
     .shown_as("error", relative)
     .number("tolerance", "1", |row| Some(row.grounds.deviation()?.1))
     .means("largest error that agrees, if the whole uncertainty is known")
@@ -100,11 +100,11 @@ fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
         part.name != "shortcuts" && (value.is_some() || !part.known_by.is_empty())
     };
     let parts = parts.filter(concerns);
-    let reference = judged.and_then(|judged| {
+    let load = judged.and_then(|judged| {
         let limit = &judged.measurement.limit;
-        limit.slip_onset.or(limit.yield_force)
+        let reference = limit.slip_onset.or(limit.yield_force)?;
+        Some(judged.measurement.stack.floor_load(reference))
     });
-    let load = reference.map(|force| force + 3.0);
     let known = |(part, value): &(BudgetPart, Option<f64>)| match value {
         Some(_) => part.how,
         None => part.known_by,
@@ -126,7 +126,7 @@ fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .right("m g", |(_, value)| {
         value.map_or_else(|| "not known".to_owned(), |value| format!("{value:.1e}"))
     })
-    .right("of F + 3", move |(_, value)| {
+    .right("of F + n + 1", move |(_, value)| {
         let relative = value.zip(load).map(|(value, load)| value / load);
         optional(relative, |value| format!("{value:.1e}"))
     })
@@ -145,7 +145,7 @@ pub(crate) fn judged_series_text(judged: &JudgedSeries) -> String {
     let distance = judged.grounds.deviation().zip(reference);
     let distance = optional(distance, |((error, _), reference)| {
         format!(
-            "{} of F + 3 from the exact limit {} under arms {}, {}",
+            "{} of F + n + 1 from the exact limit {} under arms {}, {}",
             relative(error),
             significant(reference, 9),
             judged.measurement.convention.arms.pair,

@@ -117,6 +117,7 @@ mod tests {
             wall_speed: 0.0,
             initial_motions: [InitialMotion::at(0.0, 2.0), InitialMotion::at(6.0, 2.0)],
             drive: None,
+            space: None,
         };
         PlannedRun {
             directory: directory.to_owned(),

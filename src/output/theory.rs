@@ -13,8 +13,6 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "`tristack theory`",
     )
     .stack(|own| own.stack)
-    .number("bodies", "1", |own| u64::from(own.stack.bodies))
-    .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     .number("epsilon", "1", |own| own.stack.epsilon())
     .means("ε = m g/(k_n r)")
     .number("rigid", "m g", |own| own.rigid.yield_force)

@@ -2,10 +2,11 @@
 
 use super::number::{optional, small};
 use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use crate::model::PAPER_BODIES;
 use crate::study::Verdict;
 use crate::study::trajectory::{
-    Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TIME_STEPS, TrajectoryJudgement,
-    WALL_SPEED, trajectory_stack,
+    Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TrajectoryJudgement, WALL_SPEED,
+    time_steps, trajectory_stack,
 };
 
 /// One distance of one comparison, by its index. A code without comparisons has one row without a distance.
@@ -39,7 +40,7 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .code(|(judgement, _)| judgement.code)
     .version(|(judgement, _)| &judgement.version)
     .source(|(judgement, _)| judgement.source)
-    .stack(|_| trajectory_stack())
+    .stack(|(judgement, _)| judgement.study.stack)
     .convention(|(judgement, _)| judgement.code.convention())
     .text("twin", |row| Some(compared(row)?.twin.as_str()))
     .means("what the twin has of the convention of the code")
@@ -98,7 +99,7 @@ pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command:
     let mut page = format!(
         "# Trajectories beside native twins\n\nMade by tristack {version} with {command}.\n\n"
     );
-    page += &meaning();
+    page += &meaning(judgements);
     page += &codes(judgements).shown().markdown();
     page += "\n";
     page += &comparisons(judgements).shown().markdown();
@@ -108,19 +109,20 @@ pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command:
     page
 }
 
-fn meaning() -> String {
-    let stack = trajectory_stack();
-    let [coarse, middle, fine] = TIME_STEPS;
+fn meaning(judgements: &[TrajectoryJudgement]) -> String {
+    let stack = judgements.first().map(|judgement| judgement.study.stack);
+    let stack = stack.unwrap_or_else(|| trajectory_stack(PAPER_BODIES));
+    let [coarse, middle, fine] = time_steps(&stack);
+    let (quantities, branches) = match stack.bodies {
+        PAPER_BODIES => (OF_CYLINDERS, BRANCHES_OF_CYLINDERS),
+        _ => (OF_SPHERES, BRANCHES_OF_SPHERES),
+    };
     format!(
-        "One stack (mu = {}, stiffness = {}, kappa = {}), prepared by a gravity ramp and compressed at the \
-         finite wall speed {WALL_SPEED:e}, by each code and by a twin: the native DEM with the contact \
+        "One stack ({} bodies on the floor, mu = {}, stiffness = {}, kappa = {}), prepared by a gravity ramp and compressed at \
+         the finite wall speed {WALL_SPEED:e}, by each code and by a twin: the native DEM with the contact \
          convention of that code (torque arms, Coulomb operand, spring of a sliding contact, transport of the \
-         spring, inertia). Compared are whole series, row by row: the wall force f in units of its peak, x2 \
-         and y1 in r, theta2 in radians.\n\n\
-         *Branches.* `compression` is from the first step to the peak of f, `collapse` from there until the \
-         wall has lost cylinder 1, `fall` until cylinder 1 has landed on the floor. Row 0, in which the wall \
-         just touches, is left out, and so is everything after the landing: the codes differ there in what a \
-         touching contact and what the floor below cylinder 1 is.\n\n\
+         spring, inertia). Compared are whole series, row by row: the wall force f in units of its peak, {quantities}.\n\n\
+         *Branches.* {branches} Row 0, in which the wall just touches, is left out.\n\n\
          *Largest distances* are given at the time steps {coarse}, {middle} and {fine}; the CSV file also has \
          the root mean squares and the times at which a distance first exceeds 1e-6, 1e-4 and 1e-2. *Order* is \
          log2 of the last two distances' ratio: 1 if halving the time step halves the distance, 2 if it \
@@ -133,9 +135,20 @@ fn meaning() -> String {
          change of the twin itself when its own time step is halved. In the collapse the full twin is closer than the one \
          with rotated springs. And up to the peak f is within \
          {FORCE_TOLERANCE:e} of its peak at the finest time step.\n\n",
-        stack.floor_friction, stack.stiffness, stack.stiffness_ratio
+        stack.bodies, stack.floor_friction, stack.stiffness, stack.stiffness_ratio
     )
 }
+
+const OF_CYLINDERS: &str = "x2 and y1 in r, theta2 in radians";
+const BRANCHES_OF_CYLINDERS: &str = "`compression` is from the first step to the peak of f, `collapse` from there until the \
+    wall has lost cylinder 1, `fall` until cylinder 1 has landed on the floor. What comes after the landing is left out: the \
+    codes differ there in what a touching contact and what the floor below cylinder 1 is.";
+
+const OF_SPHERES: &str = "all centres in r, all rotations in radians, and all components of the forces of the floor in units \
+    of the peak of f; a distance is that of the worst component of the worst sphere. One sphere is displaced along the ring, \
+    so that no symmetry is left that could hide a difference";
+const BRANCHES_OF_SPHERES: &str = "`compression` is from the first step to the peak of f. What comes after the peak is left \
+    out: a ring of spheres collapses in directions that the last digits decide.";
 
 const NO_PROOF: &str = "\n## What this does not prove\n\n\
     That twin and code are right: they may share an error, which only the exact limit (`tristack crosscheck`) \
@@ -191,7 +204,11 @@ fn subject(judgement: &TrajectoryJudgement, comparison: &Comparison) -> String {
 
 fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     let time = |own: &TrajectoryJudgement, index: usize| {
-        optional(own.times(), |times| format!("{:.0}", times[index]))
+        let times = own.times().and_then(|times| {
+            let [lost, landed] = times.later.map_or([None; 2], |later| later.map(Some));
+            [Some(times.peak), lost, landed][index]
+        });
+        optional(times, |time| format!("{time:.0}"))
     };
     Columns::<&TrajectoryJudgement>::for_people()
         .code(|own| own.code)

@@ -1,5 +1,6 @@
 //! The stack as a time series for ParaView, in the XML format of VTK.
 
+use crate::model::{PAPER_BODIES, Stack};
 use crate::series::{ContactPoint, Frame, Frames, Partner};
 
 /// Most rows written, apart from the last one and the one of the largest force.
@@ -7,7 +8,8 @@ const MOST_ROWS: usize = 500;
 /// The file that lists the others.
 pub(crate) const VTK_COLLECTION: &str = "stack.pvd";
 const UNITS: &str = "Lengths in r, forces in m g, times in sqrt(m/k_n).";
-const CYLINDERS: &str = "cylinders";
+/// Kinds of files, apart from the collection.
+const KINDS: [&str; 3] = ["cylinders", "spheres", CONTACTS];
 const CONTACTS: &str = "contacts";
 
 /// A file of the series.
@@ -19,12 +21,12 @@ pub struct VtkFile {
     pub content: String,
 }
 
-/// The files of a series: `stack.pvd`, which lists the others with their times, and for every row
-/// `cylinders_NNNN.vtp` (centres with angle, radius, and velocity where it is known) and
-/// `contacts_NNNN.vtp` (contact points with the force on the cylinder; on a partner that is a cylinder its
-/// opposite acts). Lengths in r, forces in m g, times in √(m/k_n), velocities in r √(k_n/m); `epsilon` is
-/// m g in k_n r. Of long series every n-th row is kept, and always the last one and that of the largest force.
-pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
+/// The files of a series of `stack`: `stack.pvd`, which lists the others with their times, and for every row
+/// `cylinders_NNNN.vtp` (centres with angle, radius, and velocity where it is known) or `spheres_NNNN.vtp` (with the
+/// rotation as a vector), and `contacts_NNNN.vtp` (contact points with the force on the body; on a partner that is a
+/// body its opposite acts). Lengths in r, forces in m g, times in √(m/k_n), velocities in r √(k_n/m). Of long series
+/// every n-th row is kept, and always the last one and that of the largest force.
+pub fn vtk_series(frames: &Frames, stack: &Stack) -> Vec<VtkFile> {
     let kept = kept_rows(frames);
     let mut files = Vec::with_capacity(2 * kept.len() + 1);
     let mut collection = format!(
@@ -33,16 +35,17 @@ pub fn vtk_series(frames: &Frames, epsilon: f64) -> Vec<VtkFile> {
         kept.len(),
         frames.frames.len(),
         if frames.pair_forces_known {
-            "All contact forces."
+            "All contact forces.".to_owned()
         } else {
-            "Forces of floor and wall; those between cylinders are not reported."
+            let kind = stack.kind();
+            format!("Forces of floor and wall; those between {kind} are not reported.")
         }
     );
     for (number, &row) in kept.iter().enumerate() {
         let frame = &frames.frames[row];
         let parts = [
-            (CYLINDERS, cylinders(frame, epsilon)),
-            (CONTACTS, contacts(frame, epsilon)),
+            (stack.kind(), bodies(frame, stack)),
+            (CONTACTS, contacts(frame, stack)),
         ];
         for (part, (kind, content)) in parts.into_iter().enumerate() {
             let name = format!("{kind}_{number:04}.vtp");
@@ -73,7 +76,7 @@ pub(crate) fn is_vtk_row(name: &str) -> bool {
     let parts = parts.and_then(|name| name.split_once('_'));
     parts.is_some_and(|(kind, number)| {
         let digits = number.bytes().all(|digit| digit.is_ascii_digit());
-        [CYLINDERS, CONTACTS].contains(&kind) && number.len() >= 4 && digits
+        KINDS.contains(&kind) && number.len() >= 4 && digits
     })
 }
 
@@ -87,35 +90,47 @@ fn kept_rows(frames: &Frames) -> Vec<usize> {
         .collect()
 }
 
-fn cylinders(frame: &Frame, epsilon: f64) -> String {
-    let bodies = &frame.cylinders;
+/// The name of the column with the numbers of bodies.
+fn number_of(stack: &Stack) -> &'static str {
+    match stack.bodies {
+        PAPER_BODIES => "cylinder",
+        _ => "sphere",
+    }
+}
+
+fn bodies(frame: &Frame, stack: &Stack) -> String {
+    let bodies = &frame.bodies;
     let mut arrays = vec![
-        integers("cylinder", 1..=bodies.len() as i64),
+        integers(number_of(stack), 1..=bodies.len() as i64),
         numbers("radius", bodies.iter().map(|_| 1.0)),
-        numbers("angle", bodies.iter().map(|body| body.angle)),
+        match stack.bodies {
+            PAPER_BODIES => numbers("angle", bodies.iter().map(|body| body.rotation[2])),
+            _ => vectors("rotation", bodies.iter().map(|body| body.rotation)),
+        },
     ];
-    let velocities: Option<Vec<[f64; 2]>> = bodies.iter().map(|body| body.velocity).collect();
+    let velocities: Option<Vec<[f64; 3]>> = bodies.iter().map(|body| body.velocity).collect();
     arrays.extend(velocities.map(|velocities| vectors("velocity", velocities)));
     let of_the_frame = [
         ("TimeValue", frame.time),
         ("wall_height", frame.wall_height),
-        ("wall_force", frame.wall_force / epsilon),
+        ("wall_force", frame.wall_force / stack.epsilon()),
     ];
     let positions = bodies.iter().map(|body| body.position);
     document(&of_the_frame, positions.collect(), &arrays)
 }
 
-fn contacts(frame: &Frame, epsilon: f64) -> String {
+fn contacts(frame: &Frame, stack: &Stack) -> String {
+    let epsilon = stack.epsilon();
     let all = || frame.contacts.iter();
-    // Floor 0, top wall −1: cylinders count from 1.
+    // Floor 0, top wall −1: bodies count from 1.
     let partner = |contact: &ContactPoint| match contact.partner {
-        Partner::Cylinder(index) => index as i64 + 1,
+        Partner::Body(index) => index as i64 + 1,
         Partner::Floor => 0,
         Partner::TopWall => -1,
     };
     let force = |contact: &ContactPoint| contact.force().map(|part| part / epsilon);
     let arrays = [
-        integers("cylinder", all().map(|own| own.cylinder as i64 + 1)),
+        integers(number_of(stack), all().map(|own| own.body as i64 + 1)),
         integers("partner", all().map(partner)),
         vectors("force", all().map(force)),
         numbers("normal_force", all().map(|own| own.normal_force / epsilon)),
@@ -136,9 +151,11 @@ fn integers(name: &str, values: impl IntoIterator<Item = i64>) -> String {
     array("Int64", name, 1, &joined(values))
 }
 
-/// Vectors of the plane in three dimensions.
-fn vectors(name: &str, values: impl IntoIterator<Item = [f64; 2]>) -> String {
-    let components = values.into_iter().map(|[x, y]| format!("{x} {y} 0"));
+fn vectors(name: &str, values: impl IntoIterator<Item = [f64; 3]>) -> String {
+    // The sum has no negative zero, which products of the plane's z = 0 may be.
+    let components = values
+        .into_iter()
+        .map(|[x, y, z]| format!("{x} {y} {}", z + 0.0));
     array("Float64", name, 3, &joined(components))
 }
 
@@ -150,7 +167,7 @@ fn array(kind: &str, name: &str, components: usize, values: &str) -> String {
 }
 
 /// Points, each a vertex, with their data and numbers for the whole frame.
-fn document(of_the_frame: &[(&str, f64)], points: Vec<[f64; 2]>, arrays: &[String]) -> String {
+fn document(of_the_frame: &[(&str, f64)], points: Vec<[f64; 3]>, arrays: &[String]) -> String {
     let count = points.len();
     let fields = of_the_frame.iter().map(|(name, value)| {
         format!(

@@ -192,7 +192,7 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 
 /// The series of `case` in the `content` of the file at `path`.
 pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
-    let series = Series::read(content, &case.protocol);
+    let series = Series::read(content, case);
     series.map_err(FileError::series(path))
 }
 

@@ -101,6 +101,7 @@ mod tests {
             wall_speed: 0.0,
             initial_motions: [initial_motion, InitialMotion::at(6.0, 2.0)],
             drive: None,
+            space: None,
         };
         let with = |spin: f64, x: f64| {
             let mut other = test;

@@ -23,6 +23,7 @@ pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
         include_str!("../series/pair_contact.rs"),
         include_str!("../series/polynomial.rs"),
         include_str!("../series/reported.rs"),
+        include_str!("../series/sample.rs"),
         include_str!("../series/samples.rs"),
         include_str!("summary.rs"),
     ];
@@ -67,10 +68,13 @@ impl RunSummary {
             last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
             mechanics: Some(Mechanics::read(&run.series, &run.case)),
             start: first
-                .map(|sample| [sample.x2, sample.y1, sample.y2])
+                .map(|sample| {
+                    let contact = sample.first(stack);
+                    [contact.outwards, sample.top(stack)[1], contact.height]
+                })
                 .filter(|start| !start.iter().any(|place| place.is_nan())),
             contact_force: first
-                .map(|sample| law.force(sample.bottom_overlap()) * stack.stiffness)
+                .map(|sample| law.force(sample.bottom_overlap(stack)) * stack.stiffness)
                 .filter(|force| !force.is_nan()),
             absent: run
                 .series

@@ -13,35 +13,19 @@ pub(crate) struct Column<R> {
     pub(crate) set: fn(&mut R, f64) -> bool,
 }
 
-/// A row of a file.
-pub(crate) trait Row: Sized + 'static {
-    /// A row in which nothing has been reported yet.
-    const BLANK: Self;
-
-    /// Its columns, in order.
-    fn columns() -> &'static [Column<Self>];
-}
-
 /// A number in a row.
 pub(super) trait Number: Copy {
-    /// In place of a number that is not reported.
-    const ABSENT: Self;
-
     /// `value` as a number of this type, if it is one.
     fn of(value: f64) -> Option<Self>;
 }
 
 impl Number for f64 {
-    const ABSENT: Self = Self::NAN;
-
     fn of(value: f64) -> Option<Self> {
         Some(value)
     }
 }
 
 impl Number for u64 {
-    const ABSENT: Self = 0;
-
     fn of(value: f64) -> Option<Self> {
         /// Up to here every whole number is a double.
         const MOST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
@@ -51,15 +35,17 @@ impl Number for u64 {
 }
 
 /// Declares the rows of a file by their columns, in order: name, type, unit and meaning, and `optional` if a file may
-/// leave the column out.
+/// leave the column out; and a further field, which is left out of files where it has its default.
 macro_rules! columns {
-    ($(#[$doc:meta])* $row:ident of $file:ident, $count:literal:
+    ($(#[$doc:meta])* $row:ident of $file:ident, $count:literal, and $(#[$more:meta])* $further:ident: $further_kind:ty:
      $($name:ident: $kind:ty, $unit:literal, $meaning:literal $(, $optional:ident)?;)*) => {
         $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
         pub struct $row {
             $(#[doc = $meaning] pub $name: $kind,)*
+            $(#[$more])*
+            pub $further: $further_kind,
         }
 
         impl $row {
@@ -81,14 +67,6 @@ macro_rules! columns {
             pub fn is_finite(&self) -> bool {
                 let mut columns = Self::COLUMNS.iter();
                 columns.all(|column| (column.value)(self).is_finite())
-            }
-        }
-
-        impl super::column::Row for $row {
-            const BLANK: Self = Self { $($name: <$kind as super::column::Number>::ABSENT),* };
-
-            fn columns() -> &'static [super::column::Column<Self>] {
-                &Self::COLUMNS
             }
         }
 

@@ -1,6 +1,6 @@
 //! Velocities and accelerations from rows at equal distances in time.
 
-use super::samples::Sample;
+use super::sample::Sample;
 
 /// Rounding of the largest coordinate of the stack, 1 + √3.
 pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
@@ -82,20 +82,7 @@ mod tests {
         Sample {
             step,
             time: interval * step as f64,
-            wall_force: 0.0,
-            x1: 0.0,
-            y1: 0.0,
-            theta1: 0.0,
-            x2: 0.0,
-            y2: 0.0,
-            theta2: 0.0,
-            x3: 0.0,
-            y3: 0.0,
-            theta3: 0.0,
-            floor_n2: 0.0,
-            floor_t2: 0.0,
-            floor_n3: 0.0,
-            floor_t3: 0.0,
+            ..Sample::default()
         }
     }
 

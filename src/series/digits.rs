@@ -1,7 +1,8 @@
 //! The digits with which a code has printed a series, read off its numbers.
 
+use super::column::Column;
 use super::differences::COORDINATE;
-use super::samples::Sample;
+use super::sample::{ANGLE, FORCE, LENGTH, Sample};
 use serde::{Deserialize, Serialize};
 
 /// Digits with which the rounding of numbers is far below every tolerance for micro-tests and trajectories.
@@ -10,23 +11,16 @@ pub(crate) const ENOUGH_DIGITS: u32 = 13;
 const EXACT: u32 = 17;
 /// Rows after the peak whose friction is read.
 const ROWS_AFTER_PEAK: usize = 4;
-/// The columns on which the yield force depends.
-const DECISIVE: [fn(&Sample) -> f64; 5] = [
-    |sample| sample.wall_force,
-    |sample| sample.floor_n2,
-    |sample| sample.floor_t2,
-    |sample| sample.floor_n3,
-    |sample| sample.floor_t3,
-];
+/// The forces, on which the yield force depends.
+fn forces() -> impl Iterator<Item = &'static Column<Sample>> {
+    Sample::EVERY.iter().filter(|column| column.unit == FORCE)
+}
 
-const COORDINATES: [fn(&Sample) -> f64; 6] = [
-    |sample| sample.y1,
-    |sample| sample.x2,
-    |sample| sample.y2,
-    |sample| sample.theta2,
-    |sample| sample.x3,
-    |sample| sample.y3,
-];
+fn coordinates() -> impl Iterator<Item = &'static Column<Sample>> {
+    let moved = [LENGTH, ANGLE];
+    let columns = Sample::EVERY.iter();
+    columns.filter(move |column| moved.contains(&column.unit))
+}
 
 /// Largest rounding of the numbers of a series, in its own units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,14 +34,13 @@ pub(super) struct Rounding {
 impl Rounding {
     /// The rounding in `samples`: that of double precision, or that of printing.
     pub(super) fn read(samples: &[Sample]) -> Self {
-        let printed = |columns: &[fn(&Sample) -> f64]| {
-            let columns = columns.iter();
-            let units = columns.filter_map(|value| precision(samples.iter().map(value)));
-            units.map(|column| column.half_unit).fold(0.0, f64::max)
+        let half_unit = |column: &'static Column<Sample>| {
+            let printed = precision(samples.iter().map(column.value));
+            printed.map_or(0.0, |printed| printed.half_unit)
         };
         Self {
-            coordinate: printed(&COORDINATES).max(COORDINATE),
-            force: printed(&DECISIVE),
+            coordinate: coordinates().map(half_unit).fold(COORDINATE, f64::max),
+            force: forces().map(half_unit).fold(0.0, f64::max),
         }
     }
 }
@@ -81,8 +74,8 @@ impl PrintedDigits {
         let force = |index: &usize| samples[*index].wall_force;
         let peak = (0..samples.len()).max_by(|i, j| force(i).total_cmp(&force(j)))?;
         let end = samples.len().min(peak + ROWS_AFTER_PEAK + 1);
-        let columns = DECISIVE.iter();
-        let columns = columns.filter_map(|value| precision(samples[..end].iter().map(value)));
+        let columns =
+            forces().filter_map(|column| precision(samples[..end].iter().map(column.value)));
         let coarsest = columns.reduce(|left, right| Self {
             digits: left.digits.min(right.digits),
             finest: left.finest.max(right.finest),

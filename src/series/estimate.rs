@@ -4,8 +4,9 @@ use super::differences::FiveRows;
 use super::digits::{PrintedDigits, Rounding};
 use super::pair_contact::PairContact;
 use super::polynomial::value_at_zero;
-use super::reported::{FLOOR, PAIR, reports};
-use super::samples::{Sample, Series};
+use super::reported::{of_floor, of_pair, reports};
+use super::sample::{FloorContact, Sample};
+use super::samples::Series;
 use crate::model::{Case, ContactLaw, CoulombOperand, SlidingSpring, Stack};
 use serde::{Deserialize, Serialize};
 
@@ -65,20 +66,24 @@ impl YieldEstimates {
         let samples = series.samples();
         let rounding = Rounding::read(samples);
         let peak_row = peak_row(samples);
-        let sliding_friction = peak_row.and_then(|row| sliding_friction(samples, row));
+        let sliding_friction = peak_row.and_then(|row| sliding_friction(samples, row, &case.stack));
         let sliding = peak_row.zip(sliding_friction);
-        let beyond = sliding.and_then(|(row, friction)| row_beyond(&samples[..=row], friction));
+        let beyond =
+            sliding.and_then(|(row, friction)| row_beyond(&samples[..=row], friction, &case.stack));
         let slides = beyond.zip(sliding);
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
         // Where cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
-        let is_last = |beyond: usize| samples[beyond].bottom_overlap() <= 0.0;
-        let ends = slides.filter(|&(beyond, ..)| reports(samples, &FLOOR) && is_last(beyond));
+        let is_last = |beyond: usize| samples[beyond].bottom_overlap(&case.stack) <= 0.0;
+        let ends = slides.filter(|&(beyond, ..)| {
+            reports(samples, |row| of_floor(row, &case.stack)) && is_last(beyond)
+        });
         let departure = ends.and_then(|(beyond, row, friction)| {
             Sliding::of(case, friction, rounding).departure(samples, beyond, row)
         });
         let slip = slides.filter(|_| departure.is_none());
-        let slip =
-            slip.and_then(|(beyond, row, friction)| slip_onset(&samples[..=row], beyond, friction));
+        let slip = slip.and_then(|(beyond, row, friction)| {
+            slip_onset(&samples[..=row], beyond, friction, &case.stack)
+        });
         Self {
             slip: slip.map(in_weights),
             peak: peak_row.map(|row| in_weights(peak(samples, row))),
@@ -96,38 +101,29 @@ fn peak_row(samples: &[Sample]) -> Option<usize> {
     let highest = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
     (highest >= ROWS_AROUND_PEAK && highest + ROWS_AROUND_PEAK < samples.len()).then_some(highest)
 }
-
-/// Normal and tangential force of both floor contacts.
-fn floor_contacts(sample: &Sample) -> [(f64, f64); 2] {
-    [
-        (sample.floor_n2, sample.floor_t2.abs()),
-        (sample.floor_n3, sample.floor_t3.abs()),
-    ]
-}
-
 /// Largest |t|/n of the floor contacts at the peak and in the rows after it, when they slide and their
 /// force is capped. It is measured, not taken from the input of the code, so that a wrong friction
 /// in the code shows in the yield force.
-fn sliding_friction(samples: &[Sample], peak_row: usize) -> Option<f64> {
+fn sliding_friction(samples: &[Sample], peak_row: usize, stack: &Stack) -> Option<f64> {
     let rows = &samples[peak_row..=peak_row + ROWS_AROUND_PEAK];
-    let contacts = rows.iter().flat_map(floor_contacts);
+    let contacts = rows.iter().flat_map(|row| row.floor_contacts(stack));
     let ratios = contacts
-        .filter(|&(normal, _)| normal > 0.0)
-        .map(|(normal, tangential)| tangential / normal);
+        .filter(|contact| contact.normal > 0.0)
+        .map(|contact| contact.friction() / contact.normal);
     let largest = ratios.fold(0.0, f64::max);
     (largest > 0.0).then_some(largest)
 }
 
 /// μ n − |t| of the floor contact that is closer to sliding.
-fn slip_margin(sample: &Sample, friction: f64) -> f64 {
-    let [right, left] =
-        floor_contacts(sample).map(|(normal, tangential)| friction * normal - tangential);
-    right.min(left)
+fn slip_margin(sample: &Sample, friction: f64, stack: &Stack) -> f64 {
+    let contacts = sample.floor_contacts(stack);
+    let margins = contacts.map(|contact| friction * contact.normal - contact.friction());
+    margins.fold(f64::INFINITY, f64::min)
 }
 
 /// The first row at which the straight line through the slip margins of the two rows before it has reached zero.
-fn row_beyond(samples: &[Sample], friction: f64) -> Option<usize> {
-    let margin = |row: usize| slip_margin(&samples[row], friction);
+fn row_beyond(samples: &[Sample], friction: f64, stack: &Stack) -> Option<usize> {
+    let margin = |row: usize| slip_margin(&samples[row], friction, stack);
     let line_reaches_zero = |row: &usize| {
         let time = |back: usize| samples[row - back].time;
         let slope = (margin(row - 1) - margin(row - 2)) / (time(1) - time(2));
@@ -142,9 +138,9 @@ const SURELY_STICKS: f64 = 1.0 - 1e-3;
 /// The rows before the floor contacts come near to sliding, at the friction that is measured or, where nothing
 /// slides, at that of `stack`.
 pub(super) fn sticking_rows<'a>(samples: &'a [Sample], stack: &Stack) -> &'a [Sample] {
-    let measured = peak_row(samples).and_then(|row| sliding_friction(samples, row));
+    let measured = peak_row(samples).and_then(|row| sliding_friction(samples, row, stack));
     let friction = SURELY_STICKS * measured.unwrap_or(stack.floor_friction);
-    let slides = |sample: &Sample| slip_margin(sample, friction) <= 0.0;
+    let slides = |sample: &Sample| slip_margin(sample, friction, stack) <= 0.0;
     let end = samples.iter().skip(1).position(slides);
     &samples[..end.map_or(samples.len(), |end| end + 1)]
 }
@@ -170,14 +166,23 @@ impl<'a> Sliding<'a> {
         }
     }
 
+    /// The first body on the floor.
+    fn first(&self, sample: &Sample) -> FloorContact {
+        sample.first(&self.case.stack)
+    }
+
     /// The first row from `beyond`, which lies after the onset, to `peak_row` in which a floor contact is away from
     /// its limit, further than the convention allows.
     fn departure(&self, samples: &[Sample], beyond: usize, peak_row: usize) -> Option<Departure> {
         let mut has_slid = false;
         (beyond..=peak_row).find_map(|row| {
             let sample = &samples[row];
-            let excesses = floor_contacts(sample)
-                .map(|(normal, tangential)| (tangential / normal - self.friction) / self.friction);
+            let contacts = sample.floor_contacts(&self.case.stack);
+            let excesses: Vec<f64> = contacts
+                .map(|contact| {
+                    (contact.friction() / contact.normal - self.friction) / self.friction
+                })
+                .collect();
             let [below, above] = self.allowed(samples, row, has_slid);
             let exact = self.at_the_limit(sample);
             has_slid |= excesses.iter().all(|excess| excess.abs() <= exact);
@@ -194,7 +199,7 @@ impl<'a> Sliding<'a> {
     /// Distance of |t|/n from the friction that rounding explains, relative to it.
     fn at_the_limit(&self, sample: &Sample) -> f64 {
         let printed = (1.0 + self.friction) * self.rounding.force;
-        AT_THE_LIMIT + 2.0 * printed / (self.friction * sample.floor_n2)
+        AT_THE_LIMIT + 2.0 * printed / (self.friction * self.first(sample).normal)
     }
 
     /// How far |t|/n may be below and above the friction in `row`, relative to it.
@@ -224,17 +229,19 @@ impl<'a> Sliding<'a> {
         let sample = &samples[row];
         let growth = |from: &Sample, to: &Sample| {
             let steps = to.step.saturating_sub(from.step).max(1) as f64;
-            (to.floor_n2 - from.floor_n2).abs() / (steps * sample.floor_n2)
+            let [from, to, own] = [from, to, sample].map(|row| self.first(row).normal);
+            (to - from).abs() / (steps * own)
         };
         growth(before, sample).max(growth(sample, after))
     }
 
     /// Damping of the floor contact, relative to its limit.
     fn damping(&self, samples: &[Sample], row: usize) -> f64 {
-        let sample = &samples[row];
+        let first = self.first(&samples[row]);
         let speed = FiveRows::around(samples, row, self.rounding.coordinate).map(|five| {
-            let (x2, turn) = (five.rates(|row| row.x2), five.rates(|row| row.theta2));
-            let radius = 1.0 + self.case.convention.arms.floor.kinematic * (1.0 - sample.y2);
+            let x2 = five.rates(|row| self.first(row).outwards);
+            let turn = five.rates(|row| self.first(row).turn);
+            let radius = 1.0 + self.case.convention.arms.floor.kinematic * (1.0 - first.height);
             let speed = |x: f64, turn: f64| (x + radius * turn).abs();
             speed(x2.velocity, turn.velocity)
                 + self.case.protocol.time_step * speed(x2.acceleration, turn.acceleration)
@@ -242,8 +249,8 @@ impl<'a> Sliding<'a> {
                 + radius * turn.velocity_error
         });
         let speed = speed.unwrap_or_else(|| self.case.protocol.fast_speed());
-        let damping = self.wall.at(1.0 - sample.y2).damping_tangential;
-        damping * speed / (self.friction * sample.floor_n2)
+        let damping = self.wall.at(1.0 - first.height).damping_tangential;
+        damping * speed / (self.friction * first.normal)
     }
 }
 
@@ -258,12 +265,12 @@ fn pair_friction(
     case: &Case,
     rounding: Rounding,
 ) -> Option<f64> {
-    if !reports(samples, &PAIR) {
+    if !reports(samples, |row| of_pair(row, &case.stack)) {
         return None;
     }
     let law = case.convention.law(case.stack.stiffness_ratio);
     let ratios = (beyond..samples.len()).map_while(|row| {
-        let bears = samples[row].wall_force > 0.0 && samples[row].floor_n2 > 0.0;
+        let bears = samples[row].wall_force > 0.0 && samples[row].first(&case.stack).normal > 0.0;
         let five = FiveRows::around(samples, row, rounding.coordinate).filter(|_| bears)?;
         Some(PairContact::of(case, &law, five).carried_ratio())
     });
@@ -283,13 +290,13 @@ fn pair_friction(
 /// is frozen while it slides (the paper's law) sticks again now and then as the normal force grows.
 ///
 /// A force outside the rows that enclose the onset is no onset but noise continued, and is refused.
-fn slip_onset(samples: &[Sample], beyond: usize, friction: f64) -> Option<Estimate> {
+fn slip_onset(samples: &[Sample], beyond: usize, friction: f64, stack: &Stack) -> Option<Estimate> {
     let rows = beyond.checked_sub(5)?..beyond - 1;
     let last_sticking = samples[rows.end - 1].wall_force;
     let after = samples[(beyond + 1).min(samples.len() - 1)].wall_force;
     let sticking = samples[rows].iter();
     let (margins, forces): (Vec<f64>, Vec<f64>) = sticking
-        .map(|sample| (slip_margin(sample, friction), sample.wall_force))
+        .map(|sample| (slip_margin(sample, friction, stack), sample.wall_force))
         .unzip();
     let force = value_at_zero(&margins, &forces);
     let lower_order = value_at_zero(&margins[1..], &forces[1..]);

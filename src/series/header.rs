@@ -1,7 +1,7 @@
 //! The header of a result: columns in any order and under other names, with factors.
 
 use super::SeriesError;
-use super::column::{Column, Row};
+use super::column::Column;
 use crate::model::readable;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -25,16 +25,17 @@ pub(crate) type SameName = fn(&str, &str) -> bool;
 pub(crate) struct Header<R: 'static> {
     /// Column, place, factor.
     present: Vec<(&'static Column<R>, usize, f64)>,
-    /// Names of the columns that the file leaves out.
-    absent: Vec<&'static str>,
+    /// The columns that the file leaves out.
+    absent: Vec<&'static Column<R>>,
 }
 
-impl<R: Row> Header<R> {
-    /// Finds the columns among the `words` of a header; further words are ignored.
+impl<R: Default> Header<R> {
+    /// Finds the `columns` among the `words` of a header; further words are ignored.
     ///
     /// # Errors
     /// If a column is missing that must be there, or stands there twice.
     pub(crate) fn find(
+        columns: &'static [Column<R>],
         words: &[&str],
         sources: &ColumnSources,
         is_same: SameName,
@@ -43,7 +44,7 @@ impl<R: Row> Header<R> {
             present: Vec::new(),
             absent: Vec::new(),
         };
-        for column in R::columns() {
+        for column in columns {
             let source = sources.get(column.name);
             let name = source.map_or(column.name, |source| &source.from);
             match place(words, name, is_same) {
@@ -52,9 +53,7 @@ impl<R: Row> Header<R> {
                     header.present.push((column, place, factor));
                 }
                 // A name that the manifest gives is a promise.
-                Ok(None) if column.is_optional && source.is_none() => {
-                    header.absent.push(column.name)
-                }
+                Ok(None) if column.is_optional && source.is_none() => header.absent.push(column),
                 Ok(None) => return Err(refused(words, format!("`{name}` is missing"))),
                 Err(()) => return Err(refused(words, format!("`{name}` is there twice"))),
             }
@@ -67,7 +66,10 @@ impl<R: Row> Header<R> {
     /// # Errors
     /// The message about a field that is missing or no number.
     pub(crate) fn row<'a>(&self, field: impl Fn(usize) -> Option<&'a str>) -> Result<R, String> {
-        let mut row = R::BLANK;
+        let mut row = R::default();
+        for column in &self.absent {
+            (column.set)(&mut row, f64::NAN);
+        }
         for (column, place, factor) in &self.present {
             let name = column.name;
             let text = field(*place).ok_or_else(|| format!("`{name}` is missing"))?;
@@ -81,7 +83,7 @@ impl<R: Row> Header<R> {
 
     /// Names of the columns that the file leaves out.
     pub(crate) fn absent(self) -> Vec<&'static str> {
-        self.absent
+        self.absent.iter().map(|column| column.name).collect()
     }
 }
 
@@ -106,8 +108,9 @@ fn refused(words: &[&str], problem: String) -> SeriesError {
 }
 
 /// The rows of a CSV, at most `limit` of them, and the names of the columns that it leaves out.
-pub(super) fn csv_rows<R: Row>(
+pub(super) fn csv_rows<R: Default>(
     input: impl Read,
+    columns: &'static [Column<R>],
     sources: &ColumnSources,
     limit: usize,
 ) -> Result<(Vec<R>, Vec<&'static str>), SeriesError> {
@@ -117,7 +120,7 @@ pub(super) fn csv_rows<R: Row>(
     let words = reader.headers();
     let words = words.map_err(|error| SeriesError::garbled(0, error))?;
     let words: Vec<&str> = words.iter().collect();
-    let header = Header::find(&words, sources, |word, name| word == name)?;
+    let header = Header::find(columns, &words, sources, |word, name| word == name)?;
     let mut record = csv::StringRecord::new();
     let mut rows = Vec::new();
     while rows.len() < limit {

@@ -9,9 +9,10 @@ use super::differences::{COORDINATE, FiveRows, Rates};
 use super::digits::Rounding;
 use super::estimate::sticking_rows;
 use super::pair_contact::PairContact;
-use super::reported::{PAIR, reports};
-use super::samples::{Sample, Series};
-use crate::model::{Case, ContactLaw, Preparation, Schedule};
+use super::reported::{of_pair, reports};
+use super::sample::Sample;
+use super::samples::Series;
+use crate::model::{Case, ContactLaw, Preparation, Schedule, Stack as Groups};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -148,24 +149,30 @@ fn two_digits(value: f64) -> f64 {
 struct Reported {
     /// The height of cylinder 1.
     top: bool,
-    /// The heights of cylinders 2 and 3.
-    bottom: [bool; 2],
+    /// The heights of the bodies on the floor.
+    bottom: bool,
     /// All that the balances of cylinders 1 and 2 need.
     pair: bool,
 }
 
 impl Reported {
-    fn of(samples: &[Sample]) -> Self {
+    fn of(samples: &[Sample], stack: &Groups) -> Self {
+        let heights = |row: &Sample| -> Vec<f64> {
+            let contacts = row.floor_contacts(stack);
+            contacts.map(|contact| contact.height).collect()
+        };
         Self {
-            top: reports(samples, &["y1"]),
-            bottom: [reports(samples, &["y2"]), reports(samples, &["y3"])],
-            pair: reports(samples, &PAIR) && reports(samples, &["x3"]),
+            top: reports(samples, |row| vec![row.top(stack)[1]]),
+            bottom: reports(samples, heights),
+            pair: reports(samples, |row| {
+                [of_pair(row, stack), vec![row.neighbour_distance(stack)]].concat()
+            }),
         }
     }
 
     /// Whether the sum of the heights is known.
     fn heights(self) -> bool {
-        self.top && self.bottom == [true; 2]
+        self.top && self.bottom
     }
 }
 
@@ -194,12 +201,14 @@ impl<'a> Stack<'a> {
             case,
             law: convention.law(ratio),
             wall_law: convention.wall_law(ratio),
-            start: samples.first().map_or(0.0, |first| first.y1),
+            start: samples
+                .first()
+                .map_or(0.0, |first| first.top(&case.stack)[1]),
             frequency: case.stack.highest_frequency(convention),
             softness: case.stack.time_scale(convention).powi(2),
             schedule: case.protocol.schedule(),
             rounding: Rounding::read(samples),
-            reported: Reported::of(samples),
+            reported: Reported::of(samples, &case.stack),
             is_smooth: matches!(case.protocol.preparation, Preparation::GravityRamp { .. }),
         }
     }
@@ -218,12 +227,11 @@ impl<'a> Stack<'a> {
         if reported.top {
             sides.push((Law::WallOverlap, self.wall(sample, five)));
         }
-        for left in [false, true] {
-            if reported.bottom[usize::from(left)] {
-                sides.push((Law::FloorOverlap, self.floor(sample, five, left)));
-            }
+        if reported.bottom {
+            let places = 0..usize::from(self.case.stack.bodies);
+            sides.extend(places.map(|place| (Law::FloorOverlap, self.floor(sample, five, place))));
         }
-        if let Some(five) = five.filter(|five| reported.pair && keeps_its_contacts(five)) {
+        if let Some(five) = five.filter(|five| reported.pair && self.keeps_its_contacts(five)) {
             let cylinders = self.cylinders(sample, five);
             sides.extend(cylinders.map(|balance| (Law::ForceBalance, balance)));
         }
@@ -272,14 +280,18 @@ impl<'a> Stack<'a> {
     }
 
     fn unbalanced(&self, sample: &Sample) -> f64 {
-        sample.floor_n2 + sample.floor_n3 - sample.wall_force - 3.0 * self.case.stack.epsilon()
+        sample.borne(&self.case.stack) - self.case.stack.floor_force(sample.wall_force)
     }
 
     /// What is out of balance accelerates the cylinders: an oscillation of frequency ω that bends by b between rows at a
     /// distance h has the acceleration ω² b/(4 sin² (ωh/2)), where rows resolve it at most (π²/4) b/h². A wall that
     /// touches suddenly gives the cylinders at most its own speed.
     fn vertical(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
-        let height = |sample: &Sample| sample.y1 + sample.y2 + sample.y3;
+        let bodies = usize::from(self.case.stack.bodies) + 1;
+        let height = |sample: &Sample| -> f64 {
+            let bodies = sample.bodies[..bodies].iter();
+            bodies.map(|body| body.position[1]).sum()
+        };
         let bend = |three: &[Sample]| {
             (height(&three[0]) - 2.0 * height(&three[1]) + height(&three[2])).abs()
         };
@@ -294,27 +306,38 @@ impl<'a> Stack<'a> {
                         .map(bend)
                         .fold(4.0 * five.rounding(), f64::max)
             }
-            None => 3.0 * self.frequency * self.case.protocol.fast_speed(),
+            None => self.case.stack.own_weight() * self.frequency * self.case.protocol.fast_speed(),
         };
         Sides {
             step: sample.step,
-            found: sample.floor_n2 + sample.floor_n3,
-            expected: sample.wall_force + 3.0 * self.case.stack.epsilon(),
+            found: sample.borne(&self.case.stack),
+            expected: self.case.stack.floor_force(sample.wall_force),
             bound: inertia + 6.0 * COORDINATE + 3.0 * self.rounding.force,
         }
     }
 
     /// The pair of values that mirror each other worst, among those that are reported.
     fn mirror(&self, sample: &Sample) -> Sides {
-        let pairs = [
-            (sample.x1, -sample.x1),
-            (sample.theta1, -sample.theta1),
-            (sample.x2, -sample.x3),
-            (sample.y2, sample.y3),
-            (sample.theta2, -sample.theta3),
-            (sample.floor_n2, sample.floor_n3),
-            (sample.floor_t2, -sample.floor_t3),
-        ];
+        let top = &sample.bodies[self.case.stack.top()];
+        let [x, _, z] = top.position;
+        let mut pairs: Vec<(f64, f64)> = [[x, z], [top.rotation[0], top.rotation[2]]]
+            .into_iter()
+            .flatten()
+            .chain([top.rotation[1]])
+            .map(|coordinate| (coordinate, -coordinate))
+            .collect();
+        let first = sample.first(&self.case.stack);
+        for contact in sample.floor_contacts(&self.case.stack) {
+            pairs.extend([
+                (first.outwards, contact.outwards),
+                (first.height, contact.height),
+                (first.turn, contact.turn),
+                (first.normal, contact.normal),
+                (first.tangential, contact.tangential),
+                (contact.sideways, -contact.sideways),
+                (contact.across, -contact.across),
+            ]);
+        }
         let distance = |pair: &(f64, f64)| (pair.0 - pair.1).abs();
         let worst = pairs
             .into_iter()
@@ -331,11 +354,12 @@ impl<'a> Stack<'a> {
 
     fn wall(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
         let protocol = &self.case.protocol;
-        let overlap = sample.y1 - self.start + protocol.travel_at(&self.schedule, sample.step);
+        let height = |sample: &Sample| sample.top(&self.case.stack)[1];
+        let overlap = height(sample) - self.start + protocol.travel_at(&self.schedule, sample.step);
         let damping = self.wall_law.at(overlap).damping_normal;
         let (speed, error) = match five {
             Some(five) => {
-                let rates = five.rates(|sample| sample.y1);
+                let rates = five.rates(height);
                 let error = self.damping_error(damping, &[rates], five) + self.ringing(five);
                 let wall_speed = protocol.speed_at(&self.schedule, sample.step);
                 (rates.velocity + wall_speed, error)
@@ -351,13 +375,13 @@ impl<'a> Stack<'a> {
         }
     }
 
-    fn floor(&self, sample: &Sample, five: Option<FiveRows<'_>>, left: bool) -> Sides {
-        let height = |sample: &Sample| if left { sample.y3 } else { sample.y2 };
-        let force = if left {
-            sample.floor_n3
-        } else {
-            sample.floor_n2
+    fn floor(&self, sample: &Sample, five: Option<FiveRows<'_>>, place: usize) -> Sides {
+        let contact = |sample: &Sample| {
+            let mut contacts = sample.floor_contacts(&self.case.stack);
+            contacts.nth(place)
         };
+        let height = |sample: &Sample| contact(sample).map_or(f64::NAN, |contact| contact.height);
+        let force = contact(sample).map_or(f64::NAN, |contact| contact.normal);
         let overlap = 1.0 - height(sample);
         let damping = self.wall_law.at(overlap).damping_normal;
         let (speed, error) = match five {
@@ -377,13 +401,14 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// c, with its damping.
+    /// Outward part of the forces of the neighbours, with their damping.
     fn bottom_force(&self, sample: &Sample, five: FiveRows<'_>) -> f64 {
-        let overlap = 2.0 - (sample.x2 - sample.x3);
-        let parting = five.rates(|row| row.x2 - row.x3).velocity;
+        let stack = &self.case.stack;
+        let overlap = 2.0 - sample.neighbour_distance(stack);
+        let parting = five.rates(|row| row.neighbour_distance(stack)).velocity;
         if overlap > 0.0 {
             let own = self.law.at(overlap);
-            own.secant * overlap - own.damping_normal * parting
+            stack.ring().push * (own.secant * overlap - own.damping_normal * parting)
         } else {
             0.0
         }
@@ -402,26 +427,28 @@ impl<'a> Stack<'a> {
             + 8.0 * COORDINATE
             + 4.0 * self.printed();
         let bottom = self.bottom_force(sample, five);
+        let bodies = f64::from(self.case.stack.bodies);
         let top = Sides {
             step: sample.step,
-            found: 2.0 * (pair.normal * cosine + pair.shear * sine),
+            found: bodies * (pair.normal * cosine + pair.shear * sine),
             expected: sample.wall_force + self.case.stack.epsilon() + y1.acceleration,
-            bound: 2.0 * known_to + 4.0 * self.ringing(five),
+            bound: bodies * known_to + 2.0 * bodies * self.ringing(five),
         };
         let side = Sides {
             step: sample.step,
             found: pair.normal * sine + bottom,
-            expected: pair.shear * cosine - sample.floor_t2 + x2.acceleration,
+            expected: pair.shear * cosine - sample.first(&self.case.stack).tangential
+                + x2.acceleration,
             bound: known_to + 2.0 * self.ringing(five),
         };
         [top, side]
     }
-}
 
-/// Whether the contact of cylinders 2 and 3 neither opens nor closes in these rows.
-fn keeps_its_contacts(five: &FiveRows<'_>) -> bool {
-    let is_open = |sample: &Sample| sample.x2 - sample.x3 > 2.0;
-    five.rows
-        .iter()
-        .all(|sample| is_open(sample) == is_open(&five.rows[0]))
+    /// Whether the contacts of neighbours on the floor neither open nor close in these rows.
+    fn keeps_its_contacts(&self, five: &FiveRows<'_>) -> bool {
+        let is_open = |sample: &Sample| sample.neighbour_distance(&self.case.stack) > 2.0;
+        five.rows
+            .iter()
+            .all(|sample| is_open(sample) == is_open(&five.rows[0]))
+    }
 }

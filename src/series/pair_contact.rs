@@ -29,11 +29,21 @@ pub(super) struct PairContact {
 impl PairContact {
     pub(super) fn of(case: &Case, law: &ContactLaw, five: FiveRows<'_>) -> Self {
         let convention = &case.convention;
-        let sample = &five.rows[2];
-        let (x1, x2) = (five.rates(|row| row.x1), five.rates(|row| row.x2));
-        let (y1, y2) = (five.rates(|row| row.y1), five.rates(|row| row.y2));
-        let turn = five.rates(|row| row.theta2);
-        let (across, down) = (sample.x2 - sample.x1, sample.y1 - sample.y2);
+        let stack = &case.stack;
+        let sample = five.rows[2].first(stack);
+        let (x1, x2) = (
+            five.rates(|row| row.top_outwards(stack)),
+            five.rates(|row| row.first(stack).outwards),
+        );
+        let (y1, y2) = (
+            five.rates(|row| row.top(stack)[1]),
+            five.rates(|row| row.first(stack).height),
+        );
+        let turn = five.rates(|row| row.first(stack).turn);
+        let (across, down) = (
+            sample.outwards - five.rows[2].top_outwards(stack),
+            five.rows[2].top(stack)[1] - sample.height,
+        );
         let distance = libm::hypot(across, down);
         let [sine, cosine] = [across / distance, down / distance];
         let (apart, sinking) = (x2.velocity - x1.velocity, y1.velocity - y2.velocity);
@@ -43,9 +53,9 @@ impl PairContact {
         let normal = own.secant * overlap + own.damping_normal * approach;
         let arms = convention.arms;
         let pair_lever = 1.0 + arms.pair.torque * overlap;
-        let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.y2);
+        let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.height);
         let inertia = convention.moment_of_inertia;
-        let shear = (inertia * turn.acceleration - floor_lever * sample.floor_t2) / pair_lever;
+        let shear = (inertia * turn.acceleration - floor_lever * sample.tangential) / pair_lever;
         // Where the limit is compared with the spring alone, damping comes on top of it.
         let sliding =
             cosine * apart - sine * sinking - (1.0 + arms.pair.kinematic * overlap) * turn.velocity;

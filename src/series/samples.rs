@@ -1,44 +1,12 @@
-//! The time series that every code delivers.
+//! The time series that every code delivers, checked.
 
-use super::column::{Column, columns};
+use super::column::Column;
 use super::drop::DropWatch;
 use super::header::{ColumnSources, csv_rows};
-use crate::model::{Protocol, Schedule, readable_lines};
-use serde::{Deserialize, Serialize};
+use super::sample::Sample;
+use crate::model::{Case, Schedule, readable_lines};
 use std::io::Read;
 use thiserror::Error;
-
-columns! {
-    /// One row of a time series. Lengths in r, angles in radians, forces in k_n r, time in √(m/k_n). What a code does
-    /// not report is not a number; [`Series::absent`] names it.
-    Sample of Series, 16:
-    step: u64, "1", "steps since the wall began to move";
-    time: f64, "√(m/k_n)", "time since the wall began to move";
-    wall_force: f64, "k_n r", "force of the top wall on cylinder 1, positive in compression";
-    x1: f64, "r", "horizontal position of cylinder 1 (top)", optional;
-    y1: f64, "r", "height of its centre above the floor", optional;
-    theta1: f64, "rad", "its rotation, counter-clockwise", optional;
-    x2: f64, "r", "horizontal position of cylinder 2 (right)", optional;
-    y2: f64, "r", "height of its centre above the floor", optional;
-    theta2: f64, "rad", "its rotation, counter-clockwise", optional;
-    x3: f64, "r", "horizontal position of cylinder 3 (left)", optional;
-    y3: f64, "r", "height of its centre above the floor", optional;
-    theta3: f64, "rad", "its rotation, counter-clockwise", optional;
-    floor_n2: f64, "k_n r", "normal force of the floor on cylinder 2";
-    floor_t2: f64, "k_n r", "tangential force of the floor on cylinder 2, along +x";
-    floor_n3: f64, "k_n r", "normal force of the floor on cylinder 3";
-    floor_t3: f64, "k_n r", "tangential force of the floor on cylinder 3, along +x";
-}
-
-impl Sample {
-    /// Overlap of cylinders 2 and 3, 2 − |r₂ − r₃|, and 0 where they do not touch: linear springs bear as much force at
-    /// rest. Not a number where their positions are not reported.
-    pub fn bottom_overlap(&self) -> f64 {
-        let (dx, dy) = (self.x2 - self.x3, self.y2 - self.y3);
-        let overlap = 2.0 - (dx * dx + dy * dy).sqrt();
-        if overlap < 0.0 { 0.0 } else { overlap }
-    }
-}
 
 /// Why a series is not the one that was asked for. Rows are counted from 1, which is the one after the header.
 #[derive(Debug, Error)]
@@ -113,6 +81,7 @@ const MOST_UNPLANNED_ROWS: usize = 1_000_000;
 /// A checked time series of one compression.
 #[derive(Debug, Clone)]
 pub struct Series {
+    columns: &'static [Column<Sample>],
     samples: Vec<Sample>,
     absent: Vec<&'static str>,
 }
@@ -130,21 +99,25 @@ impl PartialEq for Series {
 }
 
 impl Series {
-    /// A series of `samples`, which must be finite and lie exactly at the steps of `protocol`.
-    pub fn new(samples: Vec<Sample>, protocol: &Protocol) -> Result<Self, SeriesError> {
-        Self::without(Vec::new(), samples, protocol)
+    /// Names of the columns of a stack of cylinders, in order.
+    pub const COLUMNS: [&'static str; 16] = Sample::NAMES;
+
+    /// A series of `samples`, which must be finite and lie exactly at the steps of `case`.
+    pub fn new(samples: Vec<Sample>, case: &Case) -> Result<Self, SeriesError> {
+        Self::without(Vec::new(), samples, case)
     }
 
     /// The same without the columns that are named `absent`, which are not looked at.
     pub(crate) fn without(
         absent: Vec<&'static str>,
         samples: Vec<Sample>,
-        protocol: &Protocol,
+        case: &Case,
     ) -> Result<Self, SeriesError> {
-        let schedule = protocol.schedule();
+        let columns = Sample::columns(case.stack.bodies);
+        let schedule = case.protocol.schedule();
         let mut planned = schedule.sampled_steps();
         for (row, sample) in (1..).zip(&samples) {
-            check_finite(row, sample, &absent)?;
+            check_finite(row, sample, columns, &absent)?;
             let Some(expected) = planned.next() else {
                 break;
             };
@@ -155,13 +128,17 @@ impl Series {
                     expected,
                 });
             }
-            check_time(row, sample, protocol.time_step)?;
+            check_time(row, sample, case.protocol.time_step)?;
         }
         let (found, expected) = (samples.len(), planned_rows(&schedule));
         if found > expected || (found < expected && !ends_with_the_drop(&samples, &schedule)) {
             return Err(SeriesError::Truncated { found, expected });
         }
-        Ok(Self { samples, absent })
+        Ok(Self {
+            columns,
+            samples,
+            absent,
+        })
     }
 
     /// Names of the columns that the code does not report.
@@ -169,34 +146,36 @@ impl Series {
         &self.absent
     }
 
-    fn present(&self) -> impl Iterator<Item = Column<Sample>> {
-        let columns = Sample::COLUMNS.into_iter();
+    fn present(&self) -> impl Iterator<Item = &'static Column<Sample>> + '_ {
+        let columns = self.columns.iter();
         columns.filter(|column| !self.absent.contains(&column.name))
     }
 
     /// Reads the shared CSV format and checks it against the plan. Columns may be in any order, and further ones are
     /// ignored.
-    pub fn read(input: impl Read, protocol: &Protocol) -> Result<Self, SeriesError> {
-        Self::read_from(input, &ColumnSources::new(), protocol)
+    pub fn read(input: impl Read, case: &Case) -> Result<Self, SeriesError> {
+        Self::read_from(input, &ColumnSources::new(), case)
     }
 
     /// The same of a CSV in which some columns are others.
     pub fn read_from(
         input: impl Read,
         sources: &ColumnSources,
-        protocol: &Protocol,
+        case: &Case,
     ) -> Result<Self, SeriesError> {
         // One row too many is enough to refuse the series.
-        let limit = planned_rows(&protocol.schedule()).saturating_add(1);
-        let (samples, absent) = csv_rows(input, sources, limit)?;
-        Self::without(absent, samples, protocol)
+        let limit = planned_rows(&case.protocol.schedule()).saturating_add(1);
+        let columns = Sample::columns(case.stack.bodies);
+        let (samples, absent) = csv_rows(input, columns, sources, limit)?;
+        Self::without(absent, samples, case)
     }
 
-    /// Reads a series that nobody has planned, with its time step: finite numbers, steps that rise, and times that are
+    /// Reads a series of so many bodies on the floor that nobody has planned, with its time step: finite numbers, steps that rise, and times that are
     /// multiples of one time step.
-    pub fn read_unplanned(input: impl Read) -> Result<(Self, f64), SeriesError> {
-        let (samples, absent): (Vec<Sample>, _) =
-            csv_rows(input, &ColumnSources::new(), MOST_UNPLANNED_ROWS)?;
+    pub fn read_unplanned(input: impl Read, bodies: u8) -> Result<(Self, f64), SeriesError> {
+        let columns = Sample::columns(bodies);
+        let (samples, absent) =
+            csv_rows(input, columns, &ColumnSources::new(), MOST_UNPLANNED_ROWS)?;
         let last = samples.last().filter(|last| last.step > 0);
         let last = last.ok_or_else(|| SeriesError::absent("it has no row after step 0"))?;
         let time_step = last.time / last.step as f64;
@@ -206,7 +185,7 @@ impl Series {
         }
         let mut before = None;
         for (row, sample) in (1..).zip(&samples) {
-            check_finite(row, sample, &absent)?;
+            check_finite(row, sample, columns, &absent)?;
             if before.is_some_and(|before| sample.step <= before) {
                 let message = format!("step {} does not come after the one before", sample.step);
                 return Err(SeriesError::garbled(row, message));
@@ -214,7 +193,12 @@ impl Series {
             before = Some(sample.step);
             check_time(row, sample, time_step)?;
         }
-        Ok((Self { samples, absent }, time_step))
+        let series = Self {
+            columns,
+            samples,
+            absent,
+        };
+        Ok((series, time_step))
     }
 
     /// The series in the shared CSV format, every number in its shortest exact form.
@@ -237,9 +221,14 @@ impl Series {
     }
 }
 
-fn check_finite(row: usize, sample: &Sample, absent: &[&str]) -> Result<(), SeriesError> {
-    let offending = Sample::COLUMNS
-        .into_iter()
+fn check_finite(
+    row: usize,
+    sample: &Sample,
+    columns: &[Column<Sample>],
+    absent: &[&str],
+) -> Result<(), SeriesError> {
+    let offending = columns
+        .iter()
         .find(|column| !(column.value)(sample).is_finite() && !absent.contains(&column.name));
     offending.map_or(Ok(()), |column| {
         Err(SeriesError::NotFinite {

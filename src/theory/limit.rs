@@ -17,6 +17,8 @@ pub struct Limit {
     pub peak_force: Option<f64>,
     /// The first event on the path.
     pub event: Event,
+    /// n, number of bodies on the floor.
+    pub bodies: u8,
     /// F at which the floor slips if the other events are ignored; the closing of contact 2–3 is not, where the
     /// path beyond it was followed.
     pub floor_slip_force: Option<f64>,
@@ -90,6 +92,7 @@ impl Limit {
             slip_onset: yield_force,
             peak_force: yield_force,
             event,
+            bodies: stack.bodies,
             floor_slip_force: force,
             tangent: point.map(|point| point.tangent),
             y: point.map(|point| point.outward),

@@ -9,13 +9,7 @@ use tristack::dem::{compress_stack, run_contact_test};
 pub fn native_result(run: &PlannedRun) -> Vec<u8> {
     match &run.task {
         PlannedTask::Stack(case) => compress_stack(case, || true).expect("finite").to_csv(),
-        PlannedTask::Motion(test) => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            for row in run_contact_test(test).expect("finite").rows() {
-                writer.serialize(row).expect("a row");
-            }
-            writer.into_inner().expect("memory")
-        }
+        PlannedTask::Motion(test) => run_contact_test(test).expect("finite").to_csv(),
     }
 }
 

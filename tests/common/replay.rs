@@ -7,9 +7,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tristack::code::{Code, ParameterFormat, Task};
 use tristack::dem::{compress_stack, run_contact_test};
-use tristack::model::{Case, ContactTest, sha256_hex};
-use tristack::series::{MotionRow, Series};
-use tristack::study::yield_force::Profile;
+use tristack::model::{Case, ContactTest, Power, sha256_hex};
+use tristack::series::{Motion, MotionRow, Series};
+use tristack::study::yield_force::{Profile, plan};
 
 fn yade() -> Code {
     Code::named("yade").expect("it is built in")
@@ -41,6 +41,26 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
     install_probe(bench, |row| row);
     bench.install("yade", &script(&replay, ""));
     quick_profile().len()
+}
+
+/// Lets the fake know the runs of the rings of spheres that are recorded; returns how many there are.
+pub fn install_rings(bench: &Bench) -> usize {
+    let stacks = [3, 4].map(|bodies| Profile::Quick.stacks(Power::Linear, bodies));
+    let plans = stacks.concat();
+    let plans = plans
+        .iter()
+        .map(|stack| plan(yade(), stack, yade().convention()));
+    let cases: Vec<Case> = plans.flat_map(|plan| plan.cases).collect();
+    for case in &cases {
+        let series = compress_stack(case, || true).expect("a finite series");
+        install_run(
+            &bench.path("replay"),
+            case,
+            &text(&series),
+            Disturbance::None,
+        );
+    }
+    cases.len()
 }
 
 /// Cases and series of the quick profile, by the native DEM with the contact convention of YADE.
@@ -91,8 +111,9 @@ pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let record = recording(yade()).probe.expect("it is there");
     for answer in record.answers {
         let parameters = ParameterFormat::Json.content(&answer.test.parameters());
-        let rows = answer.motion.rows().iter();
-        write_motion(&replay, &parameters, rows.map(|row| change(*row)));
+        let rows = answer.motion.rows().iter().map(|row| change(*row));
+        let motion = Motion::new(rows.collect(), answer.test.steps).expect("as many rows");
+        write_motion(&replay, &parameters, &motion);
     }
 }
 
@@ -106,16 +127,13 @@ pub fn install_with_ending(bench: &Bench, ending: &str) {
 pub fn install_motion_as(replay: &Path, asked: &ContactTest, test: &ContactTest) {
     let motion = run_contact_test(test).expect("a finite motion");
     let parameters = ParameterFormat::Json.content(&asked.parameters());
-    write_motion(replay, &parameters, motion.rows().iter().copied());
+    write_motion(replay, &parameters, &motion);
 }
 
-fn write_motion(replay: &Path, parameters: &str, rows: impl Iterator<Item = MotionRow>) {
+fn write_motion(replay: &Path, parameters: &str, motion: &Motion) {
     let address = sha256_hex(parameters.as_bytes());
     let path = replay.join(format!("{address}.csv"));
-    let mut writer = csv::Writer::from_path(path).expect("a file");
-    for row in rows {
-        writer.serialize(row).expect("a row");
-    }
+    fs::write(path, motion.to_csv()).expect("a file");
 }
 
 /// The body of a shell script that replays what is in `replay`, and does something after the last case.
@@ -124,7 +142,7 @@ pub fn script(replay: &Path, ending: &str) -> String {
     format!(
         r#"
 if [ "$1" = --version ]; then echo "Yade version: replayed"; exit 0; fi
-case $4 in probe.py) result=probe.csv;; *) result=series.csv;; esac
+case $4 in probe.py|spheres_probe.py) result=probe.csv;; *) result=series.csv;; esac
 shift 5
 for directory in "$@"; do
     address=$(sha256sum "$directory/parameters.json" | cut -c 1-64)

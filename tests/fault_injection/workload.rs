@@ -134,7 +134,7 @@ fn script(own: &Path, shared: &Path) -> String {
     format!(
         r#"
 if [ "$1" = --version ]; then echo "Yade version: replayed"; exit 0; fi
-case $4 in probe.py) result=probe.csv;; *) result=series.csv;; esac
+case $4 in probe.py|spheres_probe.py) result=probe.csv;; *) result=series.csv;; esac
 shift 5
 for directory in "$@"; do
     address=$(sha256sum "$directory/parameters.json" | cut -c 1-64)

@@ -112,7 +112,7 @@ impl Honest {
         lie.write(&mut rows, load);
         Run {
             case: *case,
-            series: Series::new(rows, &case.protocol).expect("rows at their steps"),
+            series: Series::new(rows, case).expect("rows at their steps"),
             provenance: Provenance::now(
                 Identity {
                     code: self.measurement.code.to_string(),
@@ -145,7 +145,7 @@ fn without(series: &Series, absent: &[&str], case: &Case) -> Series {
         kept.join(",") + "\n"
     });
     let text: String = lines.collect();
-    let series = Series::read(text.as_bytes(), &case.protocol).expect("a series without them");
+    let series = Series::read(text.as_bytes(), case).expect("a series without them");
     assert_eq!(series.absent(), absent);
     series
 }

@@ -243,12 +243,12 @@ impl Lie {
                 Kind::OneSide => self.scale(row, [factor, factor, 1.0, 1.0]),
                 Kind::Position => *self.coordinate(row, 6) += shift,
                 Kind::BothSides => {
-                    row.x2 += shift;
-                    row.x3 -= shift;
+                    row.bodies[1].position[0] += shift;
+                    row.bodies[2].position[0] -= shift;
                 }
                 Kind::Height => {
-                    row.y2 += shift;
-                    row.y3 += shift;
+                    row.bodies[1].position[1] += shift;
+                    row.bodies[2].position[1] += shift;
                 }
                 Kind::Displacement => {
                     let mut begun = first;
@@ -257,31 +257,25 @@ impl Lie {
                     *value = start + factor * (*value - start);
                 }
                 Kind::Spread => {
-                    row.x2 += self.size * (row.x2 - first.x2);
-                    row.x3 += self.size * (row.x3 - first.x3);
+                    row.bodies[1].position[0] +=
+                        self.size * (row.bodies[1].position[0] - first.bodies[1].position[0]);
+                    row.bodies[2].position[0] +=
+                        self.size * (row.bodies[2].position[0] - first.bodies[2].position[0]);
                 }
                 Kind::Start => {
-                    for height in [&mut row.y1, &mut row.y2, &mut row.y3] {
-                        *height += shift;
+                    for body in &mut row.bodies[..3] {
+                        body.position[1] += shift;
                     }
                 }
                 Kind::FirstRow if row.step == 0 => {
-                    row.x2 += shift;
-                    row.x3 -= shift;
+                    row.bodies[1].position[0] += shift;
+                    row.bodies[2].position[0] -= shift;
                 }
                 Kind::MadeUp => {
+                    let across = |body: usize| [row.floor[body][0], 0.5 * load, 0.0];
                     *row = Sample {
-                        floor_n2: 0.5 * load,
-                        floor_n3: 0.5 * load,
-                        x1: 0.0,
-                        y1: 0.0,
-                        theta1: 0.0,
-                        x2: 0.0,
-                        y2: 0.0,
-                        theta2: 0.0,
-                        x3: 0.0,
-                        y3: 0.0,
-                        theta3: 0.0,
+                        floor: [[0.0; 3], across(1), across(2), [0.0; 3], [0.0; 3], [0.0; 3]],
+                        bodies: Default::default(),
                         ..*row
                     }
                 }
@@ -294,34 +288,18 @@ impl Lie {
     /// Prints every number with four to eleven digits.
     fn print(&self, row: &mut Sample) {
         let decimals = usize::try_from(3 + self.pick % 8).expect("a small number");
-        let numbers = [
-            &mut row.wall_force,
-            &mut row.x1,
-            &mut row.y1,
-            &mut row.theta1,
-            &mut row.x2,
-            &mut row.y2,
-            &mut row.theta2,
-            &mut row.x3,
-            &mut row.y3,
-            &mut row.theta3,
-            &mut row.floor_n2,
-            &mut row.floor_t2,
-            &mut row.floor_n3,
-            &mut row.floor_t3,
-        ];
+        let bodies = row.bodies.iter_mut();
+        let placed = bodies.flat_map(|body| body.position.iter_mut().chain(&mut body.rotation));
+        let numbers = placed.chain(row.floor.as_flattened_mut());
+        let numbers = numbers.chain([&mut row.wall_force]);
         for number in numbers {
             *number = format!("{number:.decimals$e}").parse().expect("a number");
         }
     }
 
     fn scale(&self, row: &mut Sample, factors: [f64; 4]) {
-        let forces = [
-            &mut row.floor_n2,
-            &mut row.floor_t2,
-            &mut row.floor_n3,
-            &mut row.floor_t3,
-        ];
+        let [_, [right_t, right_n, _], [left_t, left_n, _], ..] = &mut row.floor;
+        let forces = [right_n, right_t, left_n, left_t];
         for (force, factor) in forces.into_iter().zip(factors) {
             *force *= factor;
         }
@@ -330,15 +308,8 @@ impl Lie {
     /// One of the coordinates; x₁, which stays 0, is the last.
     fn coordinate<'a>(&self, row: &'a mut Sample, count: u64) -> &'a mut f64 {
         let pick = usize::try_from(self.pick % count).expect("a small number");
-        let all = [
-            &mut row.y1,
-            &mut row.x2,
-            &mut row.y2,
-            &mut row.x3,
-            &mut row.y3,
-            &mut row.x1,
-        ];
-        all.into_iter().nth(pick).expect("one of them")
+        let (body, axis) = [(0, 1), (1, 0), (1, 1), (2, 0), (2, 1), (0, 0)][pick];
+        &mut row.bodies[body].position[axis]
     }
 }
 

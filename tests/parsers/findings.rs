@@ -34,7 +34,7 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
     let last = text.lines().last().expect("a row");
     let rows = usize::try_from(case.protocol.schedule().rows()).expect("few");
     let long = format!("{text}{}", format!("{last}\n").repeat(1000));
-    let refusal = Series::read(long.as_bytes(), &case.protocol).unwrap_err();
+    let refusal = Series::read(long.as_bytes(), &case).unwrap_err();
     let SeriesError::Truncated { found, expected } = refusal else {
         panic!("{refusal}");
     };
@@ -89,11 +89,11 @@ fn the_picture_of_a_stack_that_exploded_stays_small() {
         .samples()
         .to_vec();
     for far in [1e12, -1e300, f64::MAX] {
-        rows.last_mut().expect("a row").x2 = far;
-        rows.last_mut().expect("a row").y1 = far.abs();
-        let series = Series::new(rows.clone(), &case.protocol);
+        rows.last_mut().expect("a row").bodies[1].position[0] = far;
+        rows.last_mut().expect("a row").bodies[0].position[1] = far.abs();
+        let series = Series::new(rows.clone(), &case);
         let series = series.expect("finite");
-        let frames = Frames::of_series(&series, case.protocol.wall_speed).expect("all columns");
+        let frames = Frames::of_series(&series, &case).expect("all columns");
         assert!(run_svg("yade", &case, &frames).len() < 1_000_000);
     }
 }

@@ -32,6 +32,7 @@ fn findings(
         convention,
         velocity_lag: 0.5,
         left_out: Vec::new(),
+        in_space: false,
     };
     let answers = |tests: &[ContactTest]| Ok::<_, ()>(tests.iter().map(&motion).collect());
     let properties = probe(&declaration, answers).expect("the native DEM answers");

@@ -51,11 +51,7 @@ pub fn seeds() -> Vec<Seed> {
     let csv = String::from_utf8(run.to_csv()).expect("text");
     let renamed = csv.replacen("wall_force", "f_top", 1);
     let motion = run_contact_test(&short_test()).expect("a finite motion");
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in motion.rows() {
-        writer.serialize(row).expect("a row");
-    }
-    let motion = String::from_utf8(writer.into_inner().expect("memory")).expect("text");
+    let motion = String::from_utf8(motion.to_csv()).expect("text");
     let table = |text: &str| format!("{}Loop time of 2\n", text.replace(',', " "));
     let inputs = [
         (0, "wall_force=f_top*-2.5;x1=theta1", renamed.clone()),

@@ -60,5 +60,6 @@ pub fn short_test() -> ContactTest {
             InitialMotion::at(6.0, 2.0),
         ],
         drive: None,
+        space: None,
     }
 }

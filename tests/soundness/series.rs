@@ -24,9 +24,9 @@ pub fn check(data: &[u8]) {
 }
 
 fn check_series(text: &[u8], case: &Case) {
-    match Series::read(text, &case.protocol) {
+    match Series::read(text, case) {
         Ok(series) => {
-            let again = Series::read(&series.to_csv()[..], &case.protocol);
+            let again = Series::read(&series.to_csv()[..], case);
             assert_eq!(again.expect("its own CSV is a series"), series);
             is_sound(&series, case);
             // Pictures take a hundred times longer.
@@ -40,7 +40,7 @@ fn check_series(text: &[u8], case: &Case) {
 
 /// An accepted series has a time step, and can be read.
 fn check_unplanned(text: &[u8]) {
-    match Series::read_unplanned(text) {
+    match Series::read_unplanned(text, 2) {
         Ok((series, time_step)) => {
             assert!(time_step > 0.0);
             let rows = series.samples();
@@ -65,8 +65,8 @@ pub fn is_sound(series: &Series, case: &Case) {
     let finite = |value: f64| value.is_finite();
     let has_heights = !series.absent().contains(&"y1");
     assert!(rows.iter().all(|row| finite(row.wall_force)
-        && finite(row.floor_t3)
-        && finite(row.y1) == has_heights));
+        && finite(row.floor[2][0])
+        && finite(row.bodies[0].position[1]) == has_heights));
     let estimates = YieldEstimates::read(series, case);
     assert!(
         estimates
@@ -76,13 +76,13 @@ pub fn is_sound(series: &Series, case: &Case) {
 }
 
 fn can_be_drawn(series: &Series, case: &Case) {
-    let Ok(frames) = Frames::of_series(series, case.protocol.wall_speed) else {
+    let Ok(frames) = Frames::of_series(series, case) else {
         assert!(!series.absent().is_empty());
         return;
     };
     assert!(run_svg("yade", case, &frames).len() < LARGEST_PICTURE);
     assert_eq!(
-        vtk_series(&frames, case.stack.epsilon()).len(),
+        vtk_series(&frames, &case.stack).len(),
         2 * series.samples().len() + 1
     );
 }
@@ -120,7 +120,12 @@ pub fn seeds() -> Vec<Seed> {
 fn forces_alone() -> String {
     let series = compress_stack(&short_case(), || true).expect("a finite series");
     let rows = series.samples().iter().map(|row| {
-        let floor = [row.floor_n2, row.floor_t2, row.floor_n3, row.floor_t3];
+        let floor = [
+            row.floor[1][1],
+            row.floor[1][0],
+            row.floor[2][1],
+            row.floor[2][0],
+        ];
         let floor = floor.map(|force| force.to_string()).join(",");
         format!("{floor},7,{},{},{}\n", row.wall_force, row.time, row.step)
     });

@@ -13,9 +13,7 @@ pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;
 pub(super) use runs::{RunOptions, recording_directory, time_limit};
-pub(super) use stack::{
-    OneStackOptions, StackListOptions, StackOptions, friction, friction_of_any_bodies,
-};
+pub(super) use stack::{Friction, OneStackOptions, StackListOptions, StackOptions, friction};
 
 use clap::Args;
 

@@ -1,9 +1,7 @@
 //! The stack: friction, stiffness, stiffness ratio, or the material that they follow from.
 
 use super::flag::as_flag;
-use crate::model::{
-    CRITICAL_FRICTION, InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack,
-};
+use crate::model::{InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack};
 use clap::Args;
 
 /// Most stacks of one command: a thousand frictions by a thousand stiffnesses.
@@ -18,9 +16,9 @@ pub(in crate::cli) struct StackOptions {
     /// Friction between cylinders
     #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
     pub mu_d: f64,
-    /// Bodies on the floor: 2 cylinders, or in `theory` 3 to 5 spheres in a ring with one on top
+    /// Bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring with one on top
     #[arg(long, value_name = "N", default_value_t = PAPER_BODIES)]
-    bodies: u8,
+    pub bodies: u8,
 }
 
 impl StackOptions {
@@ -28,12 +26,6 @@ impl StackOptions {
     pub fn kappa(&self, power: Power) -> f64 {
         self.kappa
             .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
-    }
-
-    /// The checked stack of cylinders with floor friction `mu` and this stiffness, in a law of this power.
-    pub fn stack(&self, mu: f64, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
-        self.refuse_spheres()?;
-        self.stack_of_any_bodies(Some(mu), stiffness, power)
     }
 
     /// Refuses other bodies than cylinders.
@@ -45,20 +37,15 @@ impl StackOptions {
         stack.refuse_spheres().map_err(as_flag)
     }
 
-    /// The same of cylinders or spheres; `None` is their critical friction.
-    fn stack_of_any_bodies(
-        &self,
-        mu: Option<f64>,
-        stiffness: f64,
-        power: Power,
-    ) -> Result<Stack, InvalidValue> {
+    /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
+    pub fn stack(&self, mu: Friction, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
         let mut stack = Stack {
             cylinder_friction: self.mu_d,
             stiffness_ratio: self.kappa(power),
             bodies: self.bodies,
             ..Stack::paper(f64::NAN, stiffness)
         };
-        stack.floor_friction = mu.unwrap_or(stack.ring().critical_friction);
+        stack.floor_friction = mu.of(&stack);
         stack.validate().map_err(as_flag)?;
         Ok(stack)
     }
@@ -132,7 +119,7 @@ impl MaterialOptions {
 pub(in crate::cli) struct OneStackOptions {
     /// Floor friction; a number or the word `critical`
     #[arg(long, value_parser = friction, requires = "hardness", allow_negative_numbers = true)]
-    mu: Option<f64>,
+    mu: Option<Friction>,
     /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g)
     #[arg(
         long,
@@ -153,8 +140,8 @@ impl OneStackOptions {
     pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
         let stiffness = self.stiffness.or_else(|| self.material.stiffness());
-        let [mu, stiffness] = [self.mu, stiffness].map(|value| value.unwrap_or(f64::NAN));
-        others.stack(mu, stiffness, power)
+        let mu = self.mu.unwrap_or(Friction::Number(f64::NAN));
+        others.stack(mu, stiffness.unwrap_or(f64::NAN), power)
     }
 }
 
@@ -178,20 +165,9 @@ pub(in crate::cli) struct StackListOptions {
 }
 
 impl StackListOptions {
-    /// The checked stacks of cylinders of every combination of friction and stiffness, in a law of this power; the
-    /// friction varies fastest.
-    pub fn stacks(&self, frictions: &[f64], power: Power) -> Result<Vec<Stack>, InvalidValue> {
-        self.others.refuse_spheres()?;
-        let frictions: Vec<_> = frictions.iter().copied().map(Some).collect();
-        self.stacks_of_any_bodies(&frictions, power)
-    }
-
-    /// The same of cylinders or spheres; `None` is their critical friction.
-    pub fn stacks_of_any_bodies(
-        &self,
-        frictions: &[Option<f64>],
-        power: Power,
-    ) -> Result<Vec<Stack>, InvalidValue> {
+    /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
+    /// fastest.
+    pub fn stacks(&self, frictions: &[Friction], power: Power) -> Result<Vec<Stack>, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
         let material = self.material.stiffness();
         let stiffnesses: Vec<f64> = self.stiffnesses.iter().copied().chain(material).collect();
@@ -206,23 +182,47 @@ impl StackListOptions {
         let stacks = stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
             let others = &others;
-            frictions.map(move |&mu| others.stack_of_any_bodies(mu, stiffness, power))
+            frictions.map(move |&mu| others.stack(mu, stiffness, power))
         });
         stacks.collect()
     }
 }
 
-/// Reads `--mu` of cylinders: a number, or the word `critical`.
-pub(in crate::cli) fn friction(text: &str) -> Result<f64, String> {
-    friction_of_any_bodies(text).map(|friction| friction.unwrap_or(CRITICAL_FRICTION))
+/// A floor friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::cli) enum Friction {
+    /// This number.
+    Number(f64),
+    /// The rigid critical friction of the stack.
+    Critical,
 }
 
-/// Reads `--mu`: a number, or the word `critical`, which is `None`.
-pub(in crate::cli) fn friction_of_any_bodies(text: &str) -> Result<Option<f64>, String> {
-    if text == "critical" {
-        return Ok(None);
+impl Friction {
+    /// The friction for this stack.
+    pub fn of(self, stack: &Stack) -> f64 {
+        match self {
+            Self::Number(number) => number,
+            Self::Critical => match stack.validate_bodies() {
+                Ok(()) => stack.ring().critical_friction,
+                Err(_) => f64::NAN,
+            },
+        }
     }
-    text.parse().map(Some).map_err(|_| {
-        "accepted are a number above 0 and the word `critical` (2 - sqrt 3)".to_owned()
+
+    /// The friction for cylinders.
+    pub fn of_cylinders(self) -> f64 {
+        self.of(&Stack::paper(f64::NAN, f64::NAN))
+    }
+}
+
+/// Reads `--mu`: a number, or the word `critical`.
+pub(in crate::cli) fn friction(text: &str) -> Result<Friction, String> {
+    if text == "critical" {
+        return Ok(Friction::Critical);
+    }
+    text.parse().map(Friction::Number).map_err(|_| {
+        "accepted are a number above 0 and the word `critical` (2 - sqrt 3 of cylinders, sqrt 3 - sqrt 2 of three \
+         spheres, sqrt 2 - 1 of four)"
+            .to_owned()
     })
 }

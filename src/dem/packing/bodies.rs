@@ -1,24 +1,25 @@
-//! The cylinders and walls of a packing, and one step of them all.
+//! The cylinders or spheres of a packing, its walls, and one step of them all.
 
 use super::pairs::PairList;
 use super::skin::Skin;
 use super::walls::{WallContact, beside_wall};
 use crate::dem::contact::{ContactForce, SpringDashpot};
-use crate::dem::scene::{Cylinder, Load};
+use crate::dem::geometry::{Geometry, Plane};
+use crate::dem::scene::{Body, Load};
 use crate::dem::wall::PlaneWall;
 use crate::model::{ContactConvention, Stack};
 
 /// Largest distance of two surfaces in a list.
 const SKIN: f64 = 0.5;
 
-/// The properties that all cylinders and contacts of a packing share.
+/// The properties that all bodies and contacts of a packing share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Contact law.
     pub law: SpringDashpot<f64>,
-    /// Friction coefficient between cylinders.
+    /// Friction coefficient between cylinders, or spheres.
     pub cylinder_friction: f64,
-    /// Moment of inertia of a cylinder in m r².
+    /// Moment of inertia of a cylinder, or sphere, in m r².
     pub moment_of_inertia: f64,
 }
 
@@ -33,30 +34,30 @@ impl Material {
     }
 }
 
-/// Any number of cylinders of unit mass and radius between plane walls.
+/// Any number of cylinders, or spheres, of unit mass and radius between plane walls.
 ///
-/// Sums over contacts are taken by ascending index of the cylinders, so that a result depends only on the
+/// Sums over contacts are taken by ascending index of the bodies, so that a result depends only on the
 /// numbering. Steps are fastest if neighbours have similar numbers, as in a lattice numbered row by row; ten
 /// thousand cylinders numbered at random take a third longer.
 #[derive(Debug, Clone)]
-pub struct Packing {
+pub struct Packing<G: Geometry<f64> = Plane> {
     /// Gravity, downwards, in k_n r/m.
     pub gravity: f64,
     pub(super) material: Material,
     pub(super) time_step: f64,
-    pub(super) cylinders: Vec<Cylinder>,
+    pub(super) cylinders: Vec<Body<f64, G>>,
     pub(super) walls: Vec<PlaneWall>,
-    pub(super) loads: Vec<Load>,
-    pub(super) pairs: PairList,
+    pub(super) loads: Vec<Load<f64, G>>,
+    pub(super) pairs: PairList<G>,
     /// For each wall.
-    pub(super) wall_contacts: Vec<Vec<WallContact>>,
-    skin: Skin,
+    pub(super) wall_contacts: Vec<Vec<WallContact<G>>>,
+    skin: Skin<G>,
 }
 
-impl Packing {
+impl<G: Geometry<f64>> Packing<G> {
     /// A packing without gravity, every contact stress free.
     pub fn new(
-        cylinders: Vec<Cylinder>,
+        cylinders: Vec<Body<f64, G>>,
         walls: Vec<PlaneWall>,
         material: Material,
         time_step: f64,
@@ -77,19 +78,19 @@ impl Packing {
         packing
     }
 
-    /// The cylinders. Velocities belong to the half step before the positions.
-    pub fn cylinders(&self) -> &[Cylinder] {
+    /// The cylinders, or spheres. Velocities belong to the half step before the positions.
+    pub fn cylinders(&self) -> &[Body<f64, G>] {
         &self.cylinders
     }
 
-    /// Force and torque on every cylinder, as of the last evaluation of the forces.
-    pub fn loads(&self) -> &[Load] {
+    /// Force and torque on every body, as of the last evaluation of the forces.
+    pub fn loads(&self) -> &[Load<f64, G>] {
         &self.loads
     }
 
-    /// Every cylinder near a wall and the force of the wall on it, which may be zero, as of the last evaluation
+    /// Every body near a wall and the force of the wall on it, which may be zero, as of the last evaluation
     /// of the forces.
-    pub fn wall_forces(&self, wall: usize) -> impl Iterator<Item = (usize, &ContactForce<f64>)> {
+    pub fn wall_forces(&self, wall: usize) -> impl Iterator<Item = (usize, &ContactForce<f64, G>)> {
         let contacts = self.wall_contacts[wall].iter();
         contacts.map(|contact| (contact.cylinder as usize, &contact.force))
     }
@@ -101,8 +102,8 @@ impl Packing {
         let mut fastest_square = 0.0;
         for (cylinder, load) in self.cylinders.iter_mut().zip(&self.loads) {
             cylinder.advance(load, self.material.moment_of_inertia, dt);
-            let [vx, vy] = cylinder.velocity;
-            fastest_square = f64::max(fastest_square, vx * vx + vy * vy);
+            let velocity = cylinder.velocity;
+            fastest_square = f64::max(fastest_square, G::along(velocity, velocity));
         }
         for wall in &mut self.walls {
             wall.offset += wall.speed * dt;

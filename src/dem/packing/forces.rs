@@ -1,12 +1,12 @@
 //! Forces of all contacts.
 
 use super::bodies::Packing;
-use super::pairs::UNSTRETCHED;
-use crate::dem::contact::{Contact, ContactForce, ContactModel};
+use crate::dem::contact::{Contact, ContactForce, ContactModel, Spring};
 use crate::dem::contact_state::Touch;
-use crate::dem::scene::Load;
+use crate::dem::geometry::{Geometry, Linear};
+use crate::dem::scene::{Body, Load};
 
-impl Packing {
+impl<G: Geometry<f64>> Packing<G> {
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     pub fn evaluate_forces(&mut self) {
         self.evaluate_pairs();
@@ -32,19 +32,18 @@ impl Packing {
             let seconds = pairs.seconds[start..end].iter();
             for (&second, memory) in seconds.zip(&mut pairs.memories[start..end]) {
                 let j = &cylinders[second as usize];
-                let apart = [i.position[0] - j.position[0], i.position[1] - j.position[1]];
-                let square = apart[0] * apart[0] + apart[1] * apart[1];
+                let (apart, square) = Body::apart([i, j]);
                 if square >= 4.0 {
-                    *memory = UNSTRETCHED;
+                    *memory = Spring::unstretched(0.0);
                     continue;
                 }
                 let friction = material.cylinder_friction;
                 let contact = Contact::of_pair([i, j], (apart, square), friction, self.time_step);
                 let exerted = material.law.evaluate(&contact, memory);
-                let force = exerted.in_the_plane(contact.normal);
-                let torque = -(exerted.arm * exerted.tangential);
+                let force = exerted.as_vector(contact.normal);
+                let torque = exerted.torque(contact.normal);
                 load.add(Touch::Everywhere, force, torque);
-                loads[second as usize].add(Touch::Everywhere, force.map(|part| -part), torque);
+                loads[second as usize].add(Touch::Everywhere, force.negated(), torque);
             }
             loads[first] = load;
             start = end;
@@ -55,16 +54,17 @@ impl Packing {
         let plane = &self.walls[wall];
         for state in &mut self.wall_contacts[wall] {
             let body = &self.cylinders[state.cylinder as usize];
-            let overlap = plane.overlap(body.position);
+            let overlap = plane.overlap::<G>(body.position);
             if overlap <= 0.0 {
-                state.memory = UNSTRETCHED;
+                state.memory = Spring::unstretched(0.0);
                 state.force = ContactForce::none(0.0);
                 continue;
             }
             let contact = Contact::with_wall(body, plane, overlap, self.time_step);
             state.force = self.material.law.evaluate(&contact, &mut state.memory);
-            let force = plane.facing.in_the_plane(&state.force);
-            let torque = -(state.force.arm * state.force.tangential);
+            let (normal, tangential) = (state.force.normal, state.force.tangential);
+            let force = G::put_together_at_wall(plane.facing, normal, tangential);
+            let torque = state.force.torque(contact.normal);
             self.loads[state.cylinder as usize].add(Touch::Everywhere, force, torque);
         }
     }

@@ -1,29 +1,24 @@
-//! Verlet list: the pairs of cylinders that may touch, with their tangential springs.
+//! Verlet list: the pairs of bodies that may touch, with their tangential springs.
 
 use super::cells::CellList;
 use crate::dem::contact::Spring;
-use crate::dem::scene::Cylinder;
+use crate::dem::geometry::Geometry;
+use crate::dem::scene::Body;
 
-/// The spring of a new contact.
-pub(super) const UNSTRETCHED: Spring<f64> = Spring {
-    length: 0.0,
-    normal: [0.0; 2],
-};
-
-/// All pairs up to some distance, each once, grouped by their first cylinder. The second one has the lower index.
+/// All pairs up to some distance, each once, grouped by their first body. The second one has the lower index.
 /// Both indices ascend, so that the order of sums over pairs depends on the indices alone.
 #[derive(Debug, Clone)]
-pub(super) struct PairList {
-    /// End of the pairs of each first cylinder, where those of the next one begin.
+pub(super) struct PairList<G: Geometry<f64>> {
+    /// End of the pairs of each first body, where those of the next one begin.
     pub ends: Vec<u32>,
-    /// Second cylinder of each pair.
+    /// Second body of each pair.
     pub seconds: Vec<u32>,
     /// Tangential spring of each pair.
-    pub memories: Vec<Spring<f64>>,
+    pub memories: Vec<Spring<f64, G>>,
 }
 
-impl PairList {
-    /// A list for `count` cylinders, without pairs.
+impl<G: Geometry<f64>> PairList<G> {
+    /// A list for `count` bodies, without pairs.
     pub fn empty(count: usize) -> Self {
         Self {
             ends: vec![0; count],
@@ -33,8 +28,8 @@ impl PairList {
     }
 
     /// The pairs whose centres are less than `reach` apart. A pair of `self` keeps its spring.
-    pub fn renewed(&self, cylinders: &[Cylinder], reach: f64) -> Self {
-        let cells = CellList::new(cylinders.iter().map(|cylinder| cylinder.position), reach);
+    pub fn renewed(&self, cylinders: &[Body<f64, G>], reach: f64) -> Self {
+        let cells = CellList::<G>::new(cylinders.iter().map(|cylinder| cylinder.position), reach);
         let mut list = Self {
             ends: Vec::with_capacity(cylinders.len()),
             seconds: Vec::with_capacity(self.seconds.len()),
@@ -44,7 +39,8 @@ impl PairList {
             let begin = list.seconds.len();
             cells.visit_around(cylinder.position, |second| {
                 let other = &cylinders[second as usize];
-                if (second as usize) < first && square_distance(cylinder, other) < reach * reach {
+                let is_close = || Body::apart([cylinder, other]).1 < reach * reach;
+                if (second as usize) < first && is_close() {
                     list.seconds.push(second);
                 }
             });
@@ -58,37 +54,36 @@ impl PairList {
         list
     }
 
-    fn memory(&self, first: usize, second: u32) -> Spring<f64> {
+    fn memory(&self, first: usize, second: u32) -> Spring<f64, G> {
         let start = first.checked_sub(1).map_or(0, |before| self.ends[before]);
         let range = start as usize..self.ends[first] as usize;
         let found = self.seconds[range.clone()].binary_search(&second);
-        found.map_or(UNSTRETCHED, |place| self.memories[range.start + place])
+        found.map_or(Spring::unstretched(0.0), |place| {
+            self.memories[range.start + place]
+        })
     }
-}
-
-pub(super) fn square_distance(one: &Cylinder, other: &Cylinder) -> f64 {
-    let dx = one.position[0] - other.position[0];
-    let dy = one.position[1] - other.position[1];
-    dx * dx + dy * dy
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dem::{Plane, Space};
 
-    fn scattered(count: u32) -> Vec<Cylinder> {
+    fn scattered<G: Geometry<f64>>(count: u32) -> Vec<Body<f64, G>> {
         let place = |index: u32, prime: u32| f64::from(index * prime % 97) / 97.0;
         let near = (0..count).map(|index| {
-            Cylinder::at(
+            [
                 20.0 * place(index, 31) - 10.0,
                 12.0 * place(index, 57) - 3.0,
-            )
+                6.0 * place(index, 83) - 3.0,
+            ]
         });
-        near.chain([Cylinder::at(-1e12, 1e12), Cylinder::at(f64::MAX, -1e300)])
+        near.chain([[-1e12, 1e12, -1e12], [f64::MAX, -1e300, 1e300]])
+            .map(|centre| Body::resting(G::vector(centre)))
             .collect()
     }
 
-    fn pairs(list: &PairList) -> Vec<(usize, u32)> {
+    fn pairs<G: Geometry<f64>>(list: &PairList<G>) -> Vec<(usize, u32)> {
         let mut start = 0;
         let mut pairs = Vec::new();
         for (first, &end) in list.ends.iter().enumerate() {
@@ -99,26 +94,31 @@ mod tests {
         pairs
     }
 
-    #[test]
-    fn a_list_holds_every_close_pair_once_and_in_order() {
-        let cylinders = scattered(90);
-        let list = PairList::empty(cylinders.len()).renewed(&cylinders, 2.5);
+    fn assert_every_close_pair_is_listed<G: Geometry<f64>>() {
+        let bodies = scattered::<G>(90);
+        let list = PairList::empty(bodies.len()).renewed(&bodies, 2.5);
         let mut close = Vec::new();
-        for (first, one) in cylinders.iter().enumerate() {
-            for (second, other) in (0..).zip(&cylinders[..first]) {
-                if square_distance(one, other) < 2.5 * 2.5 {
+        for (first, one) in bodies.iter().enumerate() {
+            for (second, other) in (0..).zip(&bodies[..first]) {
+                if Body::apart([one, other]).1 < 2.5 * 2.5 {
                     close.push((first, second));
                 }
             }
         }
-        assert!(close.len() > 100);
+        assert!(close.len() > 100, "{}", close.len());
         assert_eq!(pairs(&list), close);
         assert_eq!(list.memories.len(), close.len());
     }
 
     #[test]
+    fn a_list_holds_every_close_pair_once_and_in_order() {
+        assert_every_close_pair_is_listed::<Plane>();
+        assert_every_close_pair_is_listed::<Space>();
+    }
+
+    #[test]
     fn a_new_list_remembers_what_the_old_one_knew() {
-        let mut cylinders = scattered(90);
+        let mut cylinders = scattered::<Plane>(90);
         let mut old = PairList::empty(cylinders.len()).renewed(&cylinders, 2.5);
         for (length, memory) in (1..).zip(&mut old.memories) {
             memory.length = f64::from(length);
@@ -135,7 +135,7 @@ mod tests {
                     assert_eq!(*memory, old.memories[place]);
                     remembered += 1;
                 }
-                Err(_) => assert_eq!(*memory, UNSTRETCHED),
+                Err(_) => assert_eq!(*memory, Spring::unstretched(0.0)),
             }
         }
         assert!(remembered > 100 && remembered < new.memories.len());

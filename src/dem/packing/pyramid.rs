@@ -1,8 +1,9 @@
 //! A pyramid as a packing.
 
 use super::bodies::{Material, Packing};
+use crate::dem::geometry::Facing;
 use crate::dem::scene::Cylinder;
-use crate::dem::wall::{Facing, PlaneWall};
+use crate::dem::wall::PlaneWall;
 use crate::model::Pyramid;
 use crate::series::{PyramidRun, SeriesError};
 use std::time::Instant;

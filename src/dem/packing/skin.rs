@@ -1,7 +1,7 @@
 //! The motion after which a neighbour list is no longer complete.
 
-use super::pairs::square_distance;
-use crate::dem::scene::Cylinder;
+use crate::dem::geometry::{Geometry, Plane};
+use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
 /// A list of everything within a skin is complete until some body has moved by half of the skin since it was
@@ -10,20 +10,20 @@ use crate::dem::wall::PlaneWall;
 /// The largest speeds are summed up step by step, which costs no memory access of its own. Only when their sum reaches
 /// the limit are the distances themselves computed: vibrations need no new list.
 #[derive(Debug, Clone)]
-pub(super) struct Skin {
+pub(super) struct Skin<G: Geometry<f64> = Plane> {
     /// Half of the skin, less a margin for rounding.
     limit: f64,
     /// Upper bound of the distance that any body has moved.
     travelled: f64,
     /// The part of it that is due to walls.
     wall_travel: f64,
-    /// Positions of the cylinders when the list was made.
-    anchors: Vec<Cylinder>,
+    /// Positions of the bodies when the list was made.
+    anchors: Vec<Body<f64, G>>,
 }
 
-impl Skin {
+impl<G: Geometry<f64>> Skin<G> {
     /// A skin of `width` around the present positions.
-    pub fn new(width: f64, cylinders: &[Cylinder]) -> Self {
+    pub fn new(width: f64, cylinders: &[Body<f64, G>]) -> Self {
         Self {
             limit: 0.499 * width,
             travelled: 0.0,
@@ -32,14 +32,14 @@ impl Skin {
         }
     }
 
-    /// Counts a step at the end of which the square speed of the cylinders is at most `fastest_square`. Returns
+    /// Counts a step at the end of which the square speed of the bodies is at most `fastest_square`. Returns
     /// whether lists must be made anew, and then starts over at the present positions.
     pub fn is_used_up(
         &mut self,
         fastest_square: f64,
         walls: &[PlaneWall],
         time_step: f64,
-        cylinders: &[Cylinder],
+        cylinders: &[Body<f64, G>],
     ) -> bool {
         let wall_speed = walls.iter().map(|wall| wall.speed.abs());
         self.wall_travel += wall_speed.fold(0.0, f64::max) * time_step;
@@ -49,7 +49,7 @@ impl Skin {
         }
         let moved = self.anchors.iter().zip(cylinders);
         let farthest = moved
-            .map(|(anchor, cylinder)| square_distance(anchor, cylinder))
+            .map(|(anchor, cylinder)| Body::apart([anchor, cylinder]).1)
             .fold(0.0, f64::max);
         self.travelled = farthest.sqrt();
         if self.travelled.max(self.wall_travel) < 0.5 * self.limit {
@@ -66,7 +66,7 @@ impl Skin {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::Facing;
+    use crate::dem::{Cylinder, Facing};
 
     #[test]
     fn what_trembles_needs_no_new_list_and_what_travels_does() {

@@ -1,34 +1,34 @@
-//! The cylinders that may touch a wall, with the springs and forces of these contacts.
+//! The bodies that may touch a wall, with the springs and forces of these contacts.
 
-use super::pairs::UNSTRETCHED;
 use crate::dem::contact::{ContactForce, Spring};
-use crate::dem::scene::Cylinder;
+use crate::dem::geometry::Geometry;
+use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
-/// A cylinder beside a wall.
+/// A cylinder, or sphere, beside a wall.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct WallContact {
+pub(super) struct WallContact<G: Geometry<f64>> {
     pub cylinder: u32,
-    pub memory: Spring<f64>,
-    pub force: ContactForce<f64>,
+    pub memory: Spring<f64, G>,
+    pub force: ContactForce<f64, G>,
 }
 
-/// The cylinders whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
+/// The bodies whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
 /// keep spring and force.
-pub(super) fn beside_wall(
+pub(super) fn beside_wall<G: Geometry<f64>>(
     wall: &PlaneWall,
-    cylinders: &[Cylinder],
+    cylinders: &[Body<f64, G>],
     gap: f64,
-    known: &[WallContact],
-) -> Vec<WallContact> {
+    known: &[WallContact<G>],
+) -> Vec<WallContact<G>> {
     let mut known = known.iter().copied().peekable();
     let mut contacts = Vec::new();
     for (cylinder, body) in (0..).zip(cylinders) {
         let old = known.next_if(|contact| contact.cylinder == cylinder);
-        if -wall.overlap(body.position) < gap {
+        if -wall.overlap::<G>(body.position) < gap {
             contacts.push(old.unwrap_or(WallContact {
                 cylinder,
-                memory: UNSTRETCHED,
+                memory: Spring::unstretched(0.0),
                 force: ContactForce::none(0.0),
             }));
         }

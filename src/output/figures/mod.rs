@@ -12,6 +12,7 @@ mod performance;
 mod preparation;
 mod regimes;
 mod scaling;
+mod spheres;
 mod stack;
 mod style;
 #[cfg(test)]
@@ -22,6 +23,7 @@ mod yield_curves;
 pub(crate) use laws::{laws_figure, laws_svg};
 pub(crate) use performance::performance_svg;
 pub(crate) use regimes::regimes_svg;
+pub(crate) use spheres::spheres_figure;
 pub use stack::{StackPanel, representative_panels, run_svg};
 
 use crate::model::CRITICAL_FRICTION;

@@ -1,6 +1,6 @@
 //! The look of every figure: fonts, axes, colours, lines and marks, which differ without colour too.
 
-use super::drawing::Stroke;
+pub(super) use super::drawing::Stroke;
 pub(super) use crate::code::Shape;
 use crate::code::{Code, Colour};
 
@@ -66,6 +66,14 @@ pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
     Stroke::new(PURPLE, 1.8, &[2.0, 2.5]),
 ];
 
+/// Curves of two, three, four and five bodies on the floor.
+pub(super) const BODIES_STROKES: [Stroke; 4] = [
+    EXACT,
+    Stroke::new(BLUE, 1.5, &[9.0, 2.5]),
+    Stroke::new(VERMILION, 1.5, &[5.0, 2.5]),
+    Stroke::new(GREEN, 1.5, &[8.0, 2.5, 1.5, 2.5]),
+];
+
 /// The boundaries in a regime map: another event comes first beyond it, or the same one ends otherwise.
 pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
 pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
@@ -83,6 +91,13 @@ pub(super) const PLANE: Stroke = Stroke::new(INK, 1.6, &[]);
 pub(super) const HATCH: Stroke = Stroke::new(GREY, 0.8, &[]);
 pub(super) const ORIENTATION_AT_START: Stroke = Stroke::new("#9aa7b5", 1.2, &[]);
 pub(super) const ORIENTATION: Stroke = Stroke::new(INK, 1.8, &[]);
+/// The same of spheres, in a projection: shades from the edge to the light, floor, grid and shadows, top wall.
+pub(super) const SPHERE_SHADES: [&str; 4] = ["#a3b8ce", "#b3c5d8", "#c5d3e2", "#d8e2ec"];
+pub(super) const SPHERE_AT_START: Stroke = Stroke::new("#7488a0", 1.2, &[]);
+pub(super) const FLOOR: &str = "#f5f5f2";
+pub(super) const SHADOW: &str = "#e1e3e4";
+pub(super) const GRID: Stroke = Stroke::new("#c9c9c4", 0.7, &[]);
+pub(super) const WALL: &str = GREY;
 /// Shafts of the arrows of forces.
 pub(super) const NORMAL_FORCE: Stroke = Stroke::new(INK, 2.0, &[]);
 pub(super) const TANGENTIAL_FORCE: Stroke = Stroke::new("#c2410c", 2.0, &[]);
@@ -161,6 +176,11 @@ pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle
 /// The onset of slip and the peak on a curve.
 pub(super) const ONSET: Mark = Mark::new(Shape::Circle, BLUE, 4.5);
 pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);
+/// The ends of a yield curve: below, the stack slides under its own weight; above, the top wall reaches the bottom bodies, or
+/// the top one slips on them.
+pub(super) const OWN_WEIGHT: Mark = Mark::new(Shape::Dot, INK, 2.4);
+pub(super) const WALL_REACHES: Mark = Mark::new(Shape::Diamond, INK, 4.0);
+pub(super) const BODIES_SLIP: Mark = Mark::new(Shape::Cross, INK, 3.4);
 /// Points of a regime map at which native runs agree with theory, and at which they do not.
 pub(super) const CONFIRMED: Mark = Mark::new(Shape::Dot, INK, 2.2);
 pub(super) const NOT_CONFIRMED: Mark = Mark::new(Shape::Cross, "#c00000", 2.2);

@@ -5,7 +5,8 @@ use super::*;
 use crate::code::{Code, Interrupt};
 use crate::model::{Power, Stack};
 use crate::paper::reproduction::{
-    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, Laws, TheoryPoint, snapshots,
+    Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, Laws, Spheres, TheoryPoint,
+    snapshots,
 };
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 use crate::study::regimes::Survey;
@@ -155,6 +156,7 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
             notes: Vec::new(),
         },
         curves: curves(),
+        spheres: Spheres::default(),
         provenances: Vec::new(),
     }
 }
@@ -211,8 +213,23 @@ fn the_axes_carry_symbols_and_units() {
 }
 
 #[test]
+fn curves_of_spheres_carry_a_mark_at_each_end() {
+    let svg = spheres_figure(&Spheres::new()).svg();
+    // Two to five bodies in two panels, and the key.
+    assert_eq!(circles(&svg, style::OWN_WEIGHT.size), 2 * 4 + 1);
+    for words in ["floor friction μ/μ", "(F + n + 1)/n", "n = 5, spheres"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let empty = spheres_figure(&Spheres::default()).svg();
+    assert_eq!(circles(&empty, style::OWN_WEIGHT.size), 1);
+    assert!(!empty.contains("NaN") && !empty.contains("inf"));
+}
+
+#[test]
 fn captions_tell_how_to_make_the_figure_again() {
-    for figure in figures(&reproduction(judgements())) {
+    let mut all = figures(&reproduction(judgements()));
+    all.push(spheres_figure(&Spheres::default()));
+    for figure in all {
         assert!(figure.caption.contains("`tristack report --out DIR`"));
         assert!(
             figure

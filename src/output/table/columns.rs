@@ -206,9 +206,11 @@ impl<'a, R: 'a> Columns<'a, R> {
             .shown("mu")
             .digits(friction)
             .number("mu_d", "1", move |row| stack(row).cylinder_friction)
-            .means("friction μ_d between the cylinders")
+            .means("friction μ_d between the bodies")
             .number("kappa", "1", move |row| stack(row).stiffness_ratio)
             .means("stiffness ratio κ = k_n/k_t")
+            .number("bodies", "1", move |row| u64::from(stack(row).bodies))
+            .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     }
 
     /// The part of a contact convention that moves the quasi-static limit.

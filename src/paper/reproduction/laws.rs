@@ -3,7 +3,7 @@
 use super::scaling::{Exponent, SCALING_STIFFNESSES, fitted_exponents};
 use super::{is_same, judged};
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 use crate::study::Campaign;
 use crate::study::yield_force::{Judgement, Measurement, Profile, plan};
 use crate::theory::quasistatic_limit;
@@ -50,7 +50,8 @@ impl Laws {
 
 /// The measurements of the yield curves, and those at μ_c, of every stack that yields.
 pub(super) fn measurements(codes: &[Code]) -> [Vec<Measurement>; 2] {
-    let curves = Profile::Quick.measurements_of(&Profile::Quick.stacks(POWER), codes, POWER);
+    let curves =
+        Profile::Quick.measurements_of(&Profile::Quick.stacks(POWER, PAPER_BODIES), codes, POWER);
     let stacks = SCALING_STIFFNESSES.map(critical_stack);
     let one_a_code = codes.iter().filter(|code| code.is_first_variant());
     let scaling = one_a_code.flat_map(|&code| {

@@ -6,6 +6,7 @@ mod force_series;
 mod laws;
 mod scaling;
 mod snapshots;
+mod spheres;
 
 pub use convergence::{Convergence, ConvergencePoint, converge};
 pub(crate) use convergence::{FAST_WALL, convergence_stack, convergence_workloads};
@@ -16,9 +17,11 @@ pub use laws::Laws;
 pub use scaling::{Exponent, exponents, scaling_measurements};
 pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at};
 pub use snapshots::{Snapshots, snapshots};
+pub(crate) use spheres::SPHERES_STIFFNESSES;
+pub use spheres::{BodiesCurve, Spheres};
 
 use crate::code::{Code, Provenance};
-use crate::model::{Case, PAPER_STIFFNESS_RATIO, Power, Stack};
+use crate::model::{Case, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
 use crate::series::SeriesError;
 use crate::study::Campaign;
@@ -65,6 +68,8 @@ pub struct Reproduction {
     pub survey: Survey,
     /// The theories over the ranges of the figures.
     pub curves: Curves,
+    /// Spheres in place of cylinders.
+    pub spheres: Spheres,
     /// The origins of the runs, in the order of their use.
     pub provenances: Vec<Provenance>,
 }
@@ -133,6 +138,7 @@ pub(crate) fn reproduce(
         maps: theory.maps,
         survey,
         curves: theory.curves,
+        spheres: theory.spheres,
     }))
 }
 
@@ -141,6 +147,7 @@ struct Theory {
     maps: [RegimeMap; 3],
     survey: SurveyPlan,
     curves: Curves,
+    spheres: Spheres,
 }
 
 impl Theory {
@@ -149,6 +156,7 @@ impl Theory {
         Self {
             survey: SurveyPlan::new(&boundary_points(&maps), &examined_stacks()),
             curves: curves(),
+            spheres: Spheres::new(),
             maps,
         }
     }
@@ -231,8 +239,8 @@ fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
 fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
     let names = codes.iter().map(|selected| selected.name);
     let external = names.filter(|name| !name.accepts_any_convention());
-    let planned =
-        external.map(|code| plan_trajectory(code, &trajectory_stack(), code.convention()));
+    let planned = external
+        .map(|code| plan_trajectory(code, &trajectory_stack(PAPER_BODIES), code.convention()));
     planned.collect()
 }
 

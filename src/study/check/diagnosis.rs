@@ -62,7 +62,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         true => located(&known, series, case, micro),
         false => (Vec::new(), false),
     };
-    let plain = at_first_sight(series).filter(|_| !is_known);
+    let plain = at_first_sight(series, &case.stack).filter(|_| !is_known);
     for item in items
         .iter_mut()
         .filter(|item| item.outcome == Outcome::Failed)

@@ -4,7 +4,7 @@
 use super::twin::{FLOOR, OF_BODY, PER_CONTACT, Row, Twin, WALL};
 use crate::model::{Case, ContactConvention, ContactTest};
 use crate::runs::Answer;
-use crate::series::{Row as Declared, Series};
+use crate::series::{Column as Declared, MotionRow, Sample, Series};
 
 /// Largest distance of two codes with the same law, whose integrators differ: ten times that of LAMMPS.
 pub(super) const SAME: f64 = 1e-3;
@@ -103,7 +103,8 @@ impl Evidence {
             .max_by(|&one, &two| samples[one].wall_force.total_cmp(&samples[two].wall_force));
         let until = highest.map_or(0, |peak| peak + 1);
         let until = if is_whole { samples.len() } else { until };
-        Self::new(Twin::of_stack(&case), &samples[..until], false)
+        let columns = Sample::columns(case.stack.bodies);
+        Self::new(Twin::of_stack(&case), columns, &samples[..until])
     }
 
     /// A micro-test in which the law has this `convention`.
@@ -117,17 +118,19 @@ impl Evidence {
             convention,
             ..answer.test
         };
-        Self::new(Twin::of_motion(&test), answer.motion.rows(), true)
+        let columns = &MotionRow::COLUMNS;
+        Self::new(Twin::of_motion(&test), columns, answer.motion.rows())
     }
 
-    fn new<R: Declared>(twin: Twin, rows: &[R], is_motion: bool) -> Self {
-        let known = R::columns()
+    fn new<R>(twin: Twin, declared: &[Declared<R>], rows: &[R]) -> Self {
+        let is_motion = twin.is_motion();
+        let known = declared
             .iter()
             .filter_map(|own| Some((own.value, Column::named(own.name, is_motion)?)));
         let (values, columns): (Vec<_>, Vec<Column>) = known
             .filter(|(value, _)| rows.iter().all(|row| value(row).is_finite()))
             .unzip();
-        let step = R::columns()[0].value;
+        let step = declared[0].value;
         let found = rows.iter().map(|row| {
             (
                 step(row) as u64,

@@ -43,7 +43,10 @@ impl Micro {
     /// Reads the answers of `code`; `None` if they are not those to today's questions.
     pub fn of(code: Code, record: ProbeRecord) -> Option<Self> {
         let reaction = action_and_reaction(&record);
-        let answers = record.answers.clone();
+        // Those in space have equations of their own, in the probe.
+        let in_the_plane = |answer: &&Answer| answer.test.space.is_none();
+        let answers = record.answers.iter().filter(in_the_plane);
+        let answers = answers.cloned().collect();
         let findings = read_probe(code, record).ok()?;
         Some(Self {
             findings,

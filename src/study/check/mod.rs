@@ -13,6 +13,7 @@ mod numbers;
 mod reaction;
 mod report;
 mod search;
+mod spheres;
 mod stack;
 mod table;
 mod terms;
@@ -28,7 +29,7 @@ use super::convention::ask;
 use super::yield_force::planned_protocol;
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
 use crate::files::{Scratch, temporary};
-use crate::model::{Case, ContactConvention, Power, Stack};
+use crate::model::{Arrangement, Case, ContactConvention, Power, Stack};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
@@ -139,6 +140,7 @@ impl Check<'_> {
                 true => diagnosis::items(&run.series, &case, micro.as_ref()),
                 false => diagnosis::of_micro_tests(micro.as_ref()),
             });
+        self.spheres(installed.as_ref());
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,
@@ -155,8 +157,17 @@ impl Check<'_> {
     }
 
     fn manifest(&mut self) {
-        let motion = self.code.check_task(TaskKind::Motion).is_ok();
-        let tasks = if motion { "stack, motion" } else { "stack" };
+        let kinds = [
+            TaskKind::Stack,
+            TaskKind::Motion,
+            TaskKind::Spheres,
+            TaskKind::SpheresMotion,
+        ];
+        let own = kinds
+            .into_iter()
+            .filter(|kind| self.code.check_task(*kind).is_ok());
+        let tasks: Vec<&str> = own.map(TaskKind::as_str).collect();
+        let tasks = tasks.join(", ");
         let found = format!("{} ({}): tasks {tasks}", self.code, self.code.title());
         self.add(Item::passed(Grade::Mandatory, "manifest", found));
     }
@@ -225,6 +236,41 @@ impl Check<'_> {
             Err(failure) => {
                 self.fail(NAME, failure.as_deref(), Some(case));
                 None
+            }
+        }
+    }
+
+    /// A sphere on three, if there is a task for it: as it is, turned, mirrored and numbered otherwise.
+    fn spheres(&mut self, installed: &dyn InstalledCode) {
+        const NAME: &str = "task spheres";
+        let usual = spheres::case(self.code.convention(), Arrangement::default());
+        let Some(case) = usual.filter(|_| self.code.check_task(TaskKind::Spheres).is_ok()) else {
+            return;
+        };
+        let run = match self.try_run(installed, &case, "spheres") {
+            Ok(run) => run,
+            Err(failure) => return self.fail(NAME, failure.as_deref(), Some(&case)),
+        };
+        let seconds = run.provenance.seconds;
+        self.add(Item::passed(
+            Grade::Consistency,
+            NAME,
+            format!("{} steps in {seconds:.2} s", case.total_steps()),
+        ));
+        let is_declared = self.code.declaration().left_out.is_empty();
+        let items = spheres::items(&run.series, &case, is_declared);
+        self.report.items.extend(items);
+        for (name, arrangement) in spheres::OTHERS {
+            let Some(other) = spheres::case(self.code.convention(), arrangement) else {
+                continue;
+            };
+            match self.try_run(installed, &other, name) {
+                Ok(seen) => self.add(spheres::seen_from_elsewhere(
+                    name,
+                    (&seen.series, &other),
+                    (&run.series, &case),
+                )),
+                Err(failure) => self.fail(name, failure.as_deref(), Some(&other)),
             }
         }
     }
@@ -349,5 +395,6 @@ fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
         Ok::<_, ()>(motions)
     };
     super::convention::probe(&declared, run).expect("the native DEM answers");
+    answers.retain(|answer| answer.test.space.is_none());
     answers
 }

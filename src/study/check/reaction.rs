@@ -20,7 +20,11 @@ fn forces([one, two]: [BodyRow; 2]) -> Option<[[f64; 2]; 2]> {
 
 /// The item on the forces of all pairs.
 pub(super) fn action_and_reaction(record: &ProbeRecord) -> Item {
-    let motions = || record.answers.iter().map(|answer| &answer.motion);
+    let motions = || {
+        let answers = record.answers.iter();
+        let in_the_plane = answers.filter(|answer| answer.test.space.is_none());
+        in_the_plane.map(|answer| &answer.motion)
+    };
     let rows = motions().flat_map(|motion| motion.rows().iter().skip(1));
     let pairs: Vec<[[f64; 2]; 2]> = rows.filter_map(|row| forces(row.bodies())).collect();
     let largest = |value: fn(&[[f64; 2]; 2]) -> f64| pairs.iter().map(value).fold(0.0, f64::max);

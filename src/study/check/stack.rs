@@ -3,8 +3,10 @@
 use super::evidence::Evidence;
 use super::factor::{is_about, of_factor, of_friction};
 use super::report::{Grade, Item};
-use crate::model::Case;
-use crate::series::{ENOUGH_DIGITS, Law, Mechanics, Sample, Series, YieldEstimates, most_digits};
+use crate::model::{Case, Stack};
+use crate::series::{
+    ENOUGH_DIGITS, FloorContact, Law, Mechanics, Sample, Series, YieldEstimates, most_digits,
+};
 
 /// Relative deviation of the weight from which on it is not that of the stack: what ringing leaves is far smaller.
 const SAME_WEIGHT: f64 = 1e-3;
@@ -45,7 +47,7 @@ fn weight(rows: &[Sample], case: &Case) -> Item {
     let Some(first) = rows.first() else {
         return Item::not_tested(Grade::Consistency, WEIGHT, "there is no row");
     };
-    let borne = (first.floor_n2 + first.floor_n3) / weight;
+    let borne = first.borne(&case.stack) / weight;
     if (borne / 3.0 - 1.0).abs() <= SAME_WEIGHT {
         return passed(WEIGHT, "3 m g");
     }
@@ -199,8 +201,8 @@ pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
     const SAME: f64 = 1e-3;
     let rows = series.samples();
     let law = case.convention.law(case.stack.stiffness_ratio);
-    let weight = 3.0 * case.stack.epsilon();
-    let borne = |row: &Sample| (row.floor_n2 + row.floor_n3 - row.wall_force) / weight;
+    let weight = case.stack.floor_force(0.0);
+    let borne = |row: &Sample| (row.borne(&case.stack) - row.wall_force) / weight;
     let highest = rows
         .iter()
         .max_by(|one, two| one.wall_force.total_cmp(&two.wall_force));
@@ -219,7 +221,8 @@ pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
             last.step
         ));
     }
-    let way = |row: &Sample| first.y1 - row.y1 + law.overlap(row.wall_force);
+    let height = |row: &Sample| row.top(&case.stack)[1];
+    let way = |row: &Sample| height(first) - height(row) + law.overlap(row.wall_force);
     let asked = |row: &Sample| case.protocol.wall_speed * row.time;
     let pressed = || {
         rows.iter()
@@ -250,11 +253,13 @@ pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
 }
 
 /// What the stack at rest shows without computing anything.
-pub(super) fn at_first_sight(series: &Series) -> Option<String> {
+pub(super) fn at_first_sight(series: &Series, stack: &Stack) -> Option<String> {
     let rows = series.samples();
     let first = rows.first()?;
-    let top = first.y1 - (1.0 + 3f64.sqrt());
-    let stands = first.floor_n2.abs() + first.floor_n3.abs() > 1e-12;
+    let [x, height, _] = first.top(stack);
+    let top = height - (1.0 + stack.ring().rise);
+    let bears = |contact: FloorContact| contact.normal.abs() > 1e-12;
+    let stands = first.floor_contacts(stack).any(bears);
     if !stands && top > 1e-6 {
         return Some(format!(
             "gravity points upwards: at step 0 cylinder 1 is {top:.3e} r above its place in the stress-free \
@@ -263,23 +268,26 @@ pub(super) fn at_first_sight(series: &Series) -> Option<String> {
     }
     if !stands && top < -0.5 {
         return Some(format!(
-            "the stack fell: at step 0 cylinder 1 is at y1 = {:.6}; the floor, or the contacts of cylinder 1, \
-                             exert no force, or push the wrong way",
-            first.y1
+            "the stack fell: at step 0 cylinder 1 is at y1 = {height:.6}; the floor, or the contacts of cylinder 1, \
+                             exert no force, or push the wrong way"
         ));
     }
-    if !stands && top.abs() <= 1e-6 && first.x1.is_finite() {
+    if !stands && top.abs() <= 1e-6 && x.is_finite() {
         return Some("there is no gravity: at step 0 the stack is free of stress; `gravity` is never set, or the steps of \
                      the preparation are left out".to_owned());
     }
-    if top < -1.0 && (first.x2 - first.x3).abs() > 2.5 {
+    let apart = first.neighbour_distance(stack);
+    if top < -1.0 && apart > 2.5 {
         return Some(format!(
-            "the stack collapsed before step 0: the bottom cylinders are at x = {:.3} and {:.3}",
-            first.x2, first.x3
+            "the stack collapsed before step 0: the bottom {} are {apart:.3} r apart",
+            stack.kind()
         ));
     }
     let is_single = |position: f64| f64::from(position as f32) == position;
-    let positions = || rows.iter().flat_map(|row| [row.y1, row.x2, row.y2]);
+    let positions = || {
+        let rows = rows.iter();
+        rows.flat_map(|row| row.bodies.iter().take(2).flat_map(|body| body.position))
+    };
     if rows.iter().all(|row| row.wall_force == 0.0) {
         return Some("the wall never presses: it moves upwards, or not at all, or its force is not read; `wall_speed` is \
                      downwards".to_owned());

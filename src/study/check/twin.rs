@@ -88,6 +88,11 @@ fn contact(law: &ContactLaw, friction: f64) -> OfContact {
 }
 
 impl Twin {
+    /// Whether it runs a micro-test.
+    pub fn is_motion(&self) -> bool {
+        matches!(self.plan, Plan::Motion(_))
+    }
+
     fn new(
         plan: Plan,
         (convention, stiffness_ratio): (ContactConvention, f64),

@@ -280,6 +280,7 @@ fn test(kind: ContactKind, convention: &ContactConvention, start: Start) -> Cont
         wall_speed: if kind == ContactKind::Wall { 0.02 } else { 0.0 },
         initial_motions,
         drive: None,
+        space: None,
     }
 }
 

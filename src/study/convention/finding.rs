@@ -167,6 +167,15 @@ impl Property {
         self
     }
 
+    /// Whether it is another one than declared.
+    pub fn differs(&self) -> bool {
+        let scale = self.declared.filter(|declared| *declared != 0.0);
+        let error = self.declared.map(|own| self.measured.value - own);
+        error.is_some_and(|error| {
+            error.abs() > self.measured.uncertainty + TOLERANCE * scale.unwrap_or(1.0).abs()
+        })
+    }
+
     /// Whether its value shows which of a few rules a code follows.
     fn shows_rule(&self) -> bool {
         use ConventionKey::{CoulombOperand, HistoryUpdate, SlidingSpring, TensileForce};

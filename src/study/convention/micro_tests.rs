@@ -35,7 +35,9 @@ impl ScheduledTask for MicroTests {
 
     /// That of the identity of the code and of its deck.
     fn address(&self, code: &dyn InstalledCode) -> String {
-        let parts = serde_json::json!([code.identity(), code.name().files_hash(TaskKind::Motion)]);
+        let decks = [TaskKind::Motion, TaskKind::SpheresMotion];
+        let decks = decks.map(|kind| code.name().files_hash(kind));
+        let parts = serde_json::json!([code.identity(), decks]);
         sha256_hex(parts.to_string().as_bytes())
     }
 
@@ -127,7 +129,18 @@ pub(crate) fn ask(
             time_limit: context.time_limit,
             ..RunContext::new(&place, context.interrupt)
         };
-        let motions = code.probe(tests, &context)?;
+        // Each kind has a deck of its own.
+        let (in_the_plane, in_space) =
+            tests.split_at(tests.partition_point(|test| test.space.is_none()));
+        let mut motions = code.probe(in_the_plane, &context)?;
+        if !in_space.is_empty() {
+            let place = place.join("in-space");
+            let context = RunContext {
+                time_limit: context.time_limit,
+                ..RunContext::new(&place, context.interrupt)
+            };
+            motions.extend(code.probe(in_space, &context)?);
+        }
         answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
             test: *test,
             input_hash: name.deck_hash(test),

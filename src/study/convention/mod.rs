@@ -26,6 +26,7 @@ mod settle;
 mod settled;
 mod shape;
 mod sliding;
+mod space;
 mod spring_shape;
 mod tangential;
 

@@ -6,6 +6,7 @@ use super::cycle;
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
 use super::plan::{Laws, Plan, TestedMotion};
+use super::space;
 use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::Motion;
@@ -32,8 +33,13 @@ pub fn probe<E>(
     tests.push(turning);
     let free = tests.len();
     tests.extend(cycle::tests(convention));
+    let in_the_plane = tests.len();
+    if declared.in_space {
+        tests.extend(space::tests(convention));
+    }
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
+    let (outcomes, of_spheres) = outcomes.split_at(in_the_plane);
     let (outcomes, driven) = outcomes.split_at(free);
     let clock = Clock::read(outcomes);
     let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
@@ -50,6 +56,7 @@ pub fn probe<E>(
         let index = CONTACT_KINDS.iter().position(|own| *own == kind)?;
         Some(&laws[index])
     };
+    let in_space = space::properties(of_spheres, clock.velocity_lag.value, declared);
     let cycles = cycle::properties(driven, |kind| of(kind).map(Laws::tangential));
     let floor_ratio = floor_ratio(of, declared);
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
@@ -64,6 +71,18 @@ pub fn probe<E>(
         properties.extend(laws.properties(own, &clock));
     }
     properties.extend(floor_ratio.into_iter().chain(cycles));
+    // In space a law is taken as declared: where it is another one, everything there would follow from that.
+    let in_space = in_space.into_iter().filter(|own| {
+        let kind = CONTACT_KINDS
+            .iter()
+            .find(|kind| own.name.starts_with(kind.as_str()));
+        kind.is_none_or(|kind| {
+            let of_kind = |other: &&Property| other.name.starts_with(kind.as_str());
+            !properties.iter().filter(of_kind).any(Property::differs)
+        })
+    });
+    let in_space: Vec<Property> = in_space.collect();
+    properties.extend(in_space);
     let properties = properties.into_iter();
     let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
     Ok(properties.collect())

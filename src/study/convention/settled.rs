@@ -163,6 +163,7 @@ mod tests {
             convention: ContactConvention::PAPER,
             velocity_lag: 0.5,
             left_out: vec![key],
+            in_space: false,
         };
         settled(&declaration, properties)
     }

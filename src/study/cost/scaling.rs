@@ -4,7 +4,7 @@ use super::stack::{LENGTHS, plans, timed_cases};
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
 use crate::code::{Code, RunContext};
-use crate::model::Case;
+use crate::model::{Case, PAPER_BODIES};
 use crate::runs::in_parallel;
 use std::time::Instant;
 
@@ -50,7 +50,7 @@ pub(crate) fn measure_scaling(
     context: &RunContext,
 ) -> Result<Scaling, BenchError> {
     let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
-    let planned = plans(Code::NATIVE, STACKS).into_iter();
+    let planned = plans((Code::NATIVE, PAPER_BODIES), STACKS).into_iter();
     let planned: Vec<Case> = planned.flat_map(|plan| plan.cases).collect();
     let cores = numbers_of_cores();
     let mut over_cases = CASES.map(|_| Vec::new());
@@ -85,7 +85,7 @@ fn in_lanes(
     count: usize,
     context: &RunContext,
 ) -> Result<f64, BenchError> {
-    let cases = timed_cases(Code::NATIVE, count, STEPS, LENGTHS);
+    let cases = timed_cases((Code::NATIVE, PAPER_BODIES), count, STEPS, LENGTHS);
     let steps: u64 = cases.iter().map(Case::total_steps).sum();
     let calls = LEAST_CASES.div_ceil(count);
     let mut seconds = 0.0;

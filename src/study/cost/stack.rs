@@ -1,16 +1,18 @@
-//! The cost of the stack of three cylinders: a step, a start, and a yield force.
+//! The cost of a stack of cylinders or spheres: a step, a start, and a yield force.
 
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget, TimedRuns, convention};
 use crate::code::{Code, RunContext};
-use crate::model::{Case, Power, Preparation, Protocol, Sampling, Stack};
+use crate::model::{
+    CRITICAL_FRICTION, Case, PAPER_BODIES, Power, Preparation, Protocol, Sampling, Stack,
+};
 use crate::runs::RunSummary;
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{Measurement, extrapolate, plan};
 
 /// Stiffness of all stacks, the middle one of the paper.
 const STIFFNESS: f64 = 1e3;
-/// Friction of the first stack.
+/// Friction of the first stack of cylinders; of spheres it is as many times the critical one.
 const FRICTION: f64 = 0.3;
 /// Difference between the frictions of two neighbouring stacks.
 const FRICTION_STEP: f64 = 1e-3;
@@ -49,7 +51,7 @@ pub struct StackCost {
     pub start_up_seconds: Vec<f64>,
     /// Wall time per yield force in seconds, start included.
     pub seconds_per_yield_force: Vec<f64>,
-    /// Largest distance of these yield forces from the exact limit, relative to F + 3.
+    /// Largest distance of these yield forces from the exact limit, relative to F + n + 1.
     pub largest_error: f64,
     /// Largest resident memory, in bytes, of the processes that measured the yield forces (for native: this process).
     /// `None` where the system does not report it.
@@ -70,6 +72,7 @@ pub(crate) fn installed_codes() -> Vec<Code> {
 /// If a code is missing, a run fails, or its files cannot be written.
 pub(crate) fn measure_stack(
     codes: &[Code],
+    bodies: u8,
     repeats: Option<usize>,
     context: &RunContext,
 ) -> Result<Vec<StackCost>, BenchError> {
@@ -80,13 +83,13 @@ pub(crate) fn measure_stack(
     let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
     for target in &targets {
         // The first start reads the program from disk.
-        let short = timed_cases(target.code.name(), 1, STEPS, 1);
+        let short = timed_cases((target.code.name(), bodies), 1, STEPS, 1);
         target.time(&short, context)?;
     }
     for _ in 0..repeats.unwrap_or(REPEATS) {
         for (target, cost) in targets.iter().zip(&mut costs) {
-            time_steps(target, cost, context)?;
-            time_yield_forces(target, cost, context)?;
+            time_steps(target, bodies, cost, context)?;
+            time_yield_forces(target, bodies, cost, context)?;
         }
     }
     Ok(costs)
@@ -94,6 +97,7 @@ pub(crate) fn measure_stack(
 
 fn time_steps(
     target: &InstalledTarget,
+    bodies: u8,
     cost: &mut StackCost,
     context: &RunContext,
 ) -> Result<(), BenchError> {
@@ -102,7 +106,7 @@ fn time_steps(
         Code::NATIVE => NATIVE_CASES,
         _ => 1,
     };
-    let [short, long] = [1, LENGTHS].map(|part| timed_cases(code, count, STEPS, part));
+    let [short, long] = [1, LENGTHS].map(|part| timed_cases((code, bodies), count, STEPS, part));
     let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
     let short = target.time(&short, context)?.duration.as_secs_f64();
     let long = target.time(&long, context)?.duration.as_secs_f64();
@@ -112,34 +116,51 @@ fn time_steps(
 
 fn time_yield_forces(
     target: &InstalledTarget,
+    bodies: u8,
     cost: &mut StackCost,
     context: &RunContext,
 ) -> Result<(), BenchError> {
-    let plans = plans(target.code.name(), STACKS);
+    let plans = plans((target.code.name(), bodies), STACKS);
     let cases: Vec<Case> = plans.iter().flat_map(|plan| plan.cases.clone()).collect();
     cost.add_yield_forces(&plans, target.time(&cases, context)?);
     Ok(())
 }
 
 /// The measurements of the yield forces of so many `stacks`, as a crosscheck plans them for `code`.
-pub(super) fn plans(code: Code, stacks: usize) -> Vec<Measurement> {
-    let stacks = (0..stacks).map(stack);
+pub(super) fn plans((code, bodies): (Code, u8), stacks: usize) -> Vec<Measurement> {
+    let stacks = (0..stacks).map(|index| stack(index, bodies));
     stacks
         .map(|stack| plan(code, &stack, convention(code)))
         .collect()
 }
 
 /// The stack of the case at `index`, each with its own friction.
-fn stack(index: usize) -> Stack {
-    Stack::paper(FRICTION + FRICTION_STEP * index as f64, STIFFNESS)
+fn stack(index: usize, bodies: u8) -> Stack {
+    let mut stack = Stack {
+        bodies,
+        ..Stack::paper(FRICTION, STIFFNESS)
+    };
+    if bodies != PAPER_BODIES {
+        stack.floor_friction *= stack.ring().critical_friction / CRITICAL_FRICTION;
+    }
+    stack.floor_friction += FRICTION_STEP * index as f64;
+    stack
 }
 
 /// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, and few rows.
-pub(super) fn timed_cases(code: Code, count: usize, steps: u64, part: u64) -> Vec<Case> {
-    let case = |index| Case {
-        stack: stack(index),
-        convention: convention(code),
-        protocol: timed_protocol(steps, part),
+pub(super) fn timed_cases(
+    (code, bodies): (Code, u8),
+    count: usize,
+    steps: u64,
+    part: u64,
+) -> Vec<Case> {
+    let case = |index| {
+        let stack = stack(index, bodies);
+        Case {
+            convention: convention(code).of_bodies(&stack),
+            stack,
+            protocol: timed_protocol(steps, part),
+        }
     };
     (0..count).map(case).collect()
 }
@@ -216,7 +237,7 @@ impl StackCost {
     }
 }
 
-/// Distance of the yield force that `summaries` give from the limit, relative to F + 3; infinite without one.
+/// Distance of the yield force that `summaries` give from the limit, relative to F + n + 1; infinite without one.
 fn yield_force_error(plan: &Measurement, summaries: impl Iterator<Item = RunSummary>) -> f64 {
     let estimates: Vec<YieldEstimates> = summaries.map(|summary| summary.estimates).collect();
     let steps: Vec<u64> = plan.cases.iter().map(Case::total_steps).collect();
@@ -234,7 +255,7 @@ mod tests {
     #[test]
     fn short_and_long_runs_are_valid_and_differ_in_their_steps_alone() {
         let [short, long] =
-            [1, LENGTHS].map(|part| timed_cases(Code::named("yade").unwrap(), 2, 8000, part));
+            [1, LENGTHS].map(|part| timed_cases((Code::named("yade").unwrap(), 2), 2, 8000, part));
         for (short, long) in short.iter().zip(&long) {
             assert_eq!([short.validate(), long.validate()], [Ok(()), Ok(())]);
             assert_eq!(long.total_steps() - short.total_steps(), 7000);

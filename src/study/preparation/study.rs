@@ -186,7 +186,7 @@ fn plans_of(
         let names = [plan.code, plan.convention_of];
         let offered = |case: &Case| {
             let preparation = &case.protocol.preparation;
-            let refused = |name: Code| name.check_preparation(preparation).is_err();
+            let refused = |name: Code| name.check_preparation(stack, preparation).is_err();
             !names.into_iter().any(refused)
         };
         plan.cases().iter().all(offered)

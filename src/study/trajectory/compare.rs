@@ -3,10 +3,10 @@
 use super::distance::{Branch, Distance, Milestones, Quantity};
 use super::documented::documented;
 use super::judge::{FORCE_TOLERANCE, judge_order};
-use super::judgement::{Comparison, TrajectoryFinding};
+use super::judgement::{Comparison, Times, TrajectoryFinding};
 use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
 use crate::code::{Code, Identity, Run};
-use crate::model::Case;
+use crate::model::{Case, Stack};
 use crate::runs::{Reading, Workload};
 use crate::series::{ENOUGH_DIGITS, Mechanics, Sample, most_digits};
 use crate::study::{Evaluation, Ground, Grounds, Study, Verdict};
@@ -79,8 +79,11 @@ impl Study for Trajectory {
                 finding.times = pairs.first().map(Pair::times);
                 finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();
                 hold_full_twin_to_the_other(&mut finding.comparisons);
-                doubt_few_digits(&mut finding.comparisons, samples.first());
-                hold_to_mechanics(&mut finding.comparisons, runs.first());
+                doubt_few_digits(&mut finding.comparisons, samples.first(), &self.stack);
+                // Mechanics is that of a symmetric stack.
+                if self.stack.arrangement.displacement == 0.0 {
+                    hold_to_mechanics(&mut finding.comparisons, runs.first());
+                }
             }
             None => grounds.add(Ground::NoYield(Some(
                 "a twin shows no peak of the wall force followed by a landing of cylinder 1"
@@ -96,7 +99,7 @@ impl Trajectory {
     fn pairs<'a>(&'a self, samples: &[Vec<&'a [Sample]>]) -> Option<Vec<Pair<'a>>> {
         let (own, twins) = samples.split_first()?;
         let pairs = self.twins.iter().zip(twins);
-        let pairs = pairs.map(|(runs, twin)| Pair::new(self.code, runs, own, twin));
+        let pairs = pairs.map(|(runs, twin)| Pair::new((self.code, &self.stack), runs, own, twin));
         let pairs: Vec<Pair> = pairs.collect::<Option<_>>()?;
         (!pairs.is_empty()).then_some(pairs)
     }
@@ -132,11 +135,11 @@ fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
 }
 
 /// Withdraws disagreements of series, those of the code in `own`, that are printed with too few digits for them.
-fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>) {
+fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>, stack: &Stack) {
     let digits = own.into_iter().flatten().map(|samples| {
         let numbers = samples.iter().flat_map(|sample| {
-            let quantities = Quantity::ALL.iter();
-            quantities.map(move |quantity| quantity.of(sample))
+            let quantities = Quantity::of_stack(stack).iter();
+            quantities.flat_map(move |quantity| quantity.of(sample))
         });
         most_digits(numbers)
     });
@@ -154,6 +157,7 @@ fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>
 /// A code and one of its twins.
 struct Pair<'a> {
     code: Code,
+    stack: &'a Stack,
     runs: &'a TwinRuns,
     /// Series of the code, one per time step.
     series: Vec<&'a [Sample]>,
@@ -167,7 +171,7 @@ struct Pair<'a> {
 impl<'a> Pair<'a> {
     /// `twin` holds the series of `runs` in their order; `None` if the twin does not collapse.
     fn new(
-        code: Code,
+        (code, stack): (Code, &'a Stack),
         runs: &'a TwinRuns,
         series: &[&'a [Sample]],
         twin: &[&'a [Sample]],
@@ -175,9 +179,10 @@ impl<'a> Pair<'a> {
         let (twin, [halved, disturbed]) = twin.split_last_chunk()?;
         Some(Self {
             code,
+            stack,
             runs,
             series: series.to_vec(),
-            milestones: Milestones::read(twin.last()?)?,
+            milestones: Milestones::read(twin.last()?, stack)?,
             twin: twin.to_vec(),
             halved,
             disturbed,
@@ -186,8 +191,8 @@ impl<'a> Pair<'a> {
 
     /// Every quantity on every branch.
     fn comparisons(&self) -> Vec<Comparison> {
-        let branches = Branch::ALL.into_iter().flat_map(|branch| {
-            let quantities = branch.quantities().iter();
+        let branches = Branch::of_stack(self.stack).iter().flat_map(|&branch| {
+            let quantities = branch.quantities(self.stack).iter();
             quantities.map(move |&quantity| self.compare(quantity, branch))
         });
         branches.collect()
@@ -197,9 +202,13 @@ impl<'a> Pair<'a> {
         self.twin.last().copied().unwrap_or_default()
     }
 
-    fn times(&self) -> [f64; 3] {
-        let Milestones { peak, lost, landed } = self.milestones;
-        [peak, lost, landed].map(|row| self.finest()[row].time)
+    fn times(&self) -> Times {
+        let time = |row: usize| self.finest()[row].time;
+        let Milestones { peak, later } = self.milestones;
+        Times {
+            peak: time(peak),
+            later: later.map(|rows| rows.map(time)),
+        }
     }
 
     fn compare(&self, quantity: Quantity, branch: Branch) -> Comparison {
@@ -236,9 +245,9 @@ impl<'a> Pair<'a> {
         left: &[Sample],
         right: &[Sample],
     ) -> Distance {
-        let unit = match quantity {
-            Quantity::WallForce => self.finest()[self.milestones.peak].wall_force,
-            _ => 1.0,
+        let unit = match quantity.is_force() {
+            true => self.finest()[self.milestones.peak].wall_force,
+            false => 1.0,
         };
         let rows = self.milestones.rows(branch);
         Distance::between(

@@ -1,5 +1,6 @@
 //! The distance between two series, branch by branch.
 
+use crate::model::{PAPER_BODIES, Stack};
 use crate::series::Sample;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -19,11 +20,33 @@ pub enum Quantity {
     Y1,
     /// θ₂(t), in radians.
     Theta2,
+    /// Every coordinate of every centre, in r.
+    Centres,
+    /// Every component of every rotation, in radians.
+    Rotations,
+    /// Every component of the force of the floor on every sphere, in units of the peak of the wall force.
+    FloorForces,
 }
 
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::WallForce, Self::X2, Self::Y1, Self::Theta2];
+    /// Those of three cylinders.
+    pub const OF_CYLINDERS: [Self; 4] = [Self::WallForce, Self::X2, Self::Y1, Self::Theta2];
+
+    /// Those of spheres, which no symmetry binds.
+    const OF_SPHERES: [Self; 4] = [
+        Self::WallForce,
+        Self::Centres,
+        Self::Rotations,
+        Self::FloorForces,
+    ];
+
+    /// Those of `stack`.
+    pub fn of_stack(stack: &Stack) -> &'static [Self] {
+        match stack.bodies {
+            PAPER_BODIES => &Self::OF_CYLINDERS,
+            _ => &Self::OF_SPHERES,
+        }
+    }
 
     /// The name in tables.
     pub fn as_str(self) -> &'static str {
@@ -32,17 +55,38 @@ impl Quantity {
             Self::X2 => "x2",
             Self::Y1 => "y1",
             Self::Theta2 => "theta2",
+            Self::Centres => "centres",
+            Self::Rotations => "rotations",
+            Self::FloorForces => "floor_forces",
         }
     }
 
-    /// Its value in a row; the force in k_n r.
-    pub fn of(self, sample: &Sample) -> f64 {
+    /// Whether it is a force, in k_n r.
+    pub fn is_force(self) -> bool {
+        matches!(self, Self::WallForce | Self::FloorForces)
+    }
+
+    /// Its values in a row.
+    pub fn of(self, sample: &Sample) -> Vec<f64> {
+        let bodies = sample.bodies.iter();
         match self {
-            Self::WallForce => sample.wall_force,
-            Self::X2 => sample.x2,
-            Self::Y1 => sample.y1,
-            Self::Theta2 => sample.theta2,
+            Self::WallForce => vec![sample.wall_force],
+            Self::X2 => vec![sample.bodies[1].position[0]],
+            Self::Y1 => vec![sample.bodies[0].position[1]],
+            Self::Theta2 => vec![sample.bodies[1].rotation[2]],
+            Self::Centres => bodies.flat_map(|body| body.position).collect(),
+            Self::Rotations => bodies.flat_map(|body| body.rotation).collect(),
+            Self::FloorForces => sample.floor.as_flattened().to_vec(),
         }
+    }
+
+    /// The largest distance of its values in two rows.
+    fn distance(self, left: &Sample, right: &Sample) -> f64 {
+        let (left, right) = (self.of(left), self.of(right));
+        let pairs = left.iter().zip(&right);
+        pairs
+            .map(|(left, right)| (left - right).abs())
+            .fold(0.0, f64::max)
     }
 }
 
@@ -63,6 +107,15 @@ impl Branch {
     /// All of them, in order of time.
     pub const ALL: [Self; 3] = [Self::Compression, Self::Collapse, Self::Fall];
 
+    /// Those that are compared, in order of time: of spheres the compression alone, since the symmetric ring breaks after
+    /// its yield by what rounding leaves in each code.
+    pub fn of_stack(stack: &Stack) -> &'static [Self] {
+        match stack.bodies {
+            PAPER_BODIES => &Self::ALL,
+            _ => &Self::ALL[..1],
+        }
+    }
+
     /// The word in tables.
     pub fn as_str(self) -> &'static str {
         match self {
@@ -73,9 +126,9 @@ impl Branch {
     }
 
     /// The quantities that are compared on this branch.
-    pub fn quantities(self) -> &'static [Quantity] {
+    pub fn quantities(self, stack: &Stack) -> &'static [Quantity] {
         match self {
-            Self::Compression | Self::Collapse => &Quantity::ALL,
+            Self::Compression | Self::Collapse => Quantity::of_stack(stack),
             Self::Fall => &[Quantity::X2, Quantity::Y1, Quantity::Theta2],
         }
     }
@@ -86,32 +139,39 @@ impl Branch {
 pub(crate) struct Milestones {
     /// The wall force is highest.
     pub peak: usize,
-    /// The first row without a wall force after that.
-    pub lost: usize,
-    /// The first row in which cylinder 1 touches the floor.
-    pub landed: usize,
+    /// The first row without a wall force after that, and the first in which cylinder 1 touches the floor; not looked for
+    /// where the compression alone is compared.
+    pub later: Option<[usize; 2]>,
 }
 
 impl Milestones {
     /// Reads them off a series; `None` if one of them is missing.
-    pub fn read(samples: &[Sample]) -> Option<Self> {
+    pub fn read(samples: &[Sample], stack: &Stack) -> Option<Self> {
         let force = |row: usize| samples[row].wall_force;
         let peak = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
         let after = |row: usize, happens: fn(&Sample) -> bool| {
             let later = samples[row..].iter().position(happens)?;
             Some(row + later)
         };
-        let lost = after(peak, |sample| sample.wall_force <= 0.0)?;
-        let landed = after(lost, |sample| sample.y1 < 1.0)?;
-        (peak > 1).then_some(Self { peak, lost, landed })
+        let later = match Branch::of_stack(stack) {
+            [Branch::Compression] => None,
+            _ => {
+                let lost = after(peak, |sample| sample.wall_force <= 0.0)?;
+                let landed = after(lost, |sample| sample.bodies[0].position[1] < 1.0)?;
+                Some([lost, landed])
+            }
+        };
+        (peak > 1 && peak + 1 < samples.len()).then_some(Self { peak, later })
     }
 
     /// The rows of a branch.
     pub fn rows(&self, branch: Branch) -> Range<usize> {
+        let compressed = self.peak + 1;
+        let [lost, landed] = self.later.unwrap_or([compressed; 2]);
         match branch {
-            Branch::Compression => 1..self.peak + 1,
-            Branch::Collapse => self.peak + 1..self.lost,
-            Branch::Fall => self.lost..self.landed,
+            Branch::Compression => 1..compressed,
+            Branch::Collapse => compressed..lost,
+            Branch::Fall => lost..landed,
         }
     }
 }
@@ -144,7 +204,7 @@ impl Distance {
         let deviations: Vec<f64> = left
             .iter()
             .zip(right)
-            .map(|(left, right)| (quantity.of(left) - quantity.of(right)).abs() / unit)
+            .map(|(left, right)| quantity.distance(left, right) / unit)
             .collect();
         let squares: f64 = deviations
             .iter()
@@ -170,12 +230,14 @@ mod tests {
     use super::*;
 
     fn sample(step: u64, wall_force: f64, y1: f64) -> Sample {
-        let json = serde_json::json!({
-            "step": step, "time": step as f64 * 0.5, "wall_force": wall_force, "x1": 0.0, "y1": y1,
-            "theta1": 0.0, "x2": 1.0, "y2": 1.0, "theta2": 0.0, "x3": -1.0, "y3": 1.0, "theta3": 0.0,
-            "floor_n2": 0.0, "floor_t2": 0.0, "floor_n3": 0.0, "floor_t3": 0.0,
-        });
-        serde_json::from_value(json).unwrap()
+        let mut sample = Sample {
+            step,
+            time: step as f64 * 0.5,
+            wall_force,
+            ..Sample::default()
+        };
+        sample.bodies[0].position[1] = y1;
+        sample
     }
 
     fn series() -> Vec<Sample> {
@@ -188,14 +250,17 @@ mod tests {
 
     #[test]
     fn branches_meet_and_leave_out_the_touch_and_the_landing() {
-        let milestones = Milestones::read(&series()).unwrap();
+        let milestones = Milestones::read(&series(), &Stack::paper(0.3, 100.0)).unwrap();
         let rows = Branch::ALL.map(|branch| milestones.rows(branch));
         assert_eq!(rows, [1..4, 4..5, 5..7]);
     }
 
     #[test]
     fn a_series_without_landing_has_no_milestones() {
-        assert_eq!(Milestones::read(&series()[..7]), None);
+        assert_eq!(
+            Milestones::read(&series()[..7], &Stack::paper(0.3, 100.0)),
+            None
+        );
     }
 
     #[test]

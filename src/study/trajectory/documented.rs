@@ -70,8 +70,15 @@ impl Documented {
     }
 
     /// The difference in the angles, if there is one.
-    fn angle(code: Code) -> Option<Self> {
-        let does = match code.integration().angle {
+    fn angle(code: Code, quantity: Quantity) -> Option<Self> {
+        let angle = match (quantity, code.integration().angle) {
+            (Quantity::Theta2, angle) => angle,
+            // Of spheres every deck sums the spin.
+            (Quantity::Rotations, Angle::Dipole) => Angle::SummedSpin,
+            (Quantity::Rotations, angle) => angle,
+            _ => return None,
+        };
+        let does = match angle {
             Angle::Exact => return None,
             Angle::SummedSpin => {
                 "keeps no angle of a sphere; its deck sums the spin by the trapezoidal rule"
@@ -98,7 +105,7 @@ impl Documented {
 
 /// The documented order of the distance in `quantity` on `branch` between `code` and its `twin`.
 pub fn documented(code: Code, twin: Twin, quantity: Quantity, branch: Branch) -> Documented {
-    let angle = Documented::angle(code).filter(|_| quantity == Quantity::Theta2);
+    let angle = Documented::angle(code, quantity);
     let touches = code.integration().touches_at_zero_overlap;
     let full = twin == Twin::Full;
     match angle {

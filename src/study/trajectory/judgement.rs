@@ -6,11 +6,20 @@ use super::judge::order_between;
 use super::plan::{Trajectory, Twin};
 use crate::study::{Grounds, Judged, Verdict};
 
+/// Times at which branches end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// Of the peak of the wall force.
+    pub peak: f64,
+    /// Of the loss of the wall and of the landing, where they are looked for.
+    pub later: Option<[f64; 2]>,
+}
+
 /// The result of comparing the runs of a code with those of its twins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrajectoryFinding {
-    /// Times of the peak, of the loss of the wall and of the landing; `None` without a comparison.
-    pub times: Option<[f64; 3]>,
+    /// Times at which branches end; `None` without a comparison.
+    pub times: Option<Times>,
     /// Every quantity on every branch with every twin; none if a run shows no yield.
     pub comparisons: Vec<Comparison>,
 }
@@ -46,8 +55,8 @@ impl TrajectoryJudgement {
         }
     }
 
-    /// Times of the peak, of the loss of the wall and of the landing; `None` if there is no comparison.
-    pub fn times(&self) -> Option<[f64; 3]> {
+    /// Times at which branches end; `None` if there is no comparison.
+    pub fn times(&self) -> Option<Times> {
         self.finding.as_ref()?.times
     }
 

@@ -16,4 +16,4 @@ pub use documented::{Documented, DocumentedOrder, documented};
 pub(crate) use judge::{FORCE_TOLERANCE, ORDER_TOLERANCE};
 pub use judgement::{Comparison, TrajectoryFinding, TrajectoryJudgement};
 pub(crate) use plan::WALL_SPEED;
-pub use plan::{TIME_STEPS, Trajectory, Twin, TwinRuns, plan_trajectory, trajectory_stack};
+pub use plan::{Trajectory, Twin, TwinRuns, plan_trajectory, time_steps, trajectory_stack};

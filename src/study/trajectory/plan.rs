@@ -2,7 +2,7 @@
 
 use crate::code::Code;
 use crate::model::{
-    Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack,
+    Case, ContactConvention, HistoryUpdate, PAPER_BODIES, Preparation, Protocol, Sampling, Stack,
 };
 use crate::theory::quasistatic_limit;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,15 @@ pub(crate) const WALL_SPEED: f64 = 1e-3;
 
 /// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the first
 /// touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.
-pub const TIME_STEPS: [f64; 3] = [0.025, 0.0125, 0.00625];
+const TIME_STEPS: [f64; 3] = [0.025, 0.0125, 0.00625];
+
+/// The time steps for `stack`: of spheres, whose peak is lower, half as long for the same reason.
+pub fn time_steps(stack: &Stack) -> [f64; 3] {
+    match stack.bodies {
+        PAPER_BODIES => TIME_STEPS,
+        _ => TIME_STEPS.map(|time_step| 0.5 * time_step),
+    }
+}
 
 /// Relative change of the wall speed by which the growth of a small disturbance is measured: small enough
 /// to stay linear, and some hundred times the effect of rounding.
@@ -26,10 +34,20 @@ const INTERVAL: f64 = 2.0;
 /// cylinder 1 after another 22, and cylinder 1 lands after another 10.
 const TIME_BEYOND_YIELD: f64 = 60.0;
 
-/// The stack whose trajectories are compared: above critical friction, where torque arms matter most, and
+/// By how much one sphere of a ring is displaced, so that no symmetry is left.
+const DISPLACEMENT: f64 = 1e-3;
+
+/// The stack whose trajectories are compared, with so many bodies on the floor: cylinders above critical friction, where torque arms matter most, and
 /// soft enough for positions and angles to move far.
-pub fn trajectory_stack() -> Stack {
-    Stack::paper(0.3, 100.0)
+pub fn trajectory_stack(bodies: u8) -> Stack {
+    let mut stack = Stack {
+        bodies,
+        ..Stack::paper(0.3, 100.0)
+    };
+    if bodies != PAPER_BODIES {
+        stack.arrangement.displacement = DISPLACEMENT;
+    }
+    stack
 }
 
 /// The part of the code's convention that a twin has.
@@ -78,6 +96,8 @@ impl TwinRuns {
 pub struct Trajectory {
     /// The code.
     pub code: Code,
+    /// The stack.
+    pub stack: Stack,
     /// Its runs, one per time step.
     pub cases: Vec<Case>,
     /// Its twins.
@@ -89,6 +109,7 @@ pub struct Trajectory {
 pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -> Trajectory {
     let protocols = protocols(stack, &code.convention());
     let with = |convention: ContactConvention| {
+        let convention = convention.of_bodies(stack);
         let cases = protocols.iter().map(|&protocol| Case {
             stack: *stack,
             convention,
@@ -101,7 +122,8 @@ pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -
         ..declared
     };
     let mut twins = vec![(Twin::Full, declared)];
-    if declared != rotated {
+    // In space a spring that is turned by vector products also follows a common spin, which no time step makes small.
+    if declared != rotated && stack.bodies == PAPER_BODIES {
         twins.push((Twin::RotatedSpring, rotated));
     }
     let twins = twins
@@ -109,6 +131,7 @@ pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -
         .filter_map(|(twin, convention)| twin_runs(twin, with(convention)));
     Trajectory {
         code,
+        stack: *stack,
         cases: with(code.convention()),
         twins: twins.collect(),
     }
@@ -150,7 +173,7 @@ fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
         },
         shortcuts: None,
     };
-    TIME_STEPS.map(protocol).to_vec()
+    time_steps(stack).map(protocol).to_vec()
 }
 
 #[cfg(test)]
@@ -159,7 +182,7 @@ mod tests {
     use crate::model::Power;
 
     fn planned(code: Code) -> Trajectory {
-        plan_trajectory(code, &trajectory_stack(), code.convention())
+        plan_trajectory(code, &trajectory_stack(2), code.convention())
     }
 
     #[test]

@@ -54,8 +54,8 @@ impl Evidence {
                  the quasi-static limit: theory and stepping are by the same authors and share the model"
             }
             Self::IndependentCode => {
-                "that the code is right in other contact laws, in three dimensions, for many bodies or away \
-                 from the quasi-static limit, or that its convention is the physical one"
+                "that the code is right in other contact laws or geometries, for many bodies or away from the \
+                 quasi-static limit, or that its convention is the physical one"
             }
             Self::ResultFiles => {
                 "more than a run of an independent code, nor that the files were made by the program and the \

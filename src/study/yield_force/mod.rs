@@ -13,6 +13,7 @@ mod profile;
 mod row;
 mod runs;
 mod series;
+mod symmetry;
 mod touch;
 mod twin;
 

@@ -2,10 +2,13 @@
 
 use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate_runs};
 use super::limits::{convention_uncertainty, known_limit};
-use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, RunRoles, SPEEDS};
+use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, RunRoles, SLOWEST_RUN, SPEEDS};
+use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Shortcuts, Stack};
+use crate::model::{
+    Case, ContactConvention, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts, Stack,
+};
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::Limit;
 use serde::{Deserialize, Serialize};
@@ -18,6 +21,9 @@ pub(super) const RAMP_TIME: f64 = 100.0;
 /// overlaps follow slowly, and what the dampers keep of that falls with the duration.
 const SOFT_RAMP: f64 = 10.0;
 pub(super) const REST_TIME: f64 = 100.0;
+/// The same for spheres: oscillations that the ramp leaves behind then fall below rounding, so that a start is at rest
+/// without a bound that depends on their phase.
+const REST_TIME_OF_SPHERES: f64 = 300.0;
 /// Duration of the ramp over that of the compression, where the limit depends on the ramp, or oscillations that it leaves
 /// behind hardly die away: what it leaves, of second order in its speed, is then small beside the lag of the compression,
 /// which is of first order.
@@ -164,7 +170,8 @@ pub(crate) fn planned(
     convention: ContactConvention,
     method: Method,
 ) -> Measurement {
-    let limit = known_limit(stack, &convention);
+    let convention = convention.of_bodies(stack);
+    let mut limit = known_limit(stack, &convention);
     let paper = known_limit(stack, &ContactConvention::PAPER);
     let model_form = limit
         .yield_force
@@ -180,7 +187,11 @@ pub(crate) fn planned(
         convention,
         protocol,
     });
-    let cases: Vec<Case> = cases.collect();
+    let mut cases: Vec<Case> = cases.collect();
+    if let Some(reason) = cases.get(SLOWEST_RUN).and_then(lost_before_yield) {
+        cases.clear();
+        limit.reason = Some(reason);
+    }
     let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
     let roles = RunRoles {
         coarse_and_fast: (cases.len() > COARSE_AND_FAST_RUN).then_some(COARSE_AND_FAST_RUN),
@@ -302,9 +313,13 @@ pub fn protocol_at_speed(limit: &Limit, wall_speed: f64, time_step: f64) -> Opti
 }
 
 fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
+    let rest_time = match limit.bodies {
+        PAPER_BODIES => REST_TIME,
+        _ => REST_TIME_OF_SPHERES,
+    };
     Preparation::GravityRamp {
         ramp_time: rounded(ramp_time),
-        rest_time: rounded(REST_TIME * limit.time_scale),
+        rest_time: rounded(rest_time * limit.time_scale),
     }
 }
 
@@ -323,7 +338,8 @@ fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
 /// with the square root of ε, so that stiff stacks take longer.
 fn time_margin(limit: &Limit) -> f64 {
     let stiffness = limit.yield_force.zip(limit.peak_z);
-    let stiffness = stiffness.map_or(0.0, |(force, z)| (force + 3.0) / (2.0 * z));
+    let bodies = f64::from(limit.bodies);
+    let stiffness = stiffness.map_or(0.0, |(force, z)| (force + bodies + 1.0) / (bodies * z));
     TIME_MARGIN * (stiffness / STIFF).sqrt().max(limit.time_scale)
 }
 
@@ -342,7 +358,7 @@ mod tests {
 
     #[test]
     fn every_planned_case_is_valid_and_of_similar_length() {
-        for stack in crate::study::yield_force::Profile::Quick.stacks(Power::Linear) {
+        for stack in crate::study::yield_force::Profile::Quick.stacks(Power::Linear, 2) {
             let measurement = plan(
                 Code::named("yade").unwrap(),
                 &stack,

@@ -2,13 +2,17 @@
 
 use super::plan::{Measurement, plan, plan_literal};
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 
 /// Stiffnesses 1/ε of the paper (supplement I.A).
 pub(crate) const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
 
 /// Frictions of the quick profile.
 const QUICK_FRICTIONS: [f64; 6] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
+
+/// Frictions of spheres in units of the critical one: from well above the own weight of three to below those at which the
+/// stack of three loses its symmetry before it yields, with the arms of most codes.
+const SPHERE_FRICTIONS: [f64; 6] = [0.45, 0.6, 0.75, 0.93, 1.0, 1.1];
 
 /// Frictions of the paper's Fig. 2(a), from a little above the stack's own weight to a little below wall
 /// contact, closer around the critical one.
@@ -57,27 +61,31 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// The stacks, stiffness by stiffness. Laws other than the paper's have those of the quick profile.
-    pub fn stacks(self, power: Power) -> Vec<Stack> {
-        let frictions: &[f64] = match (self, power) {
-            (Self::Standard | Self::Paper, Power::Linear) => &FIGURE_FRICTIONS,
-            _ => &QUICK_FRICTIONS,
+    /// The stacks with so many bodies on the floor, stiffness by stiffness. Laws other than the paper's have those of the
+    /// quick profile, and spheres its frictions in units of the critical one.
+    pub fn stacks(self, power: Power, bodies: u8) -> Vec<Stack> {
+        let of = |floor_friction, stiffness| Stack {
+            stiffness_ratio: Stack::usual_stiffness_ratio(power),
+            bodies,
+            ..Stack::paper(floor_friction, stiffness)
+        };
+        let critical = of(f64::NAN, f64::NAN).ring().critical_friction;
+        let frictions: Vec<f64> = match (self, power, bodies) {
+            (Self::Standard | Self::Paper, Power::Linear, PAPER_BODIES) => {
+                FIGURE_FRICTIONS.to_vec()
+            }
+            (.., PAPER_BODIES) => QUICK_FRICTIONS.to_vec(),
+            _ => SPHERE_FRICTIONS.map(|part| critical * part).to_vec(),
         };
         let rows = PAPER_STIFFNESSES.into_iter();
-        rows.flat_map(|stiffness| {
-            let stacks = frictions.iter();
-            stacks.map(move |&friction| Stack {
-                stiffness_ratio: Stack::usual_stiffness_ratio(power),
-                ..Stack::paper(friction, stiffness)
-            })
-        })
-        .collect()
+        rows.flat_map(|stiffness| frictions.iter().map(move |&mu| of(mu, stiffness)))
+            .collect()
     }
 
     /// The measurements of its stacks by each of the `codes`, stack by stack.
     pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
         let power = Power::Linear;
-        self.measurements_of(&self.stacks(power), codes, power)
+        self.measurements_of(&self.stacks(power, PAPER_BODIES), codes, power)
     }
 
     /// Measurements of other `stacks` in its way, by a law of this power.

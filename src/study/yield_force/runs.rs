@@ -5,6 +5,8 @@ pub(crate) const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
 
 /// Position of the run at the middle speed, with which the two further runs are compared.
 pub const MIDDLE_RUN: usize = 1;
+/// Index of the run at the lowest speed.
+pub const SLOWEST_RUN: usize = 2;
 /// Position of the run with twice the time step.
 pub(crate) const COARSE_TIME_STEP_RUN: usize = SPEEDS.len();
 /// Position of the run with half the gravity ramp.

@@ -189,7 +189,7 @@ fn protocol(input: &SeriesInput, ramp_time: f64) -> Protocol {
 impl SeriesInput {
     /// The wall speed that the series shows, with its uncertainty: from the growth of the overlap with the `wall` of
     /// this law, and the motion of cylinder 1. `None` where it does not show any.
-    pub(crate) fn shown_speed(&self, wall: &ContactLaw) -> Option<(f64, f64)> {
+    pub(crate) fn shown_speed(&self, wall: &ContactLaw, stack: &Stack) -> Option<(f64, f64)> {
         let samples = self.series.samples();
         let touching = samples.iter().position(|row| row.wall_force > 0.0)?;
         let touched = samples.get(touching)?.time;
@@ -198,8 +198,9 @@ impl SeriesInput {
         let highest = rows.max_by(|one, other| force(one).total_cmp(&force(other)))?;
         let settled = samples.iter().find(|row| row.time >= touched + TOUCH)?;
         let duration = highest.time - settled.time;
+        let height = |row: &Sample| row.top(stack)[1];
         let overlap = |row: &Sample| wall.overlap(row.wall_force);
-        let travel = (overlap(highest) - overlap(settled)) - (highest.y1 - settled.y1);
+        let travel = (overlap(highest) - overlap(settled)) - (height(highest) - height(settled));
         let speed = travel / duration;
         // What damping and ringing do to the force at either end, at most the travel in the time of a touch.
         let known = duration > 0.0 && speed.is_finite();

@@ -36,7 +36,10 @@ pub(crate) fn max_touch_speed(stack: &Stack, convention: &ContactConvention) -> 
     let Ok(series) = compress_stack(&trial, || true) else {
         return 0.0;
     };
-    let forces = |sample: &Sample| [-sample.floor_t2, sample.floor_n2];
+    let forces = |sample: &Sample| {
+        let contact = sample.first(stack);
+        [-contact.tangential, contact.normal]
+    };
     let Some([e0, d0]) = series.samples().first().map(forces) else {
         return 0.0;
     };
@@ -120,7 +123,10 @@ mod tests {
         let series = compress_stack(&case, || true).unwrap();
         let ratios = series.samples().iter();
         ratios
-            .map(|sample| (sample.floor_t2 / sample.floor_n2).abs())
+            .map(|sample| {
+                let contact = sample.first(stack);
+                (contact.tangential / contact.normal).abs()
+            })
             .fold(0.0, f64::max)
     }
 

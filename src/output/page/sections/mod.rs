@@ -5,6 +5,7 @@ mod conventions;
 mod environment;
 mod laws;
 mod preparation;
+mod spheres;
 mod summary;
 mod tolerances;
 mod untested;
@@ -30,6 +31,7 @@ pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
         law_conventions(&[]),
         preparation::critical(&[]),
         preparation::preparations(&[]),
+        spheres::limits(&[]),
         environment::programs(&[], &[]),
         environment::decks(),
     ]
@@ -71,6 +73,7 @@ pub(super) fn document(
             preparation::section(reproduction),
             conventions::section(reproduction),
             laws::section(reproduction),
+            spheres::section(reproduction),
             environment::section(reproduction, origin),
             untested::section(reproduction, judged, origin),
         ],

@@ -1,0 +1,114 @@
+//! What pictures of cylinders and of spheres share: arrows, numbers, a legend.
+
+use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke};
+use crate::output::figures::style::{NORMAL_FORCE, TANGENTIAL_FORCE};
+use crate::output::significant;
+use crate::series::{ContactPoint, Partner};
+
+/// Length of the arrow of the largest force of a panel, in r.
+pub(super) const LONGEST_ARROW: f64 = 1.0;
+/// Forces below this part of the largest are not drawn.
+pub(super) const SMALLEST_SHARE: f64 = 0.02;
+pub(super) const TITLE_HEIGHT: f64 = 44.0;
+pub(super) const FOOT_HEIGHT: f64 = 62.0;
+pub(super) const CAPTION_LINE: f64 = 15.0;
+/// Length of the head of an arrow, in pixels.
+const HEAD: f64 = 8.0;
+pub(super) const SMALL: f64 = 11.0;
+pub(super) const MEDIUM: f64 = 12.0;
+pub(super) const LARGE: f64 = 14.0;
+
+pub(super) fn largest_force<'a>(contacts: impl IntoIterator<Item = &'a ContactPoint>) -> f64 {
+    let contacts = contacts.into_iter();
+    let forces = contacts.flat_map(|own| [own.normal_force.abs(), own.tangential_force.abs()]);
+    forces.fold(0.0, f64::max)
+}
+
+/// Samples of both kinds of arrows, on a body of this name.
+pub(super) fn legend(drawing: &mut Drawing, body: &str, y: f64) {
+    let middle = y - 3.5;
+    arrow(drawing, [[12.0, middle], [40.0, middle]], NORMAL_FORCE);
+    drawing.text("normal force", [46.0, y], SMALL, Anchor::Start);
+    let tangential = [[130.0, middle], [158.0, middle]];
+    arrow(drawing, tangential, TANGENTIAL_FORCE);
+    let words =
+        format!("tangential force on each {body}, from the contact inwards; numbers in _m_ _g_");
+    drawing.text(words, [164.0, y], SMALL, Anchor::Start);
+}
+
+/// An arrow with a filled head for a normal force, an open one for a tangential force. That of a short arrow shrinks
+/// with it.
+pub(super) fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], stroke: Stroke) {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let length = (dx * dx + dy * dy).sqrt();
+    if length == 0.0 {
+        return;
+    }
+    let head = HEAD.min(0.6 * length);
+    let along = [dx / length, dy / length];
+    let across = [-along[1], along[0]];
+    let foot = shifted(to, along, -head);
+    let [left, right] = [0.42, -0.42].map(|share| shifted(foot, across, share * head));
+    if stroke == NORMAL_FORCE {
+        drawing.line([from, foot], stroke);
+        drawing.polygon([left, to, right], Paint::Filled(stroke.colour));
+    } else {
+        drawing.line([from, to], stroke);
+        let thinner = Stroke {
+            width: 1.6,
+            ..stroke
+        };
+        drawing.line([left, to, right], thinner);
+    }
+}
+
+/// The letters of normal and tangential force in the paper's figure; `top` is the index of the body on top.
+pub(super) fn letters(partner: Partner, top: usize) -> (&'static str, &'static str) {
+    match partner {
+        Partner::Body(index) if index == top => ("a", "b"),
+        Partner::Body(_) => ("c", ""),
+        Partner::Floor => ("d", "e"),
+        Partner::TopWall => ("f", ""),
+    }
+}
+
+pub(super) fn shifted(from: Place, direction: Place, by: f64) -> Place {
+    [from[0] + by * direction[0], from[1] + by * direction[1]]
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above `value`.
+pub(super) fn round_below(value: f64) -> f64 {
+    let power = libm::exp10(libm::floor(libm::log10(value)));
+    let round = [5.0, 2.0, 1.0]
+        .into_iter()
+        .find(|digit| digit * power <= value * (1.0 + 1e-12));
+    // A power of ten below 1 is not exact; as text and back it is the nearest one.
+    let exact = format!("{:.0e}", round.unwrap_or(1.0) * power);
+    exact.parse().unwrap_or(value)
+}
+
+/// Three or four digits, and zero where the force is round-off.
+pub(super) fn number(weights: f64) -> String {
+    if weights.abs() < 5e-4 {
+        return "0".to_owned();
+    }
+    significant(weights, if weights.abs() < 1.0 { 3 } else { 4 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scale_bars_are_round() {
+        for (value, round) in [
+            (15.6, 10.0),
+            (0.58, 0.5),
+            (2.0, 2.0),
+            (1e3, 1e3),
+            (0.0299, 0.02),
+        ] {
+            assert_eq!(round_below(value), round);
+        }
+    }
+}

@@ -1,0 +1,724 @@
+//! What a contact of spheres does in space: how its spring follows a normal that turns in any direction and a common spin
+//! about the normal, whether every component of a spin and of a torque counts, and whether two contacts of a sphere keep
+//! their springs apart.
+//!
+//! Forces are split into those of the pair, felt by sphere 2 alone, and those of the floor. From each force the spring
+//! behind it follows, m, in units of a length or of a force, as the law remembers it; from one step to the next it
+//! changes by what the surfaces move, and by its transport from the old normal n₀ to the new one n₁:
+//!
+//! m' = m − n₁ (n₁·m) + a L + b Q + c T + …, with L the change that gives m its length back, Q = (n₁ − n₀)(n₁·m) + n₁ (n₀·m)
+//! the difference of the vector product m − m × (n₀ × n₁), and T = (dt/2) (n₀·Σω) n₀ × m a turn with half the sum of the
+//! spins. Projection has a = b = c = 0. While a contact sticks, regressions give a, b and c and the weight of each
+//! component of the spins in the motion of the surfaces.
+
+use super::experiments::ContactKind;
+use super::finding::Property;
+use super::regression::{Measured, fit_rows};
+use crate::code::{ConventionKey, Declaration};
+use crate::model::{
+    ContactCoefficients, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate,
+    InitialMotion, MotionInSpace, SlidingSpring, Stack,
+};
+use crate::series::{BodyRow, Motion, MotionRow};
+
+type Vector = [f64; 3];
+
+/// Friction at which nothing slides.
+const STICKS: f64 = 50.0;
+/// Friction at which contacts slide from the first steps on.
+const SLIDES: f64 = 0.02;
+const TIME_STEP: f64 = 0.1;
+const STEPS: u64 = 24;
+/// Least change of a force, in units of the largest, that a step is read from.
+const LEAST: f64 = 1e-6;
+
+/// Part of the limit of the tangential force below which a contact sticks.
+const SURELY_STICKS: f64 = 0.5;
+/// Part of the elastic normal force above which no rule about pulling forces matters.
+const SURELY_PRESSED: f64 = 0.3;
+
+/// A state of motion of a body: place, velocity, spin.
+type State = [Vector; 3];
+
+/// Two spheres that circle around each other about an axis across their normal while they roll, slip and spin about it; one
+/// sphere that rolls and spins on the floor; and two that do both at once.
+const MOTIONS: [[State; 2]; 3] = [
+    [
+        [[0.70, 3.47, 0.53], [-0.15, 0.05, 0.16], [0.31, -0.12, 0.26]],
+        [
+            [-0.70, 2.73, -0.53],
+            [0.15, -0.05, -0.17],
+            [0.23, 0.17, -0.21],
+        ],
+    ],
+    [
+        [[0.0, 0.93, 0.0], [0.21, 0.0, -0.17], [0.29, 0.37, 0.19]],
+        BESIDE,
+    ],
+    [
+        [[0.61, 0.92, 0.45], [0.03, 0.0, 0.04], [0.13, 0.22, -0.17]],
+        [
+            [-0.41, 2.41, -0.31],
+            [-0.05, -0.02, 0.06],
+            [-0.08, 0.15, 0.12],
+        ],
+    ],
+];
+
+/// A sphere that touches nothing.
+const BESIDE: State = [[7.0, 3.0, 0.0], [0.0; 3], [0.0; 3]];
+
+/// The motion of two contacts at once.
+const AT_ONCE: usize = 2;
+
+/// Ways of looking at the same motion: turned by 1 rad about the vertical, mirrored, and with the spheres numbered otherwise.
+#[derive(Debug, Clone, Copy)]
+enum View {
+    Turned,
+    Mirrored,
+    Renumbered,
+}
+
+const VIEWS: [(View, &str); 3] = [
+    (View::Turned, "space_turned"),
+    (View::Mirrored, "space_mirrored"),
+    (View::Renumbered, "space_renumbered"),
+];
+
+impl View {
+    /// A place, velocity or force as it is seen.
+    fn of_vector(self, [x, y, z]: Vector) -> Vector {
+        match self {
+            Self::Turned => {
+                let (sine, cosine) = (libm::sin(1.0), libm::cos(1.0));
+                [x * cosine + z * sine, y, z * cosine - x * sine]
+            }
+            Self::Mirrored => [x, y, -z],
+            Self::Renumbered => [x, y, z],
+        }
+    }
+
+    /// A spin or torque as it is seen.
+    fn of_rotation(self, rotation: Vector) -> Vector {
+        match self {
+            Self::Mirrored => {
+                let [x, y, z] = rotation;
+                [-x, -y, z]
+            }
+            _ => self.of_vector(rotation),
+        }
+    }
+
+    /// The bodies in the order of their numbers.
+    fn of_bodies<T: Copy>(self, [one, two]: [T; 2]) -> [T; 2] {
+        match self {
+            Self::Renumbered => [two, one],
+            _ => [one, two],
+        }
+    }
+
+    /// The micro-test in which the same motion is seen so.
+    fn of_test(self, convention: &ContactConvention) -> ContactTest {
+        let bodies = self.of_bodies(MOTIONS[AT_ONCE]);
+        let seen = bodies.map(|[at, velocity, spin]| {
+            [
+                self.of_vector(at),
+                self.of_vector(velocity),
+                self.of_rotation(spin),
+            ]
+        });
+        test(convention, STICKS, &seen)
+    }
+
+    /// How far the forces of `seen` are from those of the same motion, over the largest of them.
+    fn deviation(self, motion: &Motion, seen: &Motion) -> Measured {
+        let (mut apart, mut largest) = (0f64, 0f64);
+        for (row, seen) in motion.rows().iter().zip(seen.rows()) {
+            let expected = self.of_bodies([0, 1].map(|body| Body::of(row, body)));
+            let found = [0, 1].map(|body| Body::of(seen, body));
+            for (expected, found) in expected.iter().zip(found) {
+                let force = self.of_vector(expected.force);
+                let torque = self.of_rotation(expected.torque);
+                for (one, other) in [(force, found.force), (torque, found.torque)] {
+                    let difference = combine(one, -1.0, other);
+                    apart = apart.max(dot(difference, difference).sqrt());
+                    largest = largest.max(dot(one, one).sqrt());
+                }
+            }
+        }
+        // Each step rounds a coordinate up to 4, here and there; forces are as stiff as 1.
+        let rounding = STEPS as f64 * 4.0 * f64::EPSILON / largest;
+        Measured::new(apart / largest, rounding)
+    }
+}
+
+/// The micro-tests: every motion with friction at which nothing slides, and at which everything does; and the motion of two
+/// contacts at once, seen from elsewhere.
+pub fn tests(convention: &ContactConvention) -> Vec<ContactTest> {
+    let frictions = [STICKS, SLIDES].into_iter();
+    let motions = frictions.flat_map(|friction| {
+        MOTIONS
+            .iter()
+            .map(move |bodies| test(convention, friction, bodies))
+    });
+    let views = VIEWS.iter().map(|(view, _)| view.of_test(convention));
+    motions.chain(views).collect()
+}
+
+fn test(convention: &ContactConvention, friction: f64, bodies: &[State; 2]) -> ContactTest {
+    let spheres = Stack {
+        bodies: 3,
+        ..Stack::paper(f64::NAN, f64::NAN)
+    };
+    ContactTest {
+        convention: ContactConvention {
+            restitution: 0.9,
+            ..convention.of_bodies(&spheres)
+        },
+        stiffness_ratio: 1.25,
+        floor_friction: friction,
+        cylinder_friction: friction,
+        time_step: TIME_STEP,
+        steps: STEPS,
+        wall_height: 20.0,
+        wall_speed: 0.0,
+        initial_motions: bodies.map(|[at, velocity, spin]| InitialMotion {
+            x: at[0],
+            y: at[1],
+            vx: velocity[0],
+            vy: velocity[1],
+            spin: spin[2],
+        }),
+        drive: None,
+        space: Some(bodies.map(|[at, velocity, spin]| MotionInSpace {
+            z: at[2],
+            vz: velocity[2],
+            spinx: spin[0],
+            spiny: spin[1],
+        })),
+    }
+}
+
+/// The properties that the outcomes of [`tests`] show beside those that are `declared`: how a motion looks from elsewhere, and,
+/// where the law that is needed to read them is declared, what the contacts do.
+pub fn properties(
+    outcomes: &[(&ContactTest, &Motion)],
+    velocity_lag: f64,
+    declared: &Declaration,
+) -> Vec<Property> {
+    use ConventionKey::{MomentOfInertia, VelocityLag};
+    let needed = |key: &ConventionKey| ![MomentOfInertia, VelocityLag].contains(key);
+    if outcomes.is_empty() {
+        return Vec::new();
+    }
+    let (outcomes, seen) = outcomes.split_at(2 * MOTIONS.len());
+    let views = VIEWS.iter().zip(seen).map(|((view, name), (_, seen))| {
+        let deviation = view.deviation(outcomes[AT_ONCE].1, seen);
+        Property::new(name, deviation, 0.0)
+    });
+    let mut properties: Vec<Property> = views.collect();
+    if declared.left_out.iter().any(needed) {
+        return properties;
+    }
+    let (sticking, sliding) = outcomes.split_at(MOTIONS.len());
+    let kinds = [ContactKind::Pair, ContactKind::Floor].into_iter();
+    properties.extend(kinds.flat_map(|kind| {
+        let rows = |outcomes: &[(&ContactTest, &Motion)]| {
+            let each = outcomes.iter();
+            let each = each.map(|(test, motion)| rows_of(kind, test, motion, velocity_lag));
+            each.collect::<Vec<_>>()
+        };
+        let law = Law {
+            kind,
+            convention: outcomes[0].0.convention,
+            stiffness_ratio: outcomes[0].0.stiffness_ratio,
+        };
+        let (sticking, sliding) = (rows(sticking), rows(sliding));
+        [law.of_sticking(&sticking), law.of_sliding(&sliding)].concat()
+    }));
+    properties
+}
+
+/// A contact at one step. Velocities belong to the half step before.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    normal: Vector,
+    overlap: f64,
+    /// Velocity of the centres.
+    velocity: Vector,
+    /// Sum of the angular velocities.
+    spin: Vector,
+    force: Vector,
+    torque: Vector,
+    friction: f64,
+}
+
+/// The rows of a motion from step 1 on, as long as the contact is closed.
+fn rows_of(kind: ContactKind, test: &ContactTest, motion: &Motion, velocity_lag: f64) -> Vec<Row> {
+    let rows = motion.rows()[1..].iter();
+    rows.map_while(|row| {
+        let bodies = [0, 1].map(|body| Body::of(row, body));
+        let [one, two] = bodies.map(|body| body.half_step_earlier(test, velocity_lag));
+        let sum = |left: Vector, right: Vector| combine(left, 1.0, right);
+        let difference = |left: Vector, right: Vector| combine(left, -1.0, right);
+        let (normal, overlap, velocity, spin) = match kind {
+            ContactKind::Pair => {
+                let apart = difference(one.position, two.position);
+                let distance = dot(apart, apart).sqrt();
+                let normal = apart.map(|part| part / distance);
+                let velocity = difference(one.velocity, two.velocity);
+                (normal, 2.0 - distance, velocity, sum(one.spin, two.spin))
+            }
+            _ => (
+                [0.0, 1.0, 0.0],
+                1.0 - one.position[1],
+                one.velocity,
+                one.spin,
+            ),
+        };
+        // Sphere 2 feels the pair alone; the torques of a pair are the same on both.
+        let (force, torque) = match kind {
+            ContactKind::Pair => (two.force.map(|part| -part), two.torque),
+            _ => (
+                sum(one.force, two.force),
+                difference(one.torque, two.torque),
+            ),
+        };
+        (overlap > 0.0).then_some(Row {
+            normal,
+            overlap,
+            velocity,
+            spin,
+            force,
+            torque,
+            friction: kind.friction(test),
+        })
+    })
+    .collect()
+}
+
+/// A sphere in one row.
+#[derive(Debug, Clone, Copy)]
+struct Body {
+    position: Vector,
+    velocity: Vector,
+    spin: Vector,
+    force: Vector,
+    torque: Vector,
+}
+
+impl Body {
+    fn of(row: &MotionRow, body: usize) -> Self {
+        let (plane, beyond): (BodyRow, _) = (row.bodies()[body], row.space[body]);
+        let [x, y] = plane.position;
+        let [vx, vy] = plane.velocity;
+        let [fx, fy] = plane.force;
+        let [spinx, spiny] = beyond.spin;
+        let [torquex, torquey] = beyond.torque;
+        Self {
+            position: [x, y, beyond.z],
+            velocity: [vx, vy, beyond.vz],
+            spin: [spinx, spiny, plane.spin],
+            force: [fx, fy, beyond.fz],
+            torque: [torquex, torquey, plane.torque],
+        }
+    }
+
+    /// With the velocities of half a step before its position, of unit mass and the inertia that is asked for.
+    fn half_step_earlier(self, test: &ContactTest, velocity_lag: f64) -> Self {
+        let back = (velocity_lag - 0.5) * test.time_step;
+        let inertia = test.convention.moment_of_inertia;
+        Self {
+            velocity: combine(self.velocity, back, self.force),
+            spin: combine(self.spin, back / inertia, self.torque),
+            ..self
+        }
+    }
+}
+
+/// The law by which contacts of one kind are read.
+#[derive(Debug, Clone, Copy)]
+struct Law {
+    kind: ContactKind,
+    convention: ContactConvention,
+    stiffness_ratio: f64,
+}
+
+/// A contact at one step under a law.
+struct Read {
+    row: Row,
+    at: ContactCoefficients<f64>,
+    /// Arms of the surface velocity and of the torque.
+    arms: [f64; 2],
+    normal_force: f64,
+    /// Velocity of the surfaces in the tangent plane.
+    sliding: Vector,
+    /// Force without its normal part.
+    tangential: Vector,
+}
+
+impl Law {
+    fn read(&self, row: &Row) -> Read {
+        let (law, arms) = match self.kind {
+            ContactKind::Pair => (
+                self.convention.law(self.stiffness_ratio),
+                self.convention.arms.pair,
+            ),
+            _ => (
+                self.convention.wall_law(self.stiffness_ratio),
+                self.convention.arms.floor,
+            ),
+        };
+        let at = law.at(row.overlap);
+        let arms = [arms.kinematic, arms.torque].map(|arm| 1.0 + arm * row.overlap);
+        let separation = dot(row.normal, row.velocity);
+        let normal_force = at.secant * row.overlap - at.damping_normal * separation;
+        let moved = combine(row.velocity, -separation, row.normal);
+        Read {
+            row: *row,
+            at,
+            arms,
+            normal_force,
+            sliding: combine(moved, -arms[0], cross(row.spin, row.normal)),
+            tangential: combine(row.force, -normal_force, row.normal),
+        }
+    }
+
+    /// The rows as long as the bodies are pressed together, and damping has not taken most of that away.
+    fn pressed<'a>(&'a self, rows: &'a [Row]) -> impl Iterator<Item = Read> + 'a {
+        let read = rows.iter().map(|row| self.read(row));
+        read.take_while(|read| {
+            let elastic = read.at.secant * read.row.overlap;
+            read.normal_force > SURELY_PRESSED * elastic
+        })
+    }
+
+    /// The spring of a contact that sticks, as the law remembers it.
+    fn spring(&self, read: &Read) -> Vector {
+        let elastic = combine(read.tangential, read.at.damping_tangential, read.sliding);
+        self.remembered(elastic, &read.at)
+    }
+
+    /// The spring that exerts a force, as the law remembers it.
+    fn remembered(&self, elastic: Vector, at: &ContactCoefficients<f64>) -> Vector {
+        let unit = match self.convention.law.history.keeps_force() {
+            true => 1.0,
+            false => at.tangential_stiffness,
+        };
+        elastic.map(|part| -part / unit)
+    }
+
+    /// What a motion of the surfaces adds to the spring.
+    fn added(&self, velocity: Vector, read: &Read) -> Vector {
+        let unit = match self.convention.law.history.keeps_force() {
+            true => read.at.tangential_stiffness,
+            false => 1.0,
+        };
+        velocity.map(|part| part * unit * TIME_STEP)
+    }
+
+    /// The factor by which a spring shrinks with its contact.
+    fn shrunk(&self, before: &Read, now: &Read) -> f64 {
+        let shrinks =
+            self.convention.law.history.is_rescaled() && now.row.overlap < before.row.overlap;
+        match shrinks {
+            true => (now.row.overlap / before.row.overlap).sqrt(),
+            false => 1.0,
+        }
+    }
+
+    /// a, b and c of the declared convention.
+    fn transport(&self) -> [f64; 3] {
+        match self.convention.history_update {
+            HistoryUpdate::Projected => [0.0, 0.0, 0.0],
+            HistoryUpdate::Rotated => [1.0, 0.0, 0.0],
+            HistoryUpdate::Linearised => [0.0, 1.0, 1.0],
+        }
+    }
+
+    /// The weights of transport, spin and torque while contacts stick.
+    fn of_sticking(&self, series: &[Vec<Row>]) -> Vec<Property> {
+        let mut changes: Vec<([f64; 6], f64)> = Vec::new();
+        let mut turning: Vec<([f64; 3], f64)> = Vec::new();
+        for rows in series {
+            let sticks = |read: &Read| {
+                let size = dot(read.tangential, read.tangential).sqrt();
+                size < SURELY_STICKS * read.row.friction * read.normal_force
+            };
+            let read: Vec<Read> = self.pressed(rows).take_while(sticks).collect();
+            for two in read.windows(2) {
+                let [before, now] = two else { continue };
+                let spring = self
+                    .spring(before)
+                    .map(|part| part * self.shrunk(before, now));
+                let (projected, effects) = transported(spring, before, now);
+                let moved = combine(
+                    now.row.velocity,
+                    -dot(now.row.normal, now.row.velocity),
+                    now.row.normal,
+                );
+                let found = combine(self.spring(now), -1.0, projected);
+                let found = combine(found, -1.0, self.added(moved, now));
+                let [lengthened, product, twisted] = effects;
+                let by_spin = [0, 1, 2].map(|axis| {
+                    let mut own = [0.0; 3];
+                    own[axis] = -now.arms[0] * now.row.spin[axis];
+                    self.added(cross(own, now.row.normal), now)
+                });
+                let terms = [
+                    lengthened, product, twisted, by_spin[0], by_spin[1], by_spin[2],
+                ];
+                changes.extend((0..3).map(|axis| (terms.map(|term| term[axis]), found[axis])));
+            }
+            for read in &read {
+                turning.extend(torques(read));
+            }
+        }
+        let names = ["spring_length_kept", "spring_by_product", "spring_twisted"];
+        let names = names.into_iter().chain(["spin_x", "spin_y", "spin_z"]);
+        let declared = self.transport().into_iter().chain([1.0; 3]);
+        let found = fit_known(&changes);
+        let own = names.zip(found).zip(declared);
+        let torques = ["torque_x", "torque_y", "torque_z"].into_iter();
+        let torques = torques.zip(fit_known(&turning)).zip([1.0; 3]);
+        own.chain(torques)
+            // A normal of the floor never turns, and nothing about it tells these.
+            .filter(|((_, found), _)| {
+                found.uncertainty.is_finite() || self.kind == ContactKind::Pair
+            })
+            .map(|((name, found), declared)| {
+                Property::at(self.kind, &format!("space_{name}"), found, declared)
+            })
+            .collect()
+    }
+
+    /// The direction of a force at its limit, while contacts slide: 1 along that of the rule that is declared, 0 across.
+    fn of_sliding(&self, series: &[Vec<Row>]) -> Vec<Property> {
+        let mut terms: Vec<([f64; 2], f64)> = Vec::new();
+        for rows in series {
+            let read: Vec<Read> = self.pressed(rows).collect();
+            let mut spring: Option<Vector> = None;
+            for two in read.windows(2) {
+                let [before, now] = two else { continue };
+                let limit = now.row.friction * now.normal_force.abs();
+                let last = spring.unwrap_or_else(|| match self.convention.sliding_spring {
+                    // It slides from the first step on.
+                    SlidingSpring::Frozen => [0.0; 3],
+                    SlidingSpring::FollowsLimit => self.last_spring(before),
+                });
+                let last = last.map(|part| part * self.shrunk(before, now));
+                let (projected, effects) = transported(last, before, now);
+                let weights = self.transport();
+                let carried = (0..3).fold(projected, |sum, index| {
+                    combine(sum, weights[index], effects[index])
+                });
+                let stretched = combine(carried, 1.0, self.added(now.sliding, now));
+                let unit = self.remembered([-1.0, 0.0, 0.0], &now.at)[0];
+                let elastic = stretched.map(|part| -part / unit);
+                let damping = now.sliding.map(|part| part * now.at.damping_tangential);
+                let sticking = combine(elastic, -1.0, damping);
+                let operand = match self.convention.coulomb_operand {
+                    CoulombOperand::SpringAndDamping => sticking,
+                    CoulombOperand::Spring => elastic,
+                };
+                let length = dot(operand, operand).sqrt();
+                if length < limit {
+                    spring = Some(stretched);
+                    continue;
+                }
+                let force = operand.map(|part| part * limit / length);
+                let across = cross(now.row.normal, force);
+                terms
+                    .extend((0..3).map(|axis| ([force[axis], across[axis]], now.tangential[axis])));
+                spring = Some(match self.convention.sliding_spring {
+                    SlidingSpring::Frozen => carried,
+                    SlidingSpring::FollowsLimit => self.last_spring(now),
+                });
+            }
+        }
+        let [along, across] = fit_known(&terms);
+        vec![
+            Property::at(self.kind, "space_sliding_along", along, 1.0),
+            Property::at(self.kind, "space_sliding_across", across, 0.0),
+        ]
+    }
+
+    /// The spring behind the force of a contact, at its limit or not.
+    fn last_spring(&self, read: &Read) -> Vector {
+        let limit = read.row.friction * read.normal_force.abs();
+        let size = dot(read.tangential, read.tangential).sqrt();
+        let is_capped = (size / limit - 1.0).abs() < LEAST;
+        let damps = match self.convention.coulomb_operand {
+            CoulombOperand::SpringAndDamping => true,
+            CoulombOperand::Spring => !is_capped,
+        };
+        match damps {
+            true => self.spring(read),
+            false => self.remembered(read.tangential, &read.at),
+        }
+    }
+}
+
+/// A spring projected onto the new tangent plane, and what each other transport adds to that.
+fn transported(spring: Vector, before: &Read, now: &Read) -> (Vector, [Vector; 3]) {
+    let (old, new) = (before.row.normal, now.row.normal);
+    let along = dot(new, spring);
+    let projected = combine(spring, -along, new);
+    let left = dot(projected, projected);
+    let ratio = if left > 0.0 {
+        dot(spring, spring) / left
+    } else {
+        1.0
+    };
+    let lengthened = projected.map(|part| part * (ratio.sqrt() - 1.0));
+    // What such a spring keeps along the old normal turns with it.
+    let kept = dot(old, spring);
+    let product = combine(new, -1.0, old).map(|part| part * along);
+    let product = combine(product, kept, new);
+    let twist = 0.5 * TIME_STEP * dot(old, now.row.spin);
+    let twisted = cross(old, combine(spring, kept, new)).map(|part| part * twist);
+    (projected, [lengthened, product, twisted])
+}
+
+/// Each component of the torque on a body beside −R n × f.
+fn torques(read: &Read) -> [([f64; 3], f64); 3] {
+    let expected = cross(read.row.normal, read.tangential).map(|part| -read.arms[1] * part);
+    [0, 1, 2].map(|axis| {
+        let mut terms = [0.0; 3];
+        terms[axis] = expected[axis];
+        (terms, read.row.torque[axis])
+    })
+}
+
+/// The coefficients of those terms that occur; the others are unknown.
+fn fit_known<const N: usize>(rows: &[([f64; N], f64)]) -> [Measured; N] {
+    let size = |index: usize| {
+        let terms = rows.iter().map(|(terms, _)| terms[index].abs());
+        terms.fold(0.0, f64::max)
+    };
+    let sizes: [f64; N] = std::array::from_fn(size);
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let known: Vec<usize> = (0..N)
+        .filter(|&index| sizes[index] > LEAST * largest)
+        .collect();
+    let reduced = rows.iter().map(|(terms, target)| {
+        let terms = known.iter().map(|&index| terms[index]);
+        (terms.collect(), *target)
+    });
+    let found = fit_rows(&reduced.collect::<Vec<_>>(), known.len());
+    let mut all = [Measured::UNKNOWN; N];
+    for (index, found) in known.into_iter().zip(found) {
+        all[index] = found;
+    }
+    all
+}
+
+/// left + factor right.
+fn combine(left: Vector, factor: f64, right: Vector) -> Vector {
+    std::array::from_fn(|axis| left[axis] + factor * right[axis])
+}
+
+fn dot(left: Vector, right: Vector) -> f64 {
+    left.iter()
+        .zip(right)
+        .map(|(left, right)| left * right)
+        .sum()
+}
+
+fn cross(left: Vector, right: Vector) -> Vector {
+    [
+        left[1] * right[2] - left[2] * right[1],
+        left[2] * right[0] - left[0] * right[2],
+        left[0] * right[1] - left[1] * right[0],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::run_contact_test;
+    use crate::model::Law as ContactLaws;
+
+    /// The properties of the native code under one convention, read as if another were declared.
+    fn read_as(own: ContactConvention, declared: ContactConvention) -> Vec<Property> {
+        let tests: Vec<ContactTest> = tests(&own);
+        let motions: Vec<Motion> = tests
+            .iter()
+            .map(|test| run_contact_test(test).unwrap())
+            .collect();
+        let asked: Vec<ContactTest> = super::tests(&declared);
+        let outcomes: Vec<_> = asked.iter().zip(&motions).collect();
+        let declared = Declaration {
+            convention: declared,
+            velocity_lag: 0.5,
+            left_out: Vec::new(),
+            in_space: true,
+        };
+        properties(&outcomes, 0.5, &declared)
+    }
+
+    /// The properties that are not as declared.
+    fn wrong(properties: &[Property]) -> Vec<&str> {
+        let is_wrong = |own: &&Property| {
+            let Measured { value, uncertainty } = own.measured;
+            let error = (value - own.declared.unwrap_or(f64::NAN)).abs();
+            error.is_nan() || error > 1e-9_f64.max(uncertainty)
+        };
+        let wrong = properties.iter().filter(is_wrong);
+        wrong.map(|own| own.name.as_str()).collect()
+    }
+
+    fn conventions() -> Vec<ContactConvention> {
+        use HistoryUpdate::{Linearised, Projected, Rotated};
+        let mut all = Vec::new();
+        for law in [ContactLaws::LINEAR, ContactLaws::HERTZ] {
+            for history_update in [Projected, Rotated, Linearised] {
+                for (coulomb_operand, sliding_spring) in [
+                    (CoulombOperand::Spring, SlidingSpring::FollowsLimit),
+                    (
+                        CoulombOperand::SpringAndDamping,
+                        SlidingSpring::FollowsLimit,
+                    ),
+                    (CoulombOperand::SpringAndDamping, SlidingSpring::Frozen),
+                ] {
+                    all.push(ContactConvention {
+                        history_update,
+                        coulomb_operand,
+                        sliding_spring,
+                        ..ContactConvention::with_law(law)
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn every_convention_of_the_native_code_is_read_as_it_is() {
+        for own in conventions() {
+            let found = read_as(own, own);
+            assert!(found.len() > 12, "{found:?}");
+            assert_eq!(wrong(&found), Vec::<&str>::new(), "{own:?} {found:#?}");
+        }
+    }
+
+    #[test]
+    fn another_transport_of_the_spring_is_named() {
+        let with = |history_update| ContactConvention {
+            history_update,
+            ..ContactConvention::PAPER
+        };
+        let projected = with(HistoryUpdate::Projected);
+        let found = read_as(with(HistoryUpdate::Rotated), projected);
+        assert!(wrong(&found).contains(&"pair_space_spring_length_kept"));
+        let found = read_as(with(HistoryUpdate::Linearised), projected);
+        let named = wrong(&found);
+        for name in [
+            "pair_space_spring_by_product",
+            "pair_space_spring_twisted",
+            "floor_space_spring_twisted",
+        ] {
+            assert!(named.contains(&name), "{named:?}");
+        }
+    }
+}

@@ -4,6 +4,7 @@ mod common;
 
 use common::{Bench, installed, json, json_rows, standard_error, standard_output};
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -652,12 +653,13 @@ fn simulated(bench: &Bench, folder: &Path, case: &Case, further: &str) -> (Strin
 
 /// The columns `names` of a series in CSV, changed by `change`, and one of its own.
 fn rearranged(series: &Series, names: &[&str], change: impl Fn(&str, f64) -> f64) -> String {
-    let rows = series.samples().iter().map(|row| {
-        let row = serde_json::to_value(row).expect("numbers");
-        let fields = names.iter().map(|name| {
-            let number = row[*name].as_f64().expect("a number");
-            change(name, number).to_string()
-        });
+    let table = series.to_csv();
+    let mut reader = csv::Reader::from_reader(table.as_slice());
+    let rows = reader.deserialize::<HashMap<String, f64>>().map(|row| {
+        let row = row.expect("numbers");
+        let fields = names
+            .iter()
+            .map(|name| change(name, row[*name]).to_string());
         let fields: Vec<String> = fields.collect();
         format!("{},7", fields.join(","))
     });

@@ -2,9 +2,8 @@
 
 mod common;
 
-use common::{Bench, installed, json, json_rows, standard_error, standard_output};
+use common::{Bench, installed, json, json_rows, records, standard_error, standard_output};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -653,10 +652,7 @@ fn simulated(bench: &Bench, folder: &Path, case: &Case, further: &str) -> (Strin
 
 /// The columns `names` of a series in CSV, changed by `change`, and one of its own.
 fn rearranged(series: &Series, names: &[&str], change: impl Fn(&str, f64) -> f64) -> String {
-    let table = series.to_csv();
-    let mut reader = csv::Reader::from_reader(table.as_slice());
-    let rows = reader.deserialize::<HashMap<String, f64>>().map(|row| {
-        let row = row.expect("numbers");
+    let rows = records(&series.to_csv()).into_iter().map(|row| {
         let fields = names
             .iter()
             .map(|name| change(name, row[*name]).to_string());

@@ -67,7 +67,7 @@ impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
     /// Torque on either body.
     #[inline(always)]
     pub(super) fn torque(&self, normal: G::Vector) -> G::Rotation {
-        G::torque(normal, self.tangential).times(self.arm).negated()
+        G::torque(normal, self.tangential).times(-self.arm)
     }
 
     /// No force, in numbers like `number`.
@@ -213,7 +213,7 @@ impl<R: Real> SpringDashpot<R> {
     ) -> T {
         let stiffness = self.law.tangential_stiffness;
         let stretched = spring.plus(velocity.times(time_step));
-        let elastic = stretched.times(stiffness).negated();
+        let elastic = stretched.times(-stiffness);
         let damping = velocity.times(self.law.damping_tangential);
         let sticking = elastic.minus(damping);
         let operand = match self.coulomb_operand {

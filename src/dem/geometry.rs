@@ -152,8 +152,10 @@ pub trait Geometry<R: Real>: Copy + Debug {
     /// No vector in the tangent plane, in numbers like `number`.
     fn no_tangent(number: R) -> Self::Tangent;
 
-    /// Quotient by a number; in space one division for all parts.
-    fn divided<L: Linear<R>>(value: L, divisor: R) -> L;
+    /// The vector divided by its length.
+    fn direction(vector: Self::Vector, length: R) -> Self::Vector;
+    /// Change of the angular velocity in a time step.
+    fn kick(torque: Self::Rotation, moment_of_inertia: R, time_step: R) -> Self::Rotation;
     /// Scalar product.
     fn along(normal: Self::Vector, vector: Self::Vector) -> R;
     /// The part of a vector in the tangent plane.
@@ -223,8 +225,13 @@ impl<R: Real> Geometry<R> for Plane {
     }
 
     #[inline(always)]
-    fn divided<L: Linear<R>>(value: L, divisor: R) -> L {
-        value.over(divisor)
+    fn direction(vector: [R; 2], length: R) -> [R; 2] {
+        vector.over(length)
+    }
+
+    #[inline(always)]
+    fn kick(torque: R, moment_of_inertia: R, time_step: R) -> R {
+        torque / moment_of_inertia * time_step
     }
 
     #[inline(always)]
@@ -336,8 +343,15 @@ impl<R: Real> Geometry<R> for Space {
     }
 
     #[inline(always)]
-    fn divided<L: Linear<R>>(value: L, divisor: R) -> L {
-        value.times(divisor.like(1.0) / divisor)
+    fn direction(vector: [R; 3], length: R) -> [R; 3] {
+        // One division instead of three.
+        vector.times(length.like(1.0) / length)
+    }
+
+    #[inline(always)]
+    fn kick(torque: [R; 3], moment_of_inertia: R, time_step: R) -> [R; 3] {
+        // One division for all bodies.
+        torque.times(time_step / moment_of_inertia)
     }
 
     #[inline(always)]

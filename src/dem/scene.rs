@@ -79,7 +79,7 @@ impl<R: Real, G: Geometry<R>> Body<R, G> {
     pub(super) fn advance(&mut self, load: &Load<R, G>, moment_of_inertia: R, time_step: R) {
         self.velocity = self.velocity.plus(load.force.times(time_step));
         self.position = self.position.plus(self.velocity.times(time_step));
-        let kick = G::divided(load.torque, moment_of_inertia).times(time_step);
+        let kick = G::kick(load.torque, moment_of_inertia, time_step);
         self.spin = self.spin.plus(kick);
         self.angle = self.angle.plus(self.spin.times(time_step));
     }
@@ -102,7 +102,7 @@ impl<R: Real, G: Geometry<R>> Contact<R, G> {
         time_step: R,
     ) -> Self {
         let distance = square.sqrt();
-        let normal = G::divided(apart, distance);
+        let normal = G::direction(apart, distance);
         let velocity = i.velocity.minus(j.velocity);
         Self {
             counterpart: Counterpart::Cylinder,
@@ -260,15 +260,19 @@ where
         let mut loads = [Load::weight(self.gravity); CYLINDERS];
         if G::IS_SMALL {
             unrolled!(first below CYLINDERS {
+                let mut load = loads[first];
                 unrolled!(second below first {
-                    self.evaluate_pair::<KEEP>(first, second, &mut loads);
+                    self.evaluate_pair::<KEEP>([first, second], [&mut load, &mut loads[second]]);
                 });
+                loads[first] = load;
             });
         } else {
             for first in 0..self.sphere_count {
+                let mut load = loads[first];
                 for second in 0..first {
-                    self.evaluate_pair::<KEEP>(first, second, &mut loads);
+                    self.evaluate_pair::<KEEP>([first, second], [&mut load, &mut loads[second]]);
                 }
+                loads[first] = load;
             }
         }
         for wall in 0..WALLS {
@@ -290,14 +294,14 @@ where
 
     #[inline(always)]
     fn accelerate(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
-        let dt = self.time_step;
+        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
         let count = if G::IS_SMALL {
             CYLINDERS
         } else {
             self.sphere_count
         };
         for (cylinder, load) in self.cylinders.iter_mut().zip(loads).take(count) {
-            cylinder.advance(load, self.moment_of_inertia, dt);
+            cylinder.advance(load, moment_of_inertia, dt);
         }
         for (wall, exists) in self.walls.iter_mut().zip(self.wall_exists) {
             if exists {
@@ -307,45 +311,31 @@ where
     }
 
     #[inline(always)]
-    fn evaluate_pair<const KEEP: bool>(
-        &mut self,
-        first: usize,
-        second: usize,
-        loads: &mut [Load<R, G>; CYLINDERS],
-    ) {
-        let (apart, square) = Body::apart([&self.cylinders[first], &self.cylinders[second]]);
+    fn evaluate_pair<const KEEP: bool>(&mut self, pair: [usize; 2], loads: [&mut Load<R, G>; 2]) {
+        let (apart, square) = Body::apart(pair.map(|body| &self.cylinders[body]));
         let touches = square.less(square.like(4.0));
         if !square.any(touches) {
-            self.pair_contacts[first][second].separate::<KEEP, _>(&self.model, square);
+            self.pair_contacts[pair[0]][pair[1]].separate::<KEEP, _>(&self.model, square);
         } else if square.all(touches) {
-            self.press_pair::<KEEP>(first, second, (apart, square), Touch::Everywhere, loads);
+            self.press_pair::<KEEP>(pair, (apart, square), Touch::Everywhere, loads);
         } else {
-            self.press_pair::<KEEP>(first, second, (apart, square), Touch::Where(touches), loads);
+            self.press_pair::<KEEP>(pair, (apart, square), Touch::Where(touches), loads);
         }
     }
 
     #[inline(always)]
     fn press_pair<const KEEP: bool>(
         &mut self,
-        first: usize,
-        second: usize,
-        (apart, square): (G::Vector, R),
+        pair: [usize; 2],
+        distance: (G::Vector, R),
         touches: Touch<R>,
-        loads: &mut [Load<R, G>; CYLINDERS],
+        loads: [&mut Load<R, G>; 2],
     ) {
-        let pair = [first, second].map(|index| &self.cylinders[index]);
-        let contact = Contact::of_pair(
-            pair,
-            (apart, square),
-            self.cylinder_friction,
-            self.time_step,
-        );
-        let state = &mut self.pair_contacts[first][second];
+        let bodies = pair.map(|body| &self.cylinders[body]);
+        let contact = Contact::of_pair(bodies, distance, self.cylinder_friction, self.time_step);
+        let state = &mut self.pair_contacts[pair[0]][pair[1]];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
-        let force = exerted.as_vector(contact.normal);
-        let torque = exerted.torque(contact.normal);
-        loads[first].add(touches, force, torque);
-        loads[second].add(touches, force.negated(), torque);
+        exerted.act_on_pair(contact.normal, touches, loads);
     }
 
     #[inline(always)]
@@ -386,6 +376,21 @@ where
     }
 }
 
+impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
+    /// Adds the force and its torque to the loads of the two bodies of a contact with this normal.
+    #[inline(always)]
+    pub(super) fn act_on_pair(
+        &self,
+        normal: G::Vector,
+        touches: Touch<R>,
+        [first, second]: [&mut Load<R, G>; 2],
+    ) {
+        let (force, torque) = (self.as_vector(normal), self.torque(normal));
+        first.add(touches, force, torque);
+        second.react(touches, force, torque);
+    }
+}
+
 impl<R: Real, G: Geometry<R>> Load<R, G> {
     #[inline(always)]
     pub(super) fn weight(gravity: R) -> Self {
@@ -396,10 +401,21 @@ impl<R: Real, G: Geometry<R>> Load<R, G> {
         }
     }
 
+    /// Adds a force and a torque where bodies touch.
     #[inline(always)]
     pub(super) fn add(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
         let sum = Self {
             force: self.force.plus(force),
+            torque: self.torque.plus(torque),
+        };
+        *self = touches.choose(sum, *self);
+    }
+
+    /// Adds the opposite of a force, and the torque that comes with it, where bodies touch.
+    #[inline(always)]
+    fn react(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
+        let sum = Self {
+            force: self.force.minus(force),
             torque: self.torque.plus(torque),
         };
         *self = touches.choose(sum, *self);

@@ -7,6 +7,7 @@ pub mod network;
 pub mod replay;
 
 use assert_cmd::Command;
+use std::collections::HashMap;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -189,6 +190,13 @@ pub fn recording(code: Code) -> Recording {
 pub fn json_rows(text: &str) -> Vec<serde_json::Value> {
     let rows = json(text)["rows"].as_array().cloned();
     rows.expect("an object with rows")
+}
+
+/// The rows of a table of numbers in CSV, each by the names of its columns.
+pub fn records(csv: &[u8]) -> Vec<HashMap<String, f64>> {
+    let mut reader = csv::Reader::from_reader(csv);
+    let rows = reader.deserialize().map(|row| row.expect("numbers"));
+    rows.collect()
 }
 
 /// Waits until `condition` returns something; `None` after a minute, which is enough on a busy machine.

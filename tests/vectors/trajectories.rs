@@ -13,7 +13,7 @@ use tristack::model::{
     Arms, Case, ContactArms, ContactConvention, CoulombOperand, HistoryUpdate, PreparationSteps,
     Protocol, Sampling, SlidingSpring, Stack, TensileForce,
 };
-use tristack::series::{Sample, Series};
+use tristack::series::Series;
 use tristack::study::yield_force::protocol_at_speed;
 use tristack::theory::quasistatic_limit;
 
@@ -190,12 +190,10 @@ impl Chosen {
 
 fn rows(case: &Case) -> Vec<Vec<f64>> {
     let series = compress_stack(case, || true).expect("a finite series");
-    let numbers = |sample: &Sample| {
-        let values = serde_json::to_value(sample).expect("numbers");
-        let column = |name: &&str| values[*name].as_f64().expect("a number");
-        Series::COLUMNS.iter().map(column).collect()
-    };
-    series.samples().iter().map(numbers).collect()
+    let table = series.to_csv();
+    let mut reader = csv::Reader::from_reader(table.as_slice());
+    let rows = reader.deserialize().map(|row| row.expect("numbers"));
+    rows.collect()
 }
 
 /// The rows of a run with half the time step, at the same times.

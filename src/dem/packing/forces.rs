@@ -3,7 +3,7 @@
 use super::bodies::Packing;
 use crate::dem::contact::{Contact, ContactForce, ContactModel, Spring};
 use crate::dem::contact_state::Touch;
-use crate::dem::geometry::{Geometry, Linear};
+use crate::dem::geometry::Geometry;
 use crate::dem::scene::{Body, Load};
 
 impl<G: Geometry<f64>> Packing<G> {
@@ -40,10 +40,8 @@ impl<G: Geometry<f64>> Packing<G> {
                 let friction = material.cylinder_friction;
                 let contact = Contact::of_pair([i, j], (apart, square), friction, self.time_step);
                 let exerted = material.law.evaluate(&contact, memory);
-                let force = exerted.as_vector(contact.normal);
-                let torque = exerted.torque(contact.normal);
-                load.add(Touch::Everywhere, force, torque);
-                loads[second as usize].add(Touch::Everywhere, force.negated(), torque);
+                let both = [&mut load, &mut loads[second as usize]];
+                exerted.act_on_pair(contact.normal, Touch::Everywhere, both);
             }
             loads[first] = load;
             start = end;

@@ -70,11 +70,14 @@ pub fn deviations(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<(f64, f64)
 
 fn solve(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<Vec<Measured>> {
     let freedom = rows.len().checked_sub(columns)?;
+    if freedom == 0 || columns == 0 {
+        return None;
+    }
     let mut matrix = DMatrix::from_fn(rows.len(), columns, |row, column| rows[row].0[column]);
     let target = DVector::from_fn(rows.len(), |row, _| rows[row].1);
     let scales: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     let mut normal = scales.iter().map(|&scale| scale > 0.0 && scale.is_finite());
-    if freedom == 0 || !normal.all(|normal| normal) {
+    if !normal.all(|normal| normal) {
         return None;
     }
     for (mut column, scale) in matrix.column_iter_mut().zip(&scales) {

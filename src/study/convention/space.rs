@@ -37,6 +37,9 @@ const SURELY_STICKS: f64 = 0.5;
 /// Part of the elastic normal force above which no rule about pulling forces matters.
 const SURELY_PRESSED: f64 = 0.3;
 
+/// Most fits of what springs change. Each leaves a part of the error of a wrong spin.
+const MOST_FITS: usize = 40;
+
 /// A state of motion of a body: place, velocity, spin.
 type State = [Vector; 3];
 
@@ -234,7 +237,8 @@ pub fn properties(
             stiffness_ratio: outcomes[0].0.stiffness_ratio,
         };
         let (sticking, sliding) = (rows(sticking), rows(sliding));
-        [law.of_sticking(&sticking), law.of_sliding(&sliding)].concat()
+        let (sticking, spins) = law.of_sticking(&sticking);
+        [sticking, law.of_sliding(&sliding, spins)].concat()
     }));
     properties
 }
@@ -351,10 +355,19 @@ struct Read {
     /// Arms of the surface velocity and of the torque.
     arms: [f64; 2],
     normal_force: f64,
-    /// Velocity of the surfaces in the tangent plane.
-    sliding: Vector,
+    /// Velocity of the centres in the tangent plane.
+    moved: Vector,
+    /// Velocity of the surfaces by the spins about x, y and z.
+    rolled: [Vector; 3],
     /// Force without its normal part.
     tangential: Vector,
+}
+
+impl Read {
+    /// Velocity of the surfaces in the tangent plane, where the spins count with these weights.
+    fn sliding(&self, weights: [f64; 3]) -> Vector {
+        weighted(self.moved, weights, self.rolled)
+    }
 }
 
 impl Law {
@@ -373,13 +386,18 @@ impl Law {
         let arms = [arms.kinematic, arms.torque].map(|arm| 1.0 + arm * row.overlap);
         let separation = dot(row.normal, row.velocity);
         let normal_force = at.secant * row.overlap - at.damping_normal * separation;
-        let moved = combine(row.velocity, -separation, row.normal);
+        let rolled = [0, 1, 2].map(|axis| {
+            let mut own = [0.0; 3];
+            own[axis] = -arms[0] * row.spin[axis];
+            cross(own, row.normal)
+        });
         Read {
             row: *row,
             at,
             arms,
             normal_force,
-            sliding: combine(moved, -arms[0], cross(row.spin, row.normal)),
+            moved: combine(row.velocity, -separation, row.normal),
+            rolled,
             tangential: combine(row.force, -normal_force, row.normal),
         }
     }
@@ -393,10 +411,16 @@ impl Law {
         })
     }
 
-    /// The spring of a contact that sticks, as the law remembers it.
-    fn spring(&self, read: &Read) -> Vector {
-        let elastic = combine(read.tangential, read.at.damping_tangential, read.sliding);
+    /// The spring of a contact that sticks, as the law remembers it, where the surfaces move at this velocity.
+    fn spring(&self, read: &Read, sliding: Vector) -> Vector {
+        let elastic = combine(read.tangential, read.at.damping_tangential, sliding);
         self.remembered(elastic, &read.at)
+    }
+
+    /// What damping of a velocity of the surfaces takes from that spring.
+    fn damped(&self, read: &Read, velocity: Vector) -> Vector {
+        let damping = velocity.map(|part| part * read.at.damping_tangential);
+        self.remembered(damping, &read.at)
     }
 
     /// The spring that exerts a force, as the law remembers it.
@@ -436,64 +460,83 @@ impl Law {
         }
     }
 
-    /// The weights of transport, spin and torque while contacts stick.
-    fn of_sticking(&self, series: &[Vec<Row>]) -> Vec<Property> {
+    /// The weights of transport, spin and torque while contacts stick, and those of the spins.
+    fn of_sticking(&self, series: &[Vec<Row>]) -> (Vec<Property>, [f64; 3]) {
+        let sticks = |read: &Read| {
+            let size = dot(read.tangential, read.tangential).sqrt();
+            size < SURELY_STICKS * read.row.friction * read.normal_force
+        };
+        let series = series.iter();
+        let series = series.map(|rows| self.pressed(rows).take_while(sticks).collect());
+        let series: Vec<Vec<Read>> = series.collect();
+        let mut spins = [1.0; 3];
+        let mut found = [Measured::UNKNOWN; 6];
+        for _ in 0..MOST_FITS {
+            found = self.fit_changes(&series, spins);
+            let next = std::array::from_fn(|axis| {
+                let Measured { value, uncertainty } = found[3 + axis];
+                if uncertainty.is_finite() { value } else { 1.0 }
+            });
+            if next == spins {
+                break;
+            }
+            spins = next;
+        }
+        let turning: Vec<_> = series.iter().flatten().flat_map(torques).collect();
+        let names = ["spring_length_kept", "spring_by_product", "spring_twisted"];
+        let names = names.into_iter().chain(["spin_x", "spin_y", "spin_z"]);
+        let declared = self.transport().into_iter().chain([1.0; 3]);
+        let own = names.zip(found).zip(declared);
+        let torques = ["torque_x", "torque_y", "torque_z"].into_iter();
+        let torques = torques.zip(fit_known(&turning)).zip([1.0; 3]);
+        let properties = own.chain(torques);
+        // A normal of the floor never turns, and nothing about it tells these.
+        let properties = properties.filter(|((_, found), _)| {
+            found.uncertainty.is_finite() || self.kind == ContactKind::Pair
+        });
+        let properties = properties.map(|((name, found), declared)| {
+            Property::at(self.kind, &format!("space_{name}"), found, declared)
+        });
+        (properties.collect(), spins)
+    }
+
+    /// a, b, c and the weights of the spins, from what springs change in a step. The springs that are transported follow from
+    /// the `spins` as they were found before; that matters only where those are wrong, and less with every iteration.
+    fn fit_changes(&self, series: &[Vec<Read>], spins: [f64; 3]) -> [Measured; 6] {
         let mut changes: Vec<([f64; 6], f64)> = Vec::new();
-        let mut turning: Vec<([f64; 3], f64)> = Vec::new();
-        for rows in series {
-            let sticks = |read: &Read| {
-                let size = dot(read.tangential, read.tangential).sqrt();
-                size < SURELY_STICKS * read.row.friction * read.normal_force
-            };
-            let read: Vec<Read> = self.pressed(rows).take_while(sticks).collect();
+        for read in series {
             for two in read.windows(2) {
                 let [before, now] = two else { continue };
-                let spring = self
-                    .spring(before)
-                    .map(|part| part * self.shrunk(before, now));
-                let (projected, effects) = transported(spring, before, now);
-                let moved = combine(
-                    now.row.velocity,
-                    -dot(now.row.normal, now.row.velocity),
-                    now.row.normal,
-                );
-                let found = combine(self.spring(now), -1.0, projected);
-                let found = combine(found, -1.0, self.added(moved, now));
-                let [lengthened, product, twisted] = effects;
+                let shrunk = self.shrunk(before, now);
+                let project = |spring: Vector| {
+                    let spring = spring.map(|part| part * shrunk);
+                    combine(spring, -dot(now.row.normal, spring), now.row.normal)
+                };
+                let spring = self.spring(before, before.sliding(spins));
+                let effects = transported(spring.map(|part| part * shrunk), before, now).1;
+                // The springs if no spin counted.
+                let [last, own] = [before, now].map(|read| self.spring(read, read.moved));
+                let expected = combine(project(last), 1.0, self.added(now.moved, now));
+                let found = combine(own, -1.0, expected);
+                // What a spin adds by its motion, and by damping now and before.
                 let by_spin = [0, 1, 2].map(|axis| {
-                    let mut own = [0.0; 3];
-                    own[axis] = -now.arms[0] * now.row.spin[axis];
-                    self.added(cross(own, now.row.normal), now)
+                    let before = project(self.damped(before, before.rolled[axis]));
+                    let damping = combine(before, -1.0, self.damped(now, now.rolled[axis]));
+                    combine(self.added(now.rolled[axis], now), 1.0, damping)
                 });
+                let [lengthened, product, twisted] = effects;
                 let terms = [
                     lengthened, product, twisted, by_spin[0], by_spin[1], by_spin[2],
                 ];
                 changes.extend((0..3).map(|axis| (terms.map(|term| term[axis]), found[axis])));
             }
-            for read in &read {
-                turning.extend(torques(read));
-            }
         }
-        let names = ["spring_length_kept", "spring_by_product", "spring_twisted"];
-        let names = names.into_iter().chain(["spin_x", "spin_y", "spin_z"]);
-        let declared = self.transport().into_iter().chain([1.0; 3]);
-        let found = fit_known(&changes);
-        let own = names.zip(found).zip(declared);
-        let torques = ["torque_x", "torque_y", "torque_z"].into_iter();
-        let torques = torques.zip(fit_known(&turning)).zip([1.0; 3]);
-        own.chain(torques)
-            // A normal of the floor never turns, and nothing about it tells these.
-            .filter(|((_, found), _)| {
-                found.uncertainty.is_finite() || self.kind == ContactKind::Pair
-            })
-            .map(|((name, found), declared)| {
-                Property::at(self.kind, &format!("space_{name}"), found, declared)
-            })
-            .collect()
+        fit_known(&changes)
     }
 
-    /// The direction of a force at its limit, while contacts slide: 1 along that of the rule that is declared, 0 across.
-    fn of_sliding(&self, series: &[Vec<Row>]) -> Vec<Property> {
+    /// The direction of a force at its limit, while contacts slide: 1 along that of the rule that is declared, 0 across,
+    /// where the spins count with the weights that were found.
+    fn of_sliding(&self, series: &[Vec<Row>], spins: [f64; 3]) -> Vec<Property> {
         let mut terms: Vec<([f64; 2], f64)> = Vec::new();
         for rows in series {
             let read: Vec<Read> = self.pressed(rows).collect();
@@ -504,18 +547,17 @@ impl Law {
                 let last = spring.unwrap_or_else(|| match self.convention.sliding_spring {
                     // It slides from the first step on.
                     SlidingSpring::Frozen => [0.0; 3],
-                    SlidingSpring::FollowsLimit => self.last_spring(before),
+                    SlidingSpring::FollowsLimit => self.last_spring(before, spins),
                 });
                 let last = last.map(|part| part * self.shrunk(before, now));
                 let (projected, effects) = transported(last, before, now);
                 let weights = self.transport();
-                let carried = (0..3).fold(projected, |sum, index| {
-                    combine(sum, weights[index], effects[index])
-                });
-                let stretched = combine(carried, 1.0, self.added(now.sliding, now));
+                let carried = weighted(projected, weights, effects);
+                let sliding = now.sliding(spins);
+                let stretched = combine(carried, 1.0, self.added(sliding, now));
                 let unit = self.remembered([-1.0, 0.0, 0.0], &now.at)[0];
                 let elastic = stretched.map(|part| -part / unit);
-                let damping = now.sliding.map(|part| part * now.at.damping_tangential);
+                let damping = sliding.map(|part| part * now.at.damping_tangential);
                 let sticking = combine(elastic, -1.0, damping);
                 let operand = match self.convention.coulomb_operand {
                     CoulombOperand::SpringAndDamping => sticking,
@@ -532,7 +574,7 @@ impl Law {
                     .extend((0..3).map(|axis| ([force[axis], across[axis]], now.tangential[axis])));
                 spring = Some(match self.convention.sliding_spring {
                     SlidingSpring::Frozen => carried,
-                    SlidingSpring::FollowsLimit => self.last_spring(now),
+                    SlidingSpring::FollowsLimit => self.last_spring(now, spins),
                 });
             }
         }
@@ -544,7 +586,7 @@ impl Law {
     }
 
     /// The spring behind the force of a contact, at its limit or not.
-    fn last_spring(&self, read: &Read) -> Vector {
+    fn last_spring(&self, read: &Read, spins: [f64; 3]) -> Vector {
         let limit = read.row.friction * read.normal_force.abs();
         let size = dot(read.tangential, read.tangential).sqrt();
         let is_capped = (size / limit - 1.0).abs() < LEAST;
@@ -553,7 +595,7 @@ impl Law {
             CoulombOperand::Spring => !is_capped,
         };
         match damps {
-            true => self.spring(read),
+            true => self.spring(read, read.sliding(spins)),
             false => self.remembered(read.tangential, &read.at),
         }
     }
@@ -616,6 +658,12 @@ fn fit_known<const N: usize>(rows: &[([f64; N], f64)]) -> [Measured; N] {
 /// left + factor right.
 fn combine(left: Vector, factor: f64, right: Vector) -> Vector {
     std::array::from_fn(|axis| left[axis] + factor * right[axis])
+}
+
+/// start + Σ weight · vector.
+fn weighted(start: Vector, weights: [f64; 3], vectors: [Vector; 3]) -> Vector {
+    let terms = weights.into_iter().zip(vectors);
+    terms.fold(start, |sum, (weight, vector)| combine(sum, weight, vector))
 }
 
 fn dot(left: Vector, right: Vector) -> f64 {

@@ -190,11 +190,7 @@ impl<Stack: LoadedStack> Work for Stepping<'_, Stack> {
         match self.part {
             Part::Forces => self.stack.evaluate_forces(),
             Part::Motion => self.stack.advance(),
-            Part::Steps(steps) => {
-                for _ in 0..steps {
-                    self.stack.step();
-                }
-            }
+            Part::Steps(steps) => self.stack.steps(steps),
         }
     }
 }

@@ -26,6 +26,17 @@ macro_rules! unrolled {
     };
 }
 
+/// A loop over the bodies below a count: written out in the plane, where the compiler knows it.
+macro_rules! each_body {
+    ($index:ident below $known:ident or $count:expr => $body:block) => {
+        if G::IS_SMALL {
+            unrolled!($index below $known $body);
+        } else {
+            for $index in 0..$count $body
+        }
+    };
+}
+
 /// A cylinder or sphere of unit mass and radius. Velocities belong to the half step before the positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body<R: Real = f64, G: Geometry<R> = Plane> {
@@ -237,75 +248,70 @@ where
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     #[inline(always)]
     pub fn evaluate_forces(&mut self) {
-        self.loads = self.forces::<true>();
+        let mut loads = self.loads;
+        self.evaluate_pairs::<true>(&mut loads);
+        each_body!(body below CYLINDERS or self.sphere_count => {
+            self.evaluate_walls::<true>(body, &mut loads[body]);
+        });
+        self.loads = loads;
     }
 
     /// Kicks the velocities over a whole step with the evaluated forces, then drifts the positions, and
     /// moves the walls.
     #[inline(always)]
     pub fn advance(&mut self) {
-        self.accelerate(&self.loads.clone());
-    }
-
-    /// Evaluates the forces and advances. The contact forces are not kept.
-    #[inline(always)]
-    pub fn step(&mut self) {
-        let loads = self.forces::<false>();
-        self.accelerate(&loads);
-    }
-
-    /// The loads on all cylinders.
-    #[inline(always)]
-    fn forces<const KEEP: bool>(&mut self) -> [Load<R, G>; CYLINDERS] {
-        let mut loads = [Load::weight(self.gravity); CYLINDERS];
-        if G::IS_SMALL {
-            unrolled!(first below CYLINDERS {
-                let mut load = loads[first];
-                unrolled!(second below first {
-                    self.evaluate_pair::<KEEP>([first, second], [&mut load, &mut loads[second]]);
-                });
-                loads[first] = load;
-            });
-        } else {
-            for first in 0..self.sphere_count {
-                let mut load = loads[first];
-                for second in 0..first {
-                    self.evaluate_pair::<KEEP>([first, second], [&mut load, &mut loads[second]]);
-                }
-                loads[first] = load;
-            }
-        }
-        for wall in 0..WALLS {
-            if !self.wall_exists[wall] {
-                continue;
-            }
-            if G::IS_SMALL {
-                unrolled!(cylinder below CYLINDERS {
-                    self.evaluate_wall::<KEEP>(wall, cylinder, &mut loads);
-                });
-            } else {
-                for cylinder in 0..self.sphere_count {
-                    self.evaluate_wall::<KEEP>(wall, cylinder, &mut loads);
-                }
-            }
-        }
-        loads
-    }
-
-    #[inline(always)]
-    fn accelerate(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
         let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
-        let count = if G::IS_SMALL {
-            CYLINDERS
-        } else {
-            self.sphere_count
-        };
-        for (cylinder, load) in self.cylinders.iter_mut().zip(loads).take(count) {
-            cylinder.advance(load, moment_of_inertia, dt);
+        each_body!(body below CYLINDERS or self.sphere_count => {
+            self.cylinders[body].advance(&self.loads[body], moment_of_inertia, dt);
+        });
+        self.move_walls();
+    }
+
+    /// Evaluates the forces and advances, so many times. The contact forces are not kept.
+    #[inline(always)]
+    pub fn steps(&mut self, count: u64) {
+        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
+        let mut loads = self.loads;
+        for _ in 0..count {
+            self.evaluate_pairs::<false>(&mut loads);
+            // The walls of one body do not touch another, so a body moves as soon as its own walls are
+            // evaluated, and its load stays in registers.
+            each_body!(body below CYLINDERS or self.sphere_count => {
+                let mut load = loads[body];
+                self.evaluate_walls::<false>(body, &mut load);
+                self.cylinders[body].advance(&load, moment_of_inertia, dt);
+            });
+            self.move_walls();
         }
+    }
+
+    #[inline(always)]
+    fn move_walls(&mut self) {
         for (wall, exists) in self.walls.iter_mut().zip(self.wall_exists) {
             if exists {
-                wall.offset += wall.speed * dt;
+                wall.offset += wall.speed * self.time_step;
+            }
+        }
+    }
+
+    /// Sets the loads to the weights and the forces of all pairs.
+    #[inline(always)]
+    fn evaluate_pairs<const KEEP: bool>(&mut self, loads: &mut [Load<R, G>; CYLINDERS]) {
+        each_body!(first below CYLINDERS or self.sphere_count => {
+            let mut load = Load::weight(self.gravity);
+            each_body!(second below first or first => {
+                self.evaluate_pair::<KEEP>([first, second], [&mut load, &mut loads[second]]);
+            });
+            loads[first] = load;
+        });
+    }
+
+    /// Adds the forces of all walls on a body to its load.
+    #[inline(always)]
+    fn evaluate_walls<const KEEP: bool>(&mut self, body: usize, load: &mut Load<R, G>) {
+        for wall in 0..WALLS {
+            if self.wall_exists[wall] {
+                self.evaluate_wall::<KEEP>(wall, body, load);
             }
         }
     }
@@ -339,21 +345,15 @@ where
     }
 
     #[inline(always)]
-    fn evaluate_wall<const KEEP: bool>(
-        &mut self,
-        wall: usize,
-        cylinder: usize,
-        loads: &mut [Load<R, G>; CYLINDERS],
-    ) {
-        let plane = &self.walls[wall];
-        let overlap = plane.overlap::<G>(self.cylinders[cylinder].position);
+    fn evaluate_wall<const KEEP: bool>(&mut self, wall: usize, body: usize, load: &mut Load<R, G>) {
+        let overlap = self.walls[wall].overlap::<G>(self.cylinders[body].position);
         let touches = overlap.like(0.0).less(overlap);
         if !overlap.any(touches) {
-            self.wall_contacts[wall][cylinder].separate::<KEEP, _>(&self.model, overlap);
+            self.wall_contacts[wall][body].separate::<KEEP, _>(&self.model, overlap);
         } else if overlap.all(touches) {
-            self.press_on_wall::<KEEP>(wall, cylinder, overlap, Touch::Everywhere, loads);
+            self.press_on_wall::<KEEP>(wall, body, overlap, Touch::Everywhere, load);
         } else {
-            self.press_on_wall::<KEEP>(wall, cylinder, overlap, Touch::Where(touches), loads);
+            self.press_on_wall::<KEEP>(wall, body, overlap, Touch::Where(touches), load);
         }
     }
 
@@ -361,18 +361,17 @@ where
     fn press_on_wall<const KEEP: bool>(
         &mut self,
         wall: usize,
-        cylinder: usize,
+        body: usize,
         overlap: R,
         touches: Touch<R>,
-        loads: &mut [Load<R, G>; CYLINDERS],
+        load: &mut Load<R, G>,
     ) {
         let plane = self.walls[wall];
-        let contact =
-            Contact::with_wall(&self.cylinders[cylinder], &plane, overlap, self.time_step);
-        let state = &mut self.wall_contacts[wall][cylinder];
+        let contact = Contact::with_wall(&self.cylinders[body], &plane, overlap, self.time_step);
+        let state = &mut self.wall_contacts[wall][body];
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
         let force = G::put_together_at_wall(plane.facing, exerted.normal, exerted.tangential);
-        loads[cylinder].add(touches, force, exerted.torque(contact.normal));
+        load.add(touches, force, exerted.torque(contact.normal));
     }
 }
 

@@ -40,8 +40,8 @@ pub(super) trait LoadedStack {
     fn evaluate_forces(&mut self);
     /// Advances velocities, positions and walls.
     fn advance(&mut self);
-    /// Both; the contact forces are not kept.
-    fn step(&mut self);
+    /// Both, so many times; the contact forces are not kept.
+    fn steps(&mut self, count: u64);
 }
 
 /// A stack whose contact law a convention describes.
@@ -207,8 +207,8 @@ where
     }
 
     #[inline(always)]
-    fn step(&mut self) {
-        Self::step(self);
+    fn steps(&mut self, count: u64) {
+        Self::steps(self, count);
     }
 }
 

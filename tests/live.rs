@@ -24,13 +24,26 @@ fn installed() -> Vec<Code> {
     common::installed(&Code::of_power(Power::Linear)[1..])
 }
 
+/// Their names, as `--codes` has them.
+fn listed(codes: &[Code]) -> String {
+    let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
+    names.join(",")
+}
+
+/// The rows of a command in which everything agrees.
+fn agreeing(bench: &Bench, line: &str) -> Vec<serde_json::Value> {
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    json_rows(&String::from_utf8_lossy(&output.stdout))
+}
+
 /// Below and above the critical friction, soft and stiff.
 const FEW_STACKS: &str = "--mu 0.2,0.3 --stiffness 100,10000";
 
 /// The rows of native and `codes`, by `program` at `bench`, with its files in `out` of the bench.
 fn crosscheck(bench: &Bench, program: &Path, codes: &[Code], options: &str, out: &str) -> Output {
-    let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
-    let names = names.join(",");
+    let names = listed(codes);
     let line = format!("crosscheck --codes native,{names} --format json {options} --out {out}");
     let output = bench.process_of(program, &line).output();
     output.expect("it runs")
@@ -105,13 +118,10 @@ fn all_installed_codes_have_exact_impacts() {
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let names = listed(&installed);
     let bench = Bench::with_system_programs();
-    let line = format!("impacts --codes {} --format json", names.join(","));
-    let output = bench.tristack(&line).output().expect("it runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let line = format!("impacts --codes {names} --format json");
+    let rows = agreeing(&bench, &line);
     assert_eq!(rows.len(), 44 * installed.len());
     let errors = rows
         .iter()
@@ -129,16 +139,12 @@ fn all_installed_codes_have_onset_and_peak_of_a_stack_whose_bottom_cylinders_tou
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let names = listed(&installed);
     let bench = Bench::with_system_programs();
     let line = format!(
-        "crosscheck --codes {} --mu 0.2,0.3 --stiffness 1e2 --kappa 0.6 --format json",
-        names.join(",")
+        "crosscheck --codes {names} --mu 0.2,0.3 --stiffness 1e2 --kappa 0.6 --format json"
     );
-    let output = bench.tristack(&line).output().expect("it runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let rows = agreeing(&bench, &line);
     assert_eq!(rows.len(), 2 * installed.len());
     for row in rows {
         let number = |key: &str| row[key].as_f64().expect("a number");
@@ -160,13 +166,10 @@ fn all_installed_codes_follow_their_native_twins() {
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let names = listed(&installed);
     let bench = Bench::with_system_programs();
-    let line = format!("trajectories --codes {} --format json", names.join(","));
-    let output = bench.tristack(&line).output().expect("it runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let line = format!("trajectories --codes {names} --format json");
+    let rows = agreeing(&bench, &line);
     for code in installed {
         let own = rows.iter().filter(|row| row["code"] == code.as_str());
         let own: Vec<_> = own.collect();
@@ -233,15 +236,11 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
 
 #[test]
 fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
-    let installed = installed();
-    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let codes = [vec![Code::NATIVE], installed()].concat();
+    let names = listed(&codes);
     let bench = Bench::with_system_programs();
-    let mut codes = vec!["native"];
-    codes.extend(names);
-    let line = format!("probe --codes {} --format json", codes.join(","));
-    let output = bench.tristack(&line).output().expect("it runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
+    let line = format!("probe --codes {names} --format json");
+    agreeing(&bench, &line);
     assert_only(&bench.path("store/work"), &[]);
 }
 
@@ -265,10 +264,7 @@ fn a_convention_that_is_left_out_is_measured_and_gives_the_same_verdicts() {
             format!("{renamed}[integration]{after}").replace("velocity_lag = 0.0\n", "")
         });
         let line = format!("crosscheck --codes {code},./copy {FEW_STACKS} --format json");
-        let output = bench.tristack(&line).output().expect("it runs");
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{message}");
-        let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+        let rows = agreeing(&bench, &line);
         let of = |name: &str| {
             rows.iter()
                 .filter(|row| row["code"] == name)
@@ -521,16 +517,10 @@ fn spheres_without_symmetry_follow_their_native_twins() {
     if installed.is_empty() {
         return;
     }
-    let names: Vec<&str> = installed.iter().map(|code| code.as_str()).collect();
+    let names = listed(&installed);
     let bench = Bench::with_system_programs();
-    let line = format!(
-        "trajectories --bodies 3 --codes {} --format json",
-        names.join(",")
-    );
-    let output = bench.tristack(&line).output().expect("it runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
+    let line = format!("trajectories --bodies 3 --codes {names} --format json");
+    let rows = agreeing(&bench, &line);
     // One twin, three time steps, four quantities.
     assert_eq!(rows.len(), 12 * installed.len());
     for code in ["liggghts", "lammps"] {

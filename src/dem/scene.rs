@@ -250,9 +250,7 @@ where
     pub fn evaluate_forces(&mut self) {
         let mut loads = self.loads;
         self.evaluate_pairs::<true>(&mut loads);
-        each_body!(body below CYLINDERS or self.sphere_count => {
-            self.evaluate_walls::<true>(body, &mut loads[body]);
-        });
+        self.evaluate_walls::<true>(&mut loads);
         self.loads = loads;
     }
 
@@ -260,29 +258,48 @@ where
     /// moves the walls.
     #[inline(always)]
     pub fn advance(&mut self) {
-        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
-        each_body!(body below CYLINDERS or self.sphere_count => {
-            self.cylinders[body].advance(&self.loads[body], moment_of_inertia, dt);
-        });
+        self.advance_bodies(&self.loads.clone());
         self.move_walls();
     }
 
     /// Evaluates the forces and advances, so many times. The contact forces are not kept.
     #[inline(always)]
     pub fn steps(&mut self, count: u64) {
-        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
         let mut loads = self.loads;
         for _ in 0..count {
             self.evaluate_pairs::<false>(&mut loads);
-            // The walls of one body do not touch another, so a body moves as soon as its own walls are
-            // evaluated, and its load stays in registers.
-            each_body!(body below CYLINDERS or self.sphere_count => {
-                let mut load = loads[body];
-                self.evaluate_walls::<false>(body, &mut load);
-                self.cylinders[body].advance(&load, moment_of_inertia, dt);
-            });
+            if G::IS_SMALL {
+                self.evaluate_walls::<false>(&mut loads);
+                self.advance_bodies(&loads);
+            } else {
+                self.evaluate_walls_and_advance(&loads);
+            }
             self.move_walls();
         }
+    }
+
+    /// Adds the forces of the walls to the loads of all pairs, and advances. The walls of one body do not touch another, so
+    /// that each moves as soon as its own walls are evaluated, and its load stays in registers.
+    #[inline(always)]
+    fn evaluate_walls_and_advance(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
+        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
+        for body in 0..self.sphere_count {
+            let mut load = loads[body];
+            for wall in 0..WALLS {
+                if self.wall_exists[wall] {
+                    self.evaluate_wall::<false>(wall, body, &mut load);
+                }
+            }
+            self.cylinders[body].advance(&load, moment_of_inertia, dt);
+        }
+    }
+
+    #[inline(always)]
+    fn advance_bodies(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
+        let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
+        each_body!(body below CYLINDERS or self.sphere_count => {
+            self.cylinders[body].advance(&loads[body], moment_of_inertia, dt);
+        });
     }
 
     #[inline(always)]
@@ -306,12 +323,14 @@ where
         });
     }
 
-    /// Adds the forces of all walls on a body to its load.
+    /// Adds the forces of all walls to the loads.
     #[inline(always)]
-    fn evaluate_walls<const KEEP: bool>(&mut self, body: usize, load: &mut Load<R, G>) {
+    fn evaluate_walls<const KEEP: bool>(&mut self, loads: &mut [Load<R, G>; CYLINDERS]) {
         for wall in 0..WALLS {
             if self.wall_exists[wall] {
-                self.evaluate_wall::<KEEP>(wall, body, load);
+                each_body!(body below CYLINDERS or self.sphere_count => {
+                    self.evaluate_wall::<KEEP>(wall, body, &mut loads[body]);
+                });
             }
         }
     }

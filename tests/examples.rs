@@ -2,8 +2,10 @@
 //! today's theory, and where a code is installed its rows are repeated live.
 
 mod common;
+#[path = "examples/findings.rs"]
+mod findings;
 
-use common::{Bench, installed_in_folder, json_rows, project, required_folders};
+use common::{Bench, are_as_on_file, installed_in_folder, json_rows, project, required_folders};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -171,8 +173,9 @@ fn installed() -> impl Iterator<Item = &'static Example> {
 fn installed_examples_mean_by_a_contact_what_is_written_of_them() {
     for example in installed() {
         let bench = Bench::with_system_programs();
-        let output = example.tristack(&bench, "probe");
+        let output = example.tristack(&bench, "probe --passports filed");
         let message = String::from_utf8_lossy(&output.stderr);
+        are_as_on_file(&bench.path("filed"));
         let status = output.status.code();
         let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
         let differs = rows.iter().filter(|row| row["verdict"] == "differs");
@@ -210,7 +213,8 @@ fn a_floor_of_another_material_than_it_was_given_is_named_by_the_probe() {
             continue;
         }
         let bench = Bench::with_system_programs();
-        let output = example.tristack(&bench, "probe");
+        let output = example.tristack(&bench, "probe --passports filed");
+        are_as_on_file(&bench.path("filed"));
         let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
         let of = |verdict: &str| -> Vec<&str> {
             let rows = rows.iter().filter(|row| row["verdict"] == verdict);
@@ -259,7 +263,8 @@ fn a_spring_that_is_too_long_after_a_slip_is_named_by_the_probe() {
             continue;
         }
         let bench = Bench::with_system_programs();
-        let output = example.tristack(&bench, "probe");
+        let output = example.tristack(&bench, "probe --passports filed");
+        are_as_on_file(&bench.path("filed"));
         let rows = json_rows(&String::from_utf8_lossy(&output.stdout));
         let differing = rows.iter().filter(|row| row["verdict"] == "differs");
         let differing: Vec<&str> = differing

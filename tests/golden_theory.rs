@@ -2,8 +2,10 @@
 //! `reference/golden/generate.py` (Newton on the unreduced equations, Taylor series, Richardson).
 
 use serde::Deserialize;
+use std::path::Path;
+use std::process::Command;
 use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
-use tristack::theory::{Event, Predictions, closed_form_limit, followed_limit};
+use tristack::theory::{Event, Predictions, closed_form_limit, followed_limit, rigid_yield};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
     let path = format!("{}/reference/golden/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -225,4 +227,53 @@ fn follower_equals_the_path_without_rotation_to_1e_9_where_torque_and_kinematic_
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
     worst.must_stay_below(1e-9, "follower, separate arms");
+}
+
+/// Below the critical friction a solver of non-smooth dynamics, which knows no stiffness, lets the floor slide where the rigid
+/// theory does: within one step of its force.
+#[test]
+fn rigid_disks_of_another_kind_of_solver_slide_at_the_rigid_limit() {
+    #[derive(Deserialize)]
+    struct Row {
+        mu: f64,
+        growth: f64,
+        sticks_at: f64,
+        slides_at: f64,
+    }
+    let witness = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/witness");
+    let recorded = std::fs::read_to_string(witness.join("siconos.csv")).expect("the record");
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(recorded.as_bytes());
+    let rows: Vec<Row> = reader
+        .deserialize()
+        .map(|row| row.expect("a row"))
+        .collect();
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        let limit = rigid_yield(&Stack::paper(row.mu, 1e4)).yield_force;
+        let limit = limit.expect("below the critical friction");
+        assert!(row.slides_at > row.sticks_at);
+        let middle = 0.5 * (row.sticks_at + row.slides_at);
+        let distance = (middle - limit).abs();
+        assert!(
+            distance <= row.growth,
+            "{}: {middle} in place of {limit}",
+            row.mu
+        );
+    }
+    // Debian's Python has the solver, if any.
+    let python = "/usr/bin/python3";
+    let installed = Command::new(python)
+        .args(["-c", "import siconos.kernel"])
+        .output();
+    if !installed.is_ok_and(|output| output.status.success()) {
+        eprintln!("Siconos is not installed: its forces are not made anew");
+        return;
+    }
+    let anew = Command::new(python)
+        .arg(witness.join("siconos_stack.py"))
+        .output();
+    let anew = anew.expect("it starts");
+    assert_eq!(String::from_utf8_lossy(&anew.stdout), recorded);
 }

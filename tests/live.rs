@@ -4,7 +4,8 @@
 mod common;
 
 use common::{
-    Bench, OWN_PROGRAM, assert_only, code_folder, json_rows, network, recording, released_program,
+    Bench, OWN_PROGRAM, are_as_on_file, assert_only, code_folder, json_rows, network, recording,
+    released_program,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -234,14 +235,19 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
     }
 }
 
+/// What is measured now is what the passports on file say of the same versions.
 #[test]
 fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
     let codes = [vec![Code::NATIVE], installed()].concat();
     let names = listed(&codes);
     let bench = Bench::with_system_programs();
-    let line = format!("probe --codes {names} --format json");
+    let line = format!("probe --codes {names} --passports filed --format json");
     agreeing(&bench, &line);
     assert_only(&bench.path("store/work"), &[]);
+    assert!(
+        are_as_on_file(&bench.path("filed")) > 0,
+        "native is on file"
+    );
 }
 
 /// A code whose author says nothing of its convention is judged by what is measured, as if that had been declared.

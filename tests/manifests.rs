@@ -412,7 +412,7 @@ fn an_error_names_the_manifest_that_it_stands_in() {
     change_manifest(&base, "format = \"lammps-variables\"", "format = \"yaml\"");
     let inherited = refusal(&other);
     assert!(
-        inherited.contains("folder/code.toml, line 19: "),
+        inherited.contains("folder/code.toml, line 21: "),
         "{inherited}"
     );
 }

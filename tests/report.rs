@@ -2,16 +2,13 @@
 
 mod common;
 
-use common::{Bench, json, json_rows};
+use common::browser::{browser, inspected, laid_out};
+use common::{Bench, files_below, json, json_rows};
 use std::collections::HashMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::PathBuf;
+use std::process::Output;
 use std::sync::OnceLock;
-
-const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-/// In the environment: a browser must be there.
-const REQUIRED: &str = "TRISTACK_REQUIRE_BROWSER";
 
 /// The report, made once for all tests from recorded runs and the native DEM.
 fn report() -> &'static (Bench, Output) {
@@ -168,80 +165,10 @@ fn metadata_name_every_file_and_its_digest() {
     assert_eq!(names, files_below(&report().0.path("report")));
 }
 
-fn files_below(root: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let mut open = vec![root.to_owned()];
-    while let Some(directory) = open.pop() {
-        for entry in fs::read_dir(&directory).expect("a directory").flatten() {
-            if entry.path().is_dir() {
-                open.push(entry.path());
-            } else {
-                let path = entry.path();
-                files.push(path.strip_prefix(root).expect("below").to_owned());
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
-/// Measurements of the page by a browser; see tests/page_inspection.js.
-fn inspected(width: u32) -> Option<serde_json::Value> {
-    let browser = browser()?;
-    let bench = Bench::without_codes();
-    let script = include_str!("page_inspection.js");
-    let page = file("report.html").replace("</body>", &format!("<script>{script}</script></body>"));
-    let output = laid_out(&browser, &bench, &page, width);
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    let found = dom.split("<pre id=\"inspection\">").nth(1);
-    let found = found.and_then(|rest| rest.split("</pre>").next());
-    let found = found
-        .unwrap_or_else(|| panic!("no inspection: {}", String::from_utf8_lossy(&output.stderr)));
-    Some(json(
-        &found
-            .replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&amp;", "&"),
-    ))
-}
-
-/// The document as `browser` prints it after the scripts of the page have run; no name is resolved.
-fn laid_out(browser: &Path, bench: &Bench, page: &str, width: u32) -> Output {
-    let path = bench.path("page.html");
-    fs::write(&path, page).expect("a page");
-    let profile = bench.path("profile");
-    Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
-        .args([
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--virtual-time-budget=20000",
-        ])
-        .arg(format!("--window-size={width},1000"))
-        .arg(format!("--user-data-dir={}", profile.display()))
-        .arg(format!("file://{}", path.display()))
-        .output()
-        .expect("the browser starts")
-}
-
-fn browser() -> Option<PathBuf> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let found = std::env::split_paths(&path)
-        .flat_map(|directory| BROWSERS.map(|name| directory.join(name)))
-        .find(|path| path.is_file());
-    if found.is_none() {
-        assert!(
-            std::env::var_os(REQUIRED).is_none(),
-            "no browser among {BROWSERS:?}"
-        );
-        eprintln!("skipped: no browser among {BROWSERS:?}");
-    }
-    found
-}
-
 #[test]
 fn a_browser_draws_every_figure_fetches_nothing_and_overlaps_no_text() {
     for width in [1400, 800] {
-        let Some(found) = inspected(width) else {
+        let Some(found) = inspected(&file("report.html"), width) else {
             return;
         };
         let pictures = files_below(&report().0.path("report/figures")).len() / 2;

@@ -2,6 +2,7 @@
 
 use super::options::{ConventionOptions, Format, OneStackOptions, options_of};
 use super::out::Out;
+use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::{FileError, Layout, Links, read_bounded};
@@ -16,8 +17,6 @@ use std::path::{Path, PathBuf};
 
 /// Largest series that is read, in bytes; that of a code.
 const LARGEST_SERIES: u64 = 256 << 20;
-/// Largest passport that is read, in bytes; a probe writes some 20 kB.
-const LARGEST_PASSPORT: u64 = 1 << 20;
 /// Largest relative distance of two numbers that are the same but for their rounding, as in the times of a series.
 const ROUNDING: f64 = 1e-9;
 

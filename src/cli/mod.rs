@@ -1,5 +1,6 @@
 //! The command line: one file per command.
 
+mod atlas;
 mod bench;
 mod check;
 mod code_names;
@@ -16,6 +17,8 @@ mod judge;
 mod judge_series;
 mod options;
 mod out;
+mod passport;
+mod passport_files;
 mod plan;
 mod predict;
 mod probe;
@@ -66,6 +69,8 @@ enum Command {
     Codes(codes::Arguments),
     Check(check::Arguments),
     Probe(probe::Arguments),
+    Passport(passport::Arguments),
+    Atlas(atlas::Arguments),
     Record(record::Arguments),
     Regimes(regimes::Arguments),
     Report(report::Arguments),
@@ -124,6 +129,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Codes(arguments) => codes::run(&arguments, command),
         Command::Check(arguments) => check::run(&arguments, command),
         Command::Probe(arguments) => probe::run(&arguments, command),
+        Command::Passport(arguments) => passport::run(&arguments, command),
+        Command::Atlas(arguments) => atlas::run(&arguments, command),
         Command::Record(arguments) => record::run(&arguments),
         Command::Regimes(arguments) => regimes::run(&arguments, command),
         Command::Report(arguments) => report::run(&arguments, command),

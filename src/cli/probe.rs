@@ -1,16 +1,18 @@
 //! `tristack probe`.
 
 use super::options::{CodeOptions, Format, RunOptions, selected_codes};
-use super::out::Out;
+use super::out::{Out, write};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
-use crate::files::Layout;
+use crate::files::{FileError, Layout};
+use crate::model::shown;
 use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code};
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
-use crate::study::convention::{Finding, Probed, passport, probe_all};
+use crate::study::atlas::NamedPassport;
+use crate::study::convention::{Finding, Passport, Probed, passport, probe_all};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Measure the contact convention of each code, and compare it with the declared one
 ///
@@ -29,6 +31,10 @@ pub(super) struct Arguments {
     /// the findings
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Directory in which the passport of each code is filed under its permanent name, of program, version, style and
+    /// digest; nothing in it is replaced
+    #[arg(long, value_name = "DIR")]
+    passports: Option<PathBuf>,
     /// Format of the findings
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -38,6 +44,9 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let codes = selected_codes(&arguments.codes.named)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
+    if let Some(directory) = &arguments.passports {
+        std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;
+    }
     let settings = arguments.run.settings()?;
     let probed = probe_all(&codes, &settings, &Reporter::new());
     let findings: Vec<Finding> = probed
@@ -48,23 +57,42 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let people = || probe_by_code(&findings).terminal();
     let tables = [probe(&findings)];
     let printed = arguments.format.print(&tables, command, people);
+    let known = codes.iter().zip(&probed);
+    let known = known.filter_map(|(own, probed)| Some((own.name, probed.as_ref().ok()?)));
+    let passports: Vec<Passport> = known.map(|(code, own)| passport(code, own)).collect();
+    let filed = match &arguments.passports {
+        Some(directory) if !INTERRUPT.requested() => file(directory, &passports, command),
+        _ => ExitStatus::Success,
+    };
     let written = out.write(|| {
         let mut files = vec![
             ("all_codes.csv".to_owned(), tables[0].csv()),
             (ALL_CODES.to_owned(), json(&tables, command)),
         ];
-        let known = codes.iter().zip(&probed);
-        let known = known.filter_map(|(own, probed)| Some((own.name, probed.as_ref().ok()?)));
-        for (code, findings) in known {
-            let passport = passport(code, findings);
-            files.push((format!("{code}.json"), passport_json(&passport, command)));
-            files.push((format!("{code}.md"), passport_markdown(&passport, command)));
+        for own in &passports {
+            let code = own.code;
+            files.push((format!("{code}.json"), passport_json(own, command)));
+            files.push((format!("{code}.md"), passport_markdown(own, command)));
         }
         files
     });
     Ok(conclude(&codes, &probed, &findings)
         .max(printed)
-        .max(written))
+        .max(written)
+        .max(filed))
+}
+
+/// Files `passports` in `directory` under their permanent names.
+fn file(directory: &Path, passports: &[Passport], command: &str) -> ExitStatus {
+    let mut worst = ExitStatus::Success;
+    for own in passports {
+        let text = passport_json(own, command).into_bytes();
+        let named = NamedPassport::read(text).expect("a passport that was just made");
+        let path = directory.join(format!("{}.json", named.name));
+        worst = worst.max(write(&path, &named.text));
+        tell!("{}", shown(&path));
+    }
+    worst
 }
 
 /// The file by which a directory with passports is known; no code has an underscore in its name.

@@ -29,6 +29,8 @@ impl Definition {
         for (key, text) in [
             ("title", self.title.as_str()),
             ("label", label),
+            ("software", &self.software),
+            ("style", &self.style),
             ("install", &self.install),
         ] {
             if readable(text) != text {

@@ -66,6 +66,13 @@ impl Definition {
         if self.title.is_empty() {
             self.title.clone_from(&self.family);
         }
+        if self.software.is_empty() {
+            self.software.clone_from(&self.title);
+        }
+        if self.style.is_empty() {
+            let label = self.label.as_ref();
+            self.style.clone_from(label.unwrap_or(&self.name));
+        }
         for entry in self
             .program
             .iter_mut()

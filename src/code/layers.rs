@@ -15,8 +15,8 @@ const SCHEMA: &str = "1";
 /// More manifests than this that extend one another are a circle.
 const MOST_LAYERS: usize = 8;
 /// The keys that say what a code is called, which is not inherited, and those that concern one manifest alone.
-const OWN_KEYS: [&str; 8] = [
-    "schema", "name", "title", "label", "install", "mark", "extends", "variants",
+const OWN_KEYS: [&str; 9] = [
+    "schema", "name", "title", "label", "style", "install", "mark", "extends", "variants",
 ];
 
 /// One manifest.

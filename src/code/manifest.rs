@@ -29,6 +29,12 @@ pub struct Definition {
     pub(super) title: String,
     /// Distinguishes the variant from others in figures.
     pub(super) label: Option<String>,
+    /// The program, whose versions and styles share it in the atlas; the title where it is absent.
+    #[serde(default)]
+    pub(super) software: String,
+    /// The contact style as the program names it, the same in all its versions; the label where it is absent.
+    #[serde(default)]
+    pub(super) style: String,
     /// How to install the program.
     #[serde(default)]
     pub(super) install: String,

@@ -125,6 +125,16 @@ impl Code {
         }
     }
 
+    /// The program, which its versions and styles share.
+    pub fn software(self) -> &'static str {
+        &self.definition().software
+    }
+
+    /// The contact style, the same in all versions of the program.
+    pub fn style(self) -> &'static str {
+        &self.definition().style
+    }
+
     /// The mark in figures, if the manifest chooses one.
     pub fn mark(self) -> Option<Mark> {
         self.definition().mark

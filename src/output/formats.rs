@@ -3,9 +3,10 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, bench, boundaries, budget, check, crosscheck, forecasts, impacts, inventory,
-    judged_series, largest_forces, measured_convention, planned_runs, probe, pyramids, regimes,
-    scaling, simulations, theory, trajectories,
+    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, forecasts, impacts,
+    inventory, judged_series, largest_forces, measured_convention, passport_changes,
+    passport_forces, planned_runs, probe, pyramids, regimes, scaling, simulations, theory,
+    trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -76,6 +77,9 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         probe(&[]),
         measured_convention(&[]),
         arm_effects(&[]),
+        atlas_table(&[]),
+        passport_changes(&[]),
+        passport_forces(&[]),
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),

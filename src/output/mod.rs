@@ -1,9 +1,11 @@
 //! Output for people and programs: tables in every format, figures, pages.
 
+mod atlas;
 mod bench;
 mod case_file;
 mod check;
 mod crosscheck;
+mod difference;
 mod explain;
 mod figures;
 mod forecast;
@@ -26,6 +28,7 @@ mod theory;
 mod trajectory;
 mod vtk;
 
+pub use atlas::{Meaning, base_name, meanings};
 pub use bench::pyramids;
 pub use figures::{StackPanel, representative_panels, run_svg};
 pub use formats::formats_page;
@@ -33,10 +36,12 @@ pub use schema::{Document, all_json_schemas};
 pub use table::{DataTable, Table};
 pub use vtk::{VtkFile, vtk_series};
 
+pub(crate) use atlas::{Problem, atlas_files, atlas_table};
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
 pub(crate) use case_file::commented_case;
 pub(crate) use check::{check, check_text};
 pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
+pub(crate) use difference::{passport_changes, passport_forces};
 pub(crate) use explain::explanation;
 pub(crate) use figures::{Figure, laws_svg, performance_svg, regimes_svg};
 pub(crate) use forecast::{forecast_text, forecasts};

@@ -81,6 +81,9 @@ pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
         command,
         code: passport.code,
         title: passport.code.title(),
+        software: passport.code.software(),
+        style: passport.code.style(),
+        install: passport.code.installation_hint(),
         verdict: passport.verdict(),
         twins: &passport.twins,
         same_arms: &passport.same_arms,
@@ -124,6 +127,12 @@ struct Document<'a, T> {
     code: Code,
     /// Its name in prose.
     title: &'static str,
+    /// The program, which its versions and styles share.
+    software: &'static str,
+    /// The contact style, the same in all versions of the program.
+    style: &'static str,
+    /// How to install the program.
+    install: String,
     /// The worst verdict on a property.
     verdict: Verdict,
     /// Codes that mean the same by a contact.

@@ -3,6 +3,7 @@
 //! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
 //! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
 
+pub mod atlas;
 pub mod check;
 pub mod convention;
 pub mod cost;

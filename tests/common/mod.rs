@@ -2,6 +2,7 @@
 #![allow(dead_code)] // Every test binary uses a part of it.
 
 pub mod away;
+pub mod browser;
 pub mod mounts;
 pub mod network;
 pub mod replay;
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tristack::code::Code;
 use tristack::runs::{Recorded, Recording};
+use tristack::study::atlas::{NamedPassport, difference};
 
 /// The program built for the tests.
 pub const OWN_PROGRAM: &str = env!("CARGO_BIN_EXE_tristack");
@@ -232,4 +234,53 @@ pub fn assert_only(directory: &Path, names: &[&str]) {
         .collect();
     found.sort();
     assert_eq!(found, names);
+}
+
+/// The files below a directory, by their paths there.
+pub fn files_below(root: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut open = vec![root.to_owned()];
+    while let Some(directory) = open.pop() {
+        for entry in fs::read_dir(&directory).expect("a directory").flatten() {
+            if entry.path().is_dir() {
+                open.push(entry.path());
+            } else {
+                let path = entry.path();
+                files.push(path.strip_prefix(root).expect("below").to_owned());
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// The passports in a directory.
+pub fn passports(directory: &Path) -> Vec<NamedPassport> {
+    let files = files_below(directory).into_iter();
+    let files = files.filter(|path| path.extension().is_some_and(|ending| ending == "json"));
+    let texts = files.map(|path| fs::read(directory.join(path)).expect("a file"));
+    texts
+        .map(|text| NamedPassport::read(text).expect("a passport"))
+        .collect()
+}
+
+/// Asserts that the passports in a directory say what those on file say of the same versions, and counts them.
+pub fn are_as_on_file(directory: &Path) -> usize {
+    let on_file = passports(&project().join("reference/passports"));
+    let place = |own: &NamedPassport| {
+        let passport = &own.passport;
+        let version = &passport.program.version;
+        [&passport.software, &passport.style, version].map(String::clone)
+    };
+    let mut compared = 0;
+    for own in passports(directory) {
+        let Some(before) = on_file.iter().find(|other| place(other) == place(&own)) else {
+            eprintln!("{}: no passport of this version is on file", own.name);
+            continue;
+        };
+        let found = difference(&before.passport, &own.passport);
+        assert!(found.is_none(), "{}: {:#?}", own.name, found.changes);
+        compared += 1;
+    }
+    compared
 }

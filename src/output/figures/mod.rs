@@ -1,5 +1,6 @@
 //! The figures, each computed from runs and theory.
 
+mod atlas;
 mod axis;
 mod codes;
 mod convergence;
@@ -20,6 +21,7 @@ mod tests;
 mod theory_error;
 mod yield_curves;
 
+pub(crate) use atlas::{arm_svg, spread_svg, stiffness_svg, values_svg};
 pub(crate) use laws::{laws_figure, laws_svg};
 pub(crate) use performance::performance_svg;
 pub(crate) use regimes::regimes_svg;

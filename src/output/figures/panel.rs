@@ -115,6 +115,14 @@ impl Panel {
     }
 }
 
+/// Draws a panel alone, without a letter, of the given size in pixels.
+pub(super) fn draw_alone(panel: &Panel, (width, height): (f64, f64)) -> Drawing {
+    let mut drawing = Drawing::new(2.0 * PADDING + width, 2.0 * PADDING + height);
+    let view = View::new(panel, (PADDING, PADDING), (width, height));
+    view.draw(&mut drawing, None);
+    drawing
+}
+
 /// Draws panels row by row, each of the given size in pixels.
 pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)) -> Drawing {
     let whole = |count: usize, size: f64| {
@@ -124,14 +132,10 @@ pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)
     let mut drawing = Drawing::new(whole(columns, width), whole(rows, height));
     for (index, panel) in panels.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
-        let view = View {
-            panel,
-            left: PADDING + column as f64 * (width + SPACING) + MARGINS.0,
-            top: PADDING + row as f64 * (height + SPACING) + MARGINS.2,
-            width: width - MARGINS.0 - MARGINS.1,
-            height: height - MARGINS.2 - MARGINS.3,
-        };
-        view.draw(&mut drawing, char::from(b'a' + (index % 26) as u8));
+        let left = PADDING + column as f64 * (width + SPACING);
+        let top = PADDING + row as f64 * (height + SPACING);
+        let view = View::new(panel, (left, top), (width, height));
+        view.draw(&mut drawing, Some(char::from(b'a' + (index % 26) as u8)));
     }
     drawing
 }
@@ -145,8 +149,19 @@ struct View<'a> {
     height: f64,
 }
 
-impl View<'_> {
-    fn draw(&self, drawing: &mut Drawing, letter: char) {
+impl<'a> View<'a> {
+    /// The panel with its margins at `corner`, of this `size` in pixels.
+    fn new(panel: &'a Panel, corner: (f64, f64), size: (f64, f64)) -> Self {
+        Self {
+            panel,
+            left: corner.0 + MARGINS.0,
+            top: corner.1 + MARGINS.2,
+            width: size.0 - MARGINS.0 - MARGINS.1,
+            height: size.1 - MARGINS.2 - MARGINS.3,
+        }
+    }
+
+    fn draw(&self, drawing: &mut Drawing, letter: Option<char>) {
         let panel = self.panel;
         for (colour, points) in &panel.areas {
             drawing.polygon(self.places(points), Paint::Filled(colour));
@@ -168,7 +183,7 @@ impl View<'_> {
     }
 
     /// Frame, ticks, labels, and the letter that names the panel.
-    fn axes(&self, drawing: &mut Drawing, letter: char) {
+    fn axes(&self, drawing: &mut Drawing, letter: Option<char>) {
         let ([left, top], [right, bottom]) = (self.at((0.0, 0.0)), self.at((1.0, 1.0)));
         let frame = rectangle([left, top], [right, bottom]);
         drawing.polygon(frame, Paint::Outlined(FRAME));
@@ -189,8 +204,10 @@ impl View<'_> {
         let beside = [left - MARGINS.0 + 15.8, 0.5 * (top + bottom)];
         let label = &self.panel.y.label;
         drawing.set(label, beside, LABEL_SIZE, Anchor::Middle, Setting::Upwards);
-        let corner = [left - MARGINS.0 + 8.0, top - 7.0];
-        drawing.set(letter, corner, LETTER_SIZE, Anchor::Start, Setting::Bold);
+        if let Some(letter) = letter {
+            let corner = [left - MARGINS.0 + 8.0, top - 7.0];
+            drawing.set(letter, corner, LETTER_SIZE, Anchor::Start, Setting::Bold);
+        }
     }
 
     fn key(&self, drawing: &mut Drawing) {

@@ -9,6 +9,7 @@ mod clock;
 mod contact_frame;
 mod cycle;
 mod experiments;
+mod filed;
 mod finding;
 mod growth;
 mod linear_form;
@@ -30,6 +31,10 @@ mod space;
 mod spring_shape;
 mod tangential;
 
+pub(crate) use filed::plain;
+pub use filed::{
+    ArmEffect, FiledPassport, KeyRow, PropertyRow, UnreadablePassport, permanent_name,
+};
 pub use finding::Finding;
 pub use finding::TOLERANCE;
 pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};

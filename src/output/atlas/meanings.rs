@@ -1,0 +1,49 @@
+//! What the properties of passports mean.
+
+use serde::{Deserialize, Serialize};
+
+/// What a property means.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Meaning {
+    /// Name without the kind of contact and without the axis.
+    pub name: String,
+    /// Name in prose.
+    pub title: String,
+    /// The properties that it belongs to.
+    pub group: String,
+    /// Definition.
+    pub text: String,
+    /// What it changes in the yield force.
+    pub force: String,
+}
+
+/// The meanings of all properties.
+pub fn meanings() -> Vec<Meaning> {
+    #[derive(Deserialize)]
+    struct File {
+        property: Vec<Meaning>,
+    }
+    let file: File = toml::from_str(include_str!("properties.toml"))
+        .expect("the file is part of the program and tested");
+    file.property
+}
+
+/// The name of a property without the kind of contact and without the axis, and both of these.
+pub fn base_name(property: &str) -> (&str, String) {
+    let kinds = ["pair", "floor", "wall"];
+    let kind = kinds.into_iter().find_map(|kind| {
+        let rest = property.strip_prefix(kind)?.strip_prefix('_')?;
+        Some((kind, rest))
+    });
+    let (kind, rest) = kind.unwrap_or(("", property));
+    let axis = rest
+        .starts_with("space_spin_")
+        .then_some(rest)
+        .or(rest.starts_with("space_torque_").then_some(rest))
+        .and_then(|rest| rest.rsplit_once('_'));
+    match axis {
+        Some((base, axis)) => (base, format!("{kind} {axis}")),
+        None => (rest, kind.to_owned()),
+    }
+}

@@ -1,0 +1,149 @@
+//! What differs between two passports.
+
+use crate::study::Verdict;
+use crate::study::convention::{ArmEffect, FiledPassport, PropertyRow, TOLERANCE};
+
+/// Everything in which two passports differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Rules and properties that are others, in the order of the passports.
+    pub changes: Vec<Change>,
+    /// The exact yield forces of the stacks that both have.
+    pub forces: Vec<ForceChange>,
+}
+
+/// A rule or a property that is another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Change {
+    /// The key of the convention or the name of the property.
+    pub name: String,
+    /// What the first passport has; absent where it does not know.
+    pub before: Option<String>,
+    /// What the second one has.
+    pub after: Option<String>,
+    /// Second minus first number.
+    pub change: Option<f64>,
+    /// The sum of both uncertainties.
+    pub uncertainty: Option<f64>,
+    /// Whether the yield force depends on it by an arm.
+    pub moves_limit: bool,
+}
+
+/// The exact yield force of one stack under the arms of both.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceChange {
+    /// The stack, with what the first passport says.
+    pub before: ArmEffect,
+    /// The force under the arms of the second one, in m g.
+    pub after: Option<f64>,
+    /// Second minus first, in m g.
+    pub change: Option<f64>,
+    /// The sum of what both leave open, in m g.
+    pub uncertainty: Option<f64>,
+}
+
+impl Difference {
+    /// Whether anything is another.
+    pub fn is_none(&self) -> bool {
+        self.changes.is_empty()
+    }
+
+    /// The changes of parameters that the codes were asked for, on which yield forces depend beside the arms, and of which
+    /// `forces` knows nothing.
+    pub fn beside_arms(&self) -> Vec<&str> {
+        let parameters = self.changes.iter().filter(|own| {
+            let name = own.name.as_str();
+            ["stiffness", "friction", "radius", "exponent", "ratio"]
+                .iter()
+                .any(|part| name.contains(part))
+        });
+        parameters.map(|own| own.name.as_str()).collect()
+    }
+}
+
+impl Change {
+    /// How many uncertainties the change is; absent of words and of what is exact.
+    pub fn uncertainties(&self) -> Option<f64> {
+        let (change, uncertainty) = self.change.zip(self.uncertainty)?;
+        (uncertainty > 0.0).then(|| change.abs() / uncertainty)
+    }
+}
+
+/// What differs between the passports `before` and `after`: rules in words, and numbers that differ by more than their
+/// uncertainties and what a property may differ from its declaration.
+pub fn difference(before: &FiledPassport, after: &FiledPassport) -> Difference {
+    let words = before.convention.iter().filter_map(|own| {
+        let other = after.key(&own.key)?;
+        let is_number = own.number().or(other.number()).is_some();
+        (!is_number && own.measured != other.measured).then(|| Change {
+            name: own.key.clone(),
+            before: own.measured.clone(),
+            after: other.measured.clone(),
+            change: None,
+            uncertainty: None,
+            moves_limit: own.moves_limit,
+        })
+    });
+    let further = after.properties.iter();
+    let further = further.filter(|own| before.property(&own.property).is_none());
+    let names = before.properties.iter().chain(further);
+    let numbers = names.filter_map(|own| {
+        let name = &own.property;
+        changed(name, before.property(name), after.property(name))
+    });
+    let forces = before.arm_effects.iter().filter_map(|own| {
+        let mut others = after.arm_effects.iter();
+        let other = others.find(|other| {
+            let stack = |own: &ArmEffect| (own.stiffness, own.mu, own.kappa);
+            stack(own) == stack(other)
+        })?;
+        Some(force(own, other))
+    });
+    Difference {
+        changes: words.chain(numbers).collect(),
+        forces: forces.collect(),
+    }
+}
+
+/// The change of the property `name`, if it is another.
+fn changed(
+    name: &str,
+    before: Option<&PropertyRow>,
+    after: Option<&PropertyRow>,
+) -> Option<Change> {
+    let known = |row: Option<&PropertyRow>| {
+        let row = row?;
+        row.measured.zip(row.uncertainty)
+    };
+    let (first, second) = (known(before), known(after));
+    let both = first.zip(second);
+    let change = both.map(|((first, _), (second, _))| second - first);
+    let uncertainty = both.map(|((_, first), (_, second))| first + second);
+    let declared = before
+        .and_then(|own| own.declared)
+        .unwrap_or_default()
+        .abs();
+    let scale = if declared > 0.0 { declared } else { 1.0 };
+    let same = match change.zip(uncertainty) {
+        Some((change, open)) => Verdict::of(change, open, TOLERANCE * scale) != Verdict::Differs,
+        None => first.is_none() && second.is_none(),
+    };
+    (!same).then(|| Change {
+        name: name.to_owned(),
+        before: first.map(|(value, _)| value.to_string()),
+        after: second.map(|(value, _)| value.to_string()),
+        change,
+        uncertainty,
+        moves_limit: name.ends_with("_arm"),
+    })
+}
+
+fn force(before: &ArmEffect, after: &ArmEffect) -> ForceChange {
+    let both = |own: fn(&ArmEffect) -> Option<f64>| own(before).zip(own(after));
+    ForceChange {
+        before: before.clone(),
+        after: after.force,
+        change: both(|own| own.force).map(|(first, second)| second - first),
+        uncertainty: both(|own| own.uncertainty).map(|(first, second)| first + second),
+    }
+}

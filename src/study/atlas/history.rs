@@ -1,0 +1,116 @@
+//! Many passports, in the order of their programs, styles and versions.
+
+use super::difference::{Difference, difference};
+use super::version::version_order;
+use crate::study::Verdict;
+use crate::study::convention::{FiledPassport, UnreadablePassport, permanent_name};
+use std::collections::BTreeMap;
+
+/// A passport with the name of its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedPassport {
+    /// Its permanent name.
+    pub name: String,
+    /// Its JSON.
+    pub text: Vec<u8>,
+    /// The same, read.
+    pub passport: FiledPassport,
+}
+
+/// Passports in the order of program, style, version and date.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Atlas {
+    /// The passports.
+    pub passports: Vec<NamedPassport>,
+}
+
+/// A change from one version of a style to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge<'a> {
+    /// The older version.
+    pub before: &'a NamedPassport,
+    /// The newer one.
+    pub after: &'a NamedPassport,
+    /// What changed.
+    pub difference: Difference,
+}
+
+impl NamedPassport {
+    /// The passport with this JSON `text`.
+    ///
+    /// # Errors
+    /// If it is no passport.
+    pub fn read(text: Vec<u8>) -> Result<Self, UnreadablePassport> {
+        let passport = FiledPassport::read(&text)?;
+        let name = permanent_name(&passport, &text);
+        Ok(Self {
+            name,
+            text,
+            passport,
+        })
+    }
+
+    /// The parts of the name that versions share.
+    fn lineage(&self) -> (&str, &str) {
+        (&self.passport.software, &self.passport.style)
+    }
+
+    /// What the order of passports follows.
+    fn place(&self) -> (String, String, Vec<u64>, String) {
+        let (software, style) = self.lineage();
+        let version = &self.passport.program.version;
+        let [software, style] = [software, style].map(str::to_lowercase);
+        (software, style, version_order(version), version.clone())
+    }
+
+    /// The properties that are not what was declared or asked for.
+    pub fn differing(&self) -> impl Iterator<Item = &str> {
+        let properties = self.passport.properties.iter();
+        let off = properties.filter(|own| own.verdict == Verdict::Differs);
+        off.map(|own| own.property.as_str())
+    }
+}
+
+impl Atlas {
+    /// The atlas of `passports`. Of several with one program, style and version the latest is taken.
+    pub fn new(mut passports: Vec<NamedPassport>) -> Self {
+        passports.sort_by(|one, other| one.passport.date.cmp(&other.passport.date));
+        let named = passports.into_iter().map(|own| (own.place(), own));
+        let latest: BTreeMap<_, _> = named.collect();
+        Self {
+            passports: latest.into_values().collect(),
+        }
+    }
+
+    /// The passports of each style of each program, oldest version first.
+    pub fn lineages(&self) -> impl Iterator<Item = &[NamedPassport]> {
+        self.passports
+            .chunk_by(|one, next| one.lineage() == next.lineage())
+    }
+
+    /// Every change from one version of a style to the next.
+    pub fn edges(&self) -> Vec<Edge<'_>> {
+        let steps = self.lineages().flat_map(|versions| versions.windows(2));
+        let edges = steps.map(|step| Edge {
+            before: &step[0],
+            after: &step[1],
+            difference: difference(&step[0].passport, &step[1].passport),
+        });
+        edges.filter(|edge| !edge.difference.is_none()).collect()
+    }
+
+    /// The names of all properties, in the order of the passports.
+    pub fn properties(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for row in self
+            .passports
+            .iter()
+            .flat_map(|own| &own.passport.properties)
+        {
+            if !names.contains(&row.property.as_str()) {
+                names.push(&row.property);
+            }
+        }
+        names
+    }
+}

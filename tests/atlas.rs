@@ -8,8 +8,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use tristack::output::{base_name, meanings};
-use tristack::study::atlas::{Atlas, NamedPassport, difference};
+use tristack::study::atlas::{Atlas, NamedPassport, base_name, difference, meanings};
 use tristack::study::convention::FiledPassport;
 
 fn on_file() -> PathBuf {
@@ -315,12 +314,12 @@ fn every_row_of_the_problems_is_in_its_file_and_the_codes_agree() {
     }
 }
 
-#[test]
-fn no_link_leads_nowhere() {
-    let files: BTreeSet<String> = files_below(site())
+fn assert_no_dead_link(site: &Path) {
+    let files: BTreeSet<String> = files_below(site)
         .iter()
         .map(|path| path.to_string_lossy().into_owned())
         .collect();
+    let page = |name: &str| fs::read_to_string(site.join(name)).expect("a page");
     for name in files.iter().filter(|name| name.ends_with(".html")) {
         let text = page(name);
         for link in between(&text, "href=\"", "\"") {
@@ -332,6 +331,43 @@ fn no_link_leads_nowhere() {
             assert!(is_there, "{name} links to {link}");
         }
     }
+}
+
+#[test]
+fn no_link_leads_nowhere() {
+    assert_no_dead_link(site());
+}
+
+/// One passport, one that is later, and one with a property that nobody knows.
+#[test]
+fn few_passports_make_a_whole_site_too() {
+    let bench = Bench::without_codes();
+    let native = native();
+    fs::create_dir(bench.path("filed")).expect("a directory");
+    let file = |text: Vec<u8>| {
+        let own = NamedPassport::read(text).expect("a passport");
+        let path = bench.path("filed").join(format!("{}.json", own.name));
+        fs::write(path, &own.text).expect("a file");
+        own.name
+    };
+    let first = file(native.text.clone());
+    let mut document: serde_json::Value = serde_json::from_slice(&native.text).expect("JSON");
+    document["date"] = "2100-01-01T00:00:00Z".into();
+    let rows = document["properties"]["rows"].as_array_mut().expect("rows");
+    rows[0]["property"] = "pair_novelty".into();
+    let later = file(serde_json::to_vec_pretty(&document).expect("JSON"));
+    bench
+        .tristack("atlas --passports filed --out few")
+        .assert()
+        .success();
+    assert_no_dead_link(&bench.path("few"));
+    let index = fs::read_to_string(bench.path("few/index.html")).expect("a page");
+    assert!(index.contains(&later) && !index.contains(&first));
+    // A page that may have been cited stays.
+    for name in [first, later] {
+        assert!(bench.path(&format!("few/{name}.html")).is_file(), "{name}");
+    }
+    assert!(!bench.path("few/problems.html").exists());
 }
 
 #[test]
@@ -493,7 +529,14 @@ fn files_that_are_no_passports_are_refused_by_name() {
             "it holds no JSON file; accepted is a directory",
         ),
         ("atlas --passports absent --out out", "absent"),
-        ("passport diff other.json other.json", "other.json"),
+        (
+            "passport diff other.json other.json",
+            "other.json: `schema` is `other/1`; accepted is tristack/passport/1",
+        ),
+        (
+            "atlas --out out",
+            "reference/passports: it is not here; accepted is",
+        ),
         (
             "passport diff absent.json other.json",
             "cannot read absent.json",

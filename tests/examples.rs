@@ -253,7 +253,7 @@ const HERTZ_FLOORS: [(&str, bool); 2] = [
 ];
 
 #[test]
-fn a_spring_that_is_too_long_after_a_slip_is_named_by_the_probe() {
+fn a_spring_of_another_length_after_a_slip_is_named_by_the_probe() {
     for (code, right) in HERTZ_FLOORS {
         let example = example("lammps-wall-hertz", code, right);
         let in_order = Code::in_folder(&example.path(), Some(code));

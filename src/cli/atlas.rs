@@ -3,7 +3,7 @@
 use super::out::Out;
 use super::passport_files::{read_passports, read_verdicts};
 use super::{CliError, ExitStatus, tell};
-use crate::files::Layout;
+use crate::files::{FileError, Layout};
 use crate::model::shown;
 use crate::output::atlas_files;
 use crate::study::atlas::Atlas;
@@ -45,6 +45,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     };
     let mut passports = Vec::new();
     for directory in &directories {
+        if arguments.passports.is_empty() && !directory.is_dir() {
+            let message = "it is not here; accepted is a checkout of tristack, or --passports DIR";
+            return Err(FileError::content(directory, message).into());
+        }
         passports.extend(read_passports(directory)?);
     }
     let verdicts = arguments.verdicts.clone().or(verdicts);

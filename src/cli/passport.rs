@@ -27,7 +27,7 @@ enum Command {
 /// otherwise, so that a code can be held to the passport of its last release.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: tristack probe --codes ./mydem --out now && tristack passport diff released.json now/mydem.json"
+    after_help = "Example: tristack probe --codes ./mydem --out now; tristack passport diff released.json now/mydem.json"
 )]
 struct DiffArguments {
     /// Passport that is compared with, as `probe --out` or `probe --passports` has written it

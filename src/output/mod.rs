@@ -28,7 +28,6 @@ mod theory;
 mod trajectory;
 mod vtk;
 
-pub use atlas::{Meaning, base_name, meanings};
 pub use bench::pyramids;
 pub use figures::{StackPanel, representative_panels, run_svg};
 pub use formats::formats_page;

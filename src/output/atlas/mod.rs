@@ -1,9 +1,7 @@
-//! The atlas as a static site: what every code, version and style means by a contact, made from passports alone.
+//! The atlas as a static site: what every code, version and style means by a contact, made from what is on file alone.
 
-mod meanings;
 mod pages;
 mod view;
 
-pub use meanings::{Meaning, base_name, meanings};
 pub(crate) use pages::{Problem, atlas_files};
 pub(crate) use view::atlas_table;

@@ -1,16 +1,17 @@
 //! The files of the site.
 
-use super::meanings::{base_name, meanings};
 use super::view::{
-    DrawnChange, EdgeView, PropertyView, Row, atlas_table, entries, headings, marked, measured,
-    property_page, software_page,
+    DrawnChange, EdgeView, PropertyView, Row, atlas_table, entries, headings, linked_page, marked,
+    measured, property_page, software_page,
 };
 use crate::code::ConventionKey;
 use crate::output::figures::{arm_svg, spread_svg, stiffness_svg, values_svg};
 use crate::output::number::{digits, one_digit, relative, significant};
 use crate::output::table::json;
 use crate::study::Verdict;
-use crate::study::atlas::{Atlas, Edge, NamedPassport, SPREAD_STIFFNESS, StiffnessLaw, Verdicts};
+use crate::study::atlas::{
+    Atlas, Edge, NamedPassport, SPREAD_STIFFNESS, StiffnessLaw, Verdicts, base_name, meanings,
+};
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value as Shown};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -58,7 +59,7 @@ pub(crate) fn atlas_files(atlas: &Atlas, problems: &[Problem], command: &str) ->
     for (name, text, _) in problems {
         files.push((format!("verdicts/{name}.json"), text.clone()));
     }
-    for own in &atlas.passports {
+    for own in atlas.passports.iter().chain(&atlas.replaced) {
         files.push((format!("{}.html", own.name), site.passport(own)));
         files.push((format!("passports/{}.json", own.name), own.text.clone()));
         files.push((format!("badges/{}.svg", own.name), badge(own).into_bytes()));
@@ -86,9 +87,10 @@ impl<'a> Site<'a> {
                 .expect("the templates are part of the program and tested");
         }
         let edges = atlas.edges();
+        let known = atlas.properties();
         let edges = edges
             .par_iter()
-            .map(|edge| EdgeView::new(edge, drawings(atlas, edge)));
+            .map(|edge| EdgeView::new(edge, drawings(atlas, edge), &known));
         Self {
             atlas,
             problems,
@@ -108,7 +110,7 @@ impl<'a> Site<'a> {
     }
 
     fn index(&self) -> Vec<u8> {
-        let headings = headings();
+        let headings = headings(self.atlas);
         let matrix = marked(self.atlas).into_iter().map(|(own, latest)| {
             let cells = headings.iter().map(|heading| heading.cell(own));
             Row::new(own, latest, cells.collect())
@@ -201,7 +203,7 @@ impl<'a> Site<'a> {
     }
 
     fn codes(&self) -> Vec<SiteFile> {
-        let headings = headings();
+        let headings = headings(self.atlas);
         let mut pages: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
         for versions in self.atlas.lineages() {
             let own = &versions[0].passport;
@@ -263,6 +265,7 @@ impl<'a> Site<'a> {
 
     fn passport(&self, own: &NamedPassport) -> Vec<u8> {
         let passport = &own.passport;
+        let known = self.atlas.properties();
         let convention = passport.convention.iter().map(|row| {
             let open = row.uncertainty.map_or_else(|| "–".to_owned(), one_digit);
             page!({
@@ -288,7 +291,7 @@ impl<'a> Site<'a> {
         let properties = passport.properties.iter().map(|row| {
             page!({
                 "name": row.property,
-                "page": property_page(base_name(&row.property).0),
+                "page": linked_page(&row.property, &known),
                 "measured": measured(row),
                 "verdict": row.verdict.as_str(),
             })
@@ -344,27 +347,29 @@ fn sentence(own: &NamedPassport) -> String {
 
 /// What changed, drawn: stiffnesses over the overlap, other numbers that are known over all versions of the style.
 fn drawings(atlas: &Atlas, edge: &Edge) -> Vec<DrawnChange> {
-    let mut drawn: Vec<DrawnChange> = Vec::new();
+    let mut drawn: Vec<(String, DrawnChange)> = Vec::new();
     for change in &edge.difference.changes {
+        // A stiffness and its exponent are one curve.
         let stiffness = change.name.strip_suffix("_exponent");
-        let name = stiffness.unwrap_or(&change.name).replace('_', " ");
-        let is_drawn = drawn.iter().any(|own| own.caption.starts_with(&name));
-        if is_drawn || drawn.len() == MOST_FIGURES {
+        let stiffness = stiffness.filter(|name| name.ends_with("stiffness"));
+        let name = stiffness.unwrap_or(&change.name);
+        if drawn.len() == MOST_FIGURES || drawn.iter().any(|(own, _)| own == name) {
             continue;
         }
-        let laws = stiffness_laws(edge, stiffness.unwrap_or(&change.name));
-        drawn.extend(match laws {
+        let words = name.replace('_', " ");
+        let figure = match stiffness_laws(edge, name) {
             Some([before, after]) => Some(DrawnChange {
-                svg: stiffness_svg(&name, &before, &after),
-                caption: format!("{name} over the overlap, by the numbers of both passports"),
+                svg: stiffness_svg(&words, &before, &after),
+                caption: format!("{words} over the overlap, by the numbers of both passports"),
             }),
             None => change.change.map(|_| DrawnChange {
-                svg: values_svg(&versions(atlas, edge, &change.name)),
-                caption: format!("{name}, by version"),
+                svg: values_svg(&versions(atlas, edge, name)),
+                caption: format!("{words}, by version"),
             }),
-        });
+        };
+        drawn.extend(figure.map(|figure| (name.to_owned(), figure)));
     }
-    drawn
+    drawn.into_iter().map(|(_, figure)| figure).collect()
 }
 
 /// The laws of the stiffness `name` in both versions, if it is one.
@@ -400,7 +405,7 @@ fn badge(own: &NamedPassport) -> String {
         Some(_) => "#a33b00",
         None => "#00694d",
     };
-    // Letters of 11 px are at most 6.6 px wide on average.
+    // Letters of 11 px are 6.4 px wide on average.
     let width = |text: &str| 6.4 * text.chars().count() as f64 + 12.0;
     let (first, second) = (width(left), width(&right));
     let whole = first + second;

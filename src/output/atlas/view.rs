@@ -1,11 +1,10 @@
 //! What the pages show of passports.
 
-use super::meanings::{Meaning, base_name};
 use crate::code::{Code, ConventionKey};
 use crate::output::number::{one_digit, significant};
 use crate::output::table::{Columns, DataTable};
 use crate::study::Verdict;
-use crate::study::atlas::{Atlas, Change, Edge, NamedPassport};
+use crate::study::atlas::{Atlas, Change, Edge, Meaning, NamedPassport, base_name, meanings};
 use crate::study::convention::{KeyRow, PropertyRow, plain};
 use serde::Serialize;
 
@@ -71,8 +70,8 @@ pub(super) struct Cell {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Heading {
     pub title: &'static str,
-    /// The page of the property.
-    pub link: String,
+    /// The page of the property, if there is one.
+    pub link: Option<String>,
     #[serde(skip)]
     source: Source,
 }
@@ -82,11 +81,12 @@ pub(super) struct Heading {
 enum Source {
     Key(ConventionKey),
     /// A property that only laws that are not linear have, and its value for linear springs.
-    Law(&'static str),
+    Law(&'static str, f64),
 }
 
 /// The columns of the matrix.
-pub(super) fn headings() -> Vec<Heading> {
+pub(super) fn headings(atlas: &Atlas) -> Vec<Heading> {
+    let known = atlas.properties();
     let keys = [
         (
             "pair torque arm",
@@ -129,24 +129,26 @@ pub(super) fn headings() -> Vec<Heading> {
             ConventionKey::MomentOfInertia,
             "moment_of_inertia",
         ),
-        ("velocity lag", ConventionKey::VelocityLag, "velocity_lag"),
     ];
     let laws = [
-        ("exponent of N", "pair_normal_force_exponent"),
-        ("memory", "pair_history_force_share"),
-        ("rescaling", "pair_history_rescaling"),
-        ("floor over pair stiffness", "floor_ratio"),
-        ("work of a cycle", "pair_cycle_work_sheared_first"),
+        ("exponent of N", "pair_normal_force_exponent", 1.0),
+        ("memory", "pair_history_force_share", 0.0),
+        ("rescaling", "pair_history_rescaling", 0.0),
+        ("floor over pair stiffness", "floor_ratio", 1.0),
+        ("work of a cycle", "pair_cycle_work_sheared_first", 0.0),
     ];
-    let keys = keys.map(|(title, key, page)| Heading {
+    let keys = keys.map(|(title, key, property)| Heading {
         title,
-        link: property_page(page),
+        link: linked_page(property, &known),
         source: Source::Key(key),
     });
-    let laws = laws.map(|(title, property)| Heading {
+    let laws = laws
+        .into_iter()
+        .filter(|(_, property, _)| known.contains(property));
+    let laws = laws.map(|(title, property, linear)| Heading {
         title,
-        link: property_page(base_name(property).0),
-        source: Source::Law(property),
+        link: linked_page(property, &known),
+        source: Source::Law(property, linear),
     });
     keys.into_iter().chain(laws).collect()
 }
@@ -156,13 +158,27 @@ impl Heading {
     pub fn cell(&self, own: &NamedPassport) -> Cell {
         match self.source {
             Source::Key(key) => key_cell(own, key),
-            Source::Law(property) => match own.passport.property(property) {
-                Some(row) => property_cell(own, row),
+            Source::Law(property, linear) => match own.passport.property(property) {
+                Some(row) => {
+                    let cell = property_cell(own, row);
+                    let is_linear = row.measured.is_some_and(|own| (own - linear).abs() <= SAME);
+                    match cell.class {
+                        "" if is_linear => Cell {
+                            class: "paper",
+                            ..cell
+                        },
+                        "" => Cell {
+                            class: "other",
+                            ..cell
+                        },
+                        _ => cell,
+                    }
+                }
                 None => Cell {
                     text: "–".to_owned(),
                     class: "",
                     link: format!("{}.html", own.name),
-                    title: "a property of laws that are not linear".to_owned(),
+                    title: "linear springs".to_owned(),
                 },
             },
         }
@@ -176,7 +192,6 @@ fn key_cell(own: &NamedPassport, key: ConventionKey) -> Cell {
         (Some(row), _) if row.verdict == Verdict::Differs => "differs",
         (_, None) => "unknown",
         (Some(row), Some(value)) => match is_the_papers(row, key, value) {
-            _ if key == ConventionKey::VelocityLag => "",
             true => "paper",
             false => "other",
         },
@@ -197,7 +212,7 @@ fn key_cell(own: &NamedPassport, key: ConventionKey) -> Cell {
 fn is_the_papers(row: &KeyRow, key: ConventionKey, value: &str) -> bool {
     let paper = Code::NATIVE.declaration().unsettled("").value(key);
     match (row.number(), paper.parse::<f64>()) {
-        (Some((value, open)), Ok(paper)) => (value - paper).abs() <= open + 1e-6,
+        (Some((value, open)), Ok(paper)) => (value - paper).abs() <= open + SAME,
         _ => value == paper,
     }
 }
@@ -245,6 +260,17 @@ pub(super) fn measured(row: &PropertyRow) -> String {
 fn short(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6 + 0.0;
     rounded.to_string().replace('-', "−")
+}
+
+/// Numbers that are no further apart are the same to people.
+const SAME: f64 = 1e-6;
+
+/// The page of the property `name`, if it is one of those that are `known` and have a meaning.
+pub(super) fn linked_page(name: &str, known: &[&str]) -> Option<String> {
+    let base = base_name(name).0;
+    let is_known = known.iter().any(|own| base_name(own).0 == base);
+    let is_told = is_known && meanings().iter().any(|own| own.name == base);
+    is_told.then(|| property_page(base))
 }
 
 /// The page of a property.
@@ -327,21 +353,21 @@ pub(super) struct DrawnChange {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct ChangeView {
     pub name: String,
-    pub page: String,
+    pub page: Option<String>,
     pub before: String,
     pub after: String,
     pub uncertainties: String,
 }
 
 impl ChangeView {
-    fn new(change: &Change) -> Self {
+    fn new(change: &Change, known: &[&str]) -> Self {
         let text = |value: &Option<String>| match value {
             Some(text) => text.parse().map_or_else(|_| text.clone(), short),
             None => "unknown".to_owned(),
         };
         Self {
             name: change.name.clone(),
-            page: property_page(base_name(&change.name).0),
+            page: linked_page(&change.name, known),
             before: text(&change.before),
             after: text(&change.after),
             uncertainties: change
@@ -352,7 +378,7 @@ impl ChangeView {
 }
 
 impl EdgeView {
-    pub fn new(edge: &Edge, figures: Vec<DrawnChange>) -> Self {
+    pub fn new(edge: &Edge, figures: Vec<DrawnChange>, known: &[&str]) -> Self {
         let (before, after) = (&edge.before.passport, &edge.after.passport);
         let numbers = edge.difference.changes.iter();
         Self {
@@ -364,7 +390,7 @@ impl EdgeView {
             after: after.program.version.clone(),
             before_name: edge.before.name.clone(),
             after_name: edge.after.name.clone(),
-            changes: numbers.map(ChangeView::new).collect(),
+            changes: numbers.map(|own| ChangeView::new(own, known)).collect(),
             figures,
         }
     }

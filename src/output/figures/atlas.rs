@@ -69,7 +69,7 @@ pub(crate) fn arm_svg(key: &str, curves: &[ArmCurve]) -> String {
 /// A stiffness over the overlap, as the micro-tests of two versions have measured it.
 pub(crate) fn stiffness_svg(name: &str, before: &StiffnessLaw, after: &StiffnessLaw) -> String {
     let laws = [before, after];
-    let overlaps = (0..=40).map(|step| 0.3 * f64::from(step) / 40.0);
+    let overlaps = (1..=60).map(|step| 0.3 * f64::from(step) / 60.0);
     let curves = laws.map(|law| -> Vec<(f64, f64)> {
         let points = overlaps.clone().map(|overlap| (overlap, law.at(overlap)));
         points.collect()

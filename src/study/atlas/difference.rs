@@ -1,5 +1,6 @@
 //! What differs between two passports.
 
+use super::meanings::{base_name, meanings};
 use crate::study::Verdict;
 use crate::study::convention::{ArmEffect, FiledPassport, PropertyRow, TOLERANCE};
 
@@ -48,16 +49,16 @@ impl Difference {
         self.changes.is_empty()
     }
 
-    /// The changes of parameters that the codes were asked for, on which yield forces depend beside the arms, and of which
-    /// `forces` knows nothing.
+    /// The changes beside those of arms that move the yield force, of which `forces` knows nothing.
     pub fn beside_arms(&self) -> Vec<&str> {
-        let parameters = self.changes.iter().filter(|own| {
-            let name = own.name.as_str();
-            ["stiffness", "friction", "radius", "exponent", "ratio"]
-                .iter()
-                .any(|part| name.contains(part))
-        });
-        parameters.map(|own| own.name.as_str()).collect()
+        let meanings = meanings();
+        let moves = |own: &&Change| {
+            let mut meanings = meanings.iter();
+            let meaning = meanings.find(|one| one.name == base_name(&own.name).0);
+            !own.moves_limit && meaning.is_some_and(|one| one.moves_force)
+        };
+        let changes = self.changes.iter().filter(moves);
+        changes.map(|own| own.name.as_str()).collect()
     }
 }
 
@@ -72,13 +73,17 @@ impl Change {
 /// What differs between the passports `before` and `after`: rules in words, and numbers that differ by more than their
 /// uncertainties and what a property may differ from its declaration.
 pub fn difference(before: &FiledPassport, after: &FiledPassport) -> Difference {
-    let words = before.convention.iter().filter_map(|own| {
-        let other = after.key(&own.key)?;
-        let is_number = own.number().or(other.number()).is_some();
-        (!is_number && own.measured != other.measured).then(|| Change {
+    let further = after.convention.iter();
+    let further = further.filter(|own| before.key(&own.key).is_none());
+    let keys = before.convention.iter().chain(further);
+    let words = keys.filter_map(|own| {
+        let rows = [before.key(&own.key), after.key(&own.key)];
+        let is_number = rows.into_iter().flatten().any(|row| row.number().is_some());
+        let [first, second] = rows.map(|row| row?.measured.clone());
+        (!is_number && first != second).then(|| Change {
             name: own.key.clone(),
-            before: own.measured.clone(),
-            after: other.measured.clone(),
+            before: first,
+            after: second,
             change: None,
             uncertainty: None,
             moves_limit: own.moves_limit,
@@ -119,10 +124,12 @@ fn changed(
     let both = first.zip(second);
     let change = both.map(|((first, _), (second, _))| second - first);
     let uncertainty = both.map(|((_, first), (_, second))| first + second);
-    let declared = before
-        .and_then(|own| own.declared)
-        .unwrap_or_default()
-        .abs();
+    let declared = [before, after].map(|own| own.and_then(|own| own.declared));
+    let declared = declared
+        .into_iter()
+        .flatten()
+        .map(f64::abs)
+        .fold(0.0, f64::max);
     let scale = if declared > 0.0 { declared } else { 1.0 };
     let same = match change.zip(uncertainty) {
         Some((change, open)) => Verdict::of(change, open, TOLERANCE * scale) != Verdict::Differs,

@@ -3,7 +3,7 @@
 use super::difference::{Difference, difference};
 use super::version::version_order;
 use crate::study::Verdict;
-use crate::study::convention::{FiledPassport, UnreadablePassport, permanent_name};
+use crate::study::convention::{FiledPassport, UnreadablePassport, permanent_name, plain};
 use std::collections::BTreeMap;
 
 /// A passport with the name of its file.
@@ -20,8 +20,10 @@ pub struct NamedPassport {
 /// Passports in the order of program, style, version and date.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Atlas {
-    /// The passports.
+    /// The latest passport of each version of each style.
     pub passports: Vec<NamedPassport>,
+    /// Those in whose place there are later ones of the same version.
+    pub replaced: Vec<NamedPassport>,
 }
 
 /// A change from one version of a style to the next.
@@ -50,17 +52,15 @@ impl NamedPassport {
         })
     }
 
-    /// The parts of the name that versions share.
-    fn lineage(&self) -> (&str, &str) {
-        (&self.passport.software, &self.passport.style)
+    /// Program and style, as they stand in names: what versions share.
+    fn lineage(&self) -> [String; 2] {
+        [&self.passport.software, &self.passport.style].map(|part| plain(part))
     }
 
     /// What the order of passports follows.
-    fn place(&self) -> (String, String, Vec<u64>, String) {
-        let (software, style) = self.lineage();
+    fn place(&self) -> ([String; 2], Vec<i64>, String) {
         let version = &self.passport.program.version;
-        let [software, style] = [software, style].map(str::to_lowercase);
-        (software, style, version_order(version), version.clone())
+        (self.lineage(), version_order(version), version.clone())
     }
 
     /// The properties that are not what was declared or asked for.
@@ -72,13 +72,17 @@ impl NamedPassport {
 }
 
 impl Atlas {
-    /// The atlas of `passports`. Of several with one program, style and version the latest is taken.
+    /// The atlas of `passports`.
     pub fn new(mut passports: Vec<NamedPassport>) -> Self {
         passports.sort_by(|one, other| one.passport.date.cmp(&other.passport.date));
-        let named = passports.into_iter().map(|own| (own.place(), own));
-        let latest: BTreeMap<_, _> = named.collect();
+        let mut latest = BTreeMap::new();
+        let replaced = passports
+            .into_iter()
+            .filter_map(|own| latest.insert(own.place(), own))
+            .collect();
         Self {
             passports: latest.into_values().collect(),
+            replaced,
         }
     }
 

@@ -1,16 +1,16 @@
 //! Verdicts of codes on a problem with an exact answer, as `crosscheck --out` has written them.
 
 use crate::study::Verdict;
+use crate::study::convention::schema_of;
 use serde::Deserialize;
 use thiserror::Error;
 
-/// Name of the format, without its version.
-const CROSSCHECK: &str = "tristack/crosscheck/";
+/// Name and version of the format.
+const CROSSCHECK: &str = "tristack/crosscheck/1";
 
 /// The rows of one crosscheck.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Verdicts {
-    schema: String,
     /// The command that made them.
     pub command: String,
     /// A row for each stack and code.
@@ -62,7 +62,7 @@ pub enum UnreadableVerdicts {
     #[error(transparent)]
     Malformed(#[from] serde_json::Error),
     /// It is something else.
-    #[error("`schema` is `{0}`; accepted is {CROSSCHECK}1, as tristack crosscheck --out writes it")]
+    #[error("`schema` is `{0}`; accepted is {CROSSCHECK}, as tristack crosscheck --out writes it")]
     OtherSchema(String),
 }
 
@@ -72,11 +72,11 @@ impl Verdicts {
     /// # Errors
     /// If it is none.
     pub fn read(text: &[u8]) -> Result<Self, UnreadableVerdicts> {
-        let verdicts: Self = serde_json::from_slice(text)?;
-        match verdicts.schema.starts_with(CROSSCHECK) {
-            true => Ok(verdicts),
-            false => Err(UnreadableVerdicts::OtherSchema(verdicts.schema)),
+        let schema = schema_of(text)?;
+        if schema != CROSSCHECK {
+            return Err(UnreadableVerdicts::OtherSchema(schema));
         }
+        Ok(serde_json::from_slice(text)?)
     }
 
     /// The rows of every code together, in the order of their first row.

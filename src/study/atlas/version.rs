@@ -4,32 +4,46 @@ const MONTHS: [&str; 12] = [
     "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec",
 ];
 
-/// The numbers by which versions are ordered: year, month and day where a month is named, then all others as they stand.
-pub(super) fn version_order(version: &str) -> Vec<u64> {
+/// Words of what comes before a release.
+const EARLY: [&str; 5] = ["dev", "pre", "alpha", "beta", "rc"];
+
+/// The numbers by which versions are ordered: year, month and day where a month is named, then all others as they stand. What
+/// comes before a release counts less than nothing.
+pub(super) fn version_order(version: &str) -> Vec<i64> {
     let lower = version.to_lowercase();
-    let is_separator = |char: char| !char.is_ascii_alphanumeric();
-    let words: Vec<&str> = lower
-        .split(is_separator)
-        .filter(|word| !word.is_empty())
-        .collect();
+    let mut words = words(&lower);
     let month = |word: &str| MONTHS.iter().position(|month| word.starts_with(month));
+    let number = |word: &str| word.parse::<i64>().ok();
     let dated = words.windows(3).position(|three| {
-        let numbers = [three[0], three[2]].map(str::parse::<u64>);
-        numbers.iter().all(Result::is_ok) && month(three[1]).is_some()
+        number(three[0]).is_some() && month(three[1]).is_some() && number(three[2]).is_some()
     });
     let mut order = Vec::new();
-    let mut rest = words.clone();
     if let Some(at) = dated {
-        let number = |word: &str| word.parse().unwrap_or(0);
-        let name = month(words[at + 1]).map_or(0, |index| index as u64 + 1);
-        order.extend([number(words[at + 2]), name, number(words[at])]);
-        rest.drain(at..at + 3);
+        let date: Vec<&str> = words.drain(at..at + 3).collect();
+        let month = month(date[1]).map(|index| index as i64 + 1);
+        order.extend(
+            [number(date[2]), month, number(date[0])]
+                .into_iter()
+                .flatten(),
+        );
     }
-    order.extend(rest.iter().filter_map(|word| {
-        let digits = word.trim_matches(|char: char| !char.is_ascii_digit());
-        digits.parse::<u64>().ok()
+    order.extend(words.iter().filter_map(|word| match EARLY.contains(word) {
+        true => Some(-1),
+        false => number(word),
     }));
+    order.push(0);
     order
+}
+
+/// The runs of digits and the runs of letters.
+fn words(text: &str) -> Vec<&str> {
+    let kind = |byte: u8| (byte.is_ascii_digit(), byte.is_ascii_alphabetic());
+    let runs = text
+        .as_bytes()
+        .chunk_by(|one, next| kind(*one) == kind(*next));
+    let runs = runs.filter(|run| run[0].is_ascii_alphanumeric());
+    runs.filter_map(|run| std::str::from_utf8(run).ok())
+        .collect()
 }
 
 #[cfg(test)]
@@ -47,6 +61,12 @@ mod tests {
                 "29 Aug 2024",
             ][..],
             &["9.5.2", "10.2.3", "10.3.1", "10.3.10"],
+            &["1.0-rc1", "1.0", "1.0.1", "1.1-dev", "1.1"],
+            &[
+                "stable_2Aug2023",
+                "stable_29Aug2024",
+                "stable_29Aug2024_update1",
+            ],
             &["2021.01a", "2023.02a", "2023.03a"],
             &["Python 3.9.2", "Python 3.11.7"],
         ] {

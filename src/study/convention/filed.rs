@@ -13,7 +13,6 @@ const DIGEST_DIGITS: usize = 8;
 /// A passport, read. The fields are described by `tristack schema passport`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct FiledPassport {
-    schema: String,
     /// The command that made it.
     pub command: String,
     /// Name of the code.
@@ -120,10 +119,11 @@ impl FiledPassport {
     /// # Errors
     /// If it is no passport.
     pub fn read(text: &[u8]) -> Result<Self, UnreadablePassport> {
-        let mut passport: Self = serde_json::from_slice(text)?;
-        if passport.schema != PASSPORT {
-            return Err(UnreadablePassport::OtherSchema(passport.schema));
+        let schema = schema_of(text)?;
+        if schema != PASSPORT {
+            return Err(UnreadablePassport::OtherSchema(schema));
         }
+        let mut passport: Self = serde_json::from_slice(text)?;
         if passport.software.is_empty() {
             passport.software.clone_from(&passport.title);
         }
@@ -150,6 +150,15 @@ impl KeyRow {
         let value = self.measured.as_ref()?.parse().ok()?;
         Some((value, self.uncertainty?))
     }
+}
+
+/// The name of the format of a JSON document.
+pub(crate) fn schema_of(text: &[u8]) -> Result<String, serde_json::Error> {
+    #[derive(Deserialize)]
+    struct Named {
+        schema: String,
+    }
+    serde_json::from_slice::<Named>(text).map(|named| named.schema)
 }
 
 /// The rows of a table.

@@ -31,10 +31,10 @@ mod space;
 mod spring_shape;
 mod tangential;
 
-pub(crate) use filed::plain;
 pub use filed::{
     ArmEffect, FiledPassport, KeyRow, PropertyRow, UnreadablePassport, permanent_name,
 };
+pub(crate) use filed::{plain, schema_of};
 pub use finding::Finding;
 pub use finding::TOLERANCE;
 pub use measured::{Findings, ProbeError, Probed, probe_all, read_probe};

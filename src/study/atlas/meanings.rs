@@ -14,6 +14,8 @@ pub struct Meaning {
     pub group: String,
     /// Definition.
     pub text: String,
+    /// Whether it moves the quasi-static yield force.
+    pub moves_force: bool,
     /// What it changes in the yield force.
     pub force: String,
 }

@@ -22,6 +22,7 @@ macro_rules! unrolled {
             let $index = 2;
             $body
         }
+        #[allow(clippy::needless_range_loop)] // Bodies, loads and contacts share the index.
         for $index in 3..$count $body
     };
 }
@@ -32,6 +33,7 @@ macro_rules! each_body {
         if G::IS_SMALL {
             unrolled!($index below $known $body);
         } else {
+            #[allow(clippy::needless_range_loop)]
             for $index in 0..$count $body
         }
     };
@@ -283,8 +285,8 @@ where
     #[inline(always)]
     fn evaluate_walls_and_advance(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
         let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
-        for body in 0..self.sphere_count {
-            let mut load = loads[body];
+        for (body, &load) in loads.iter().enumerate().take(self.sphere_count) {
+            let mut load = load;
             for wall in 0..WALLS {
                 if self.wall_exists[wall] {
                     self.evaluate_wall::<false>(wall, body, &mut load);

@@ -72,7 +72,7 @@ pub(crate) fn passport_forces(forces: &[ForceChange]) -> DataTable<'_> {
 fn cell(value: Option<&str>) -> String {
     let number = value.and_then(|text| text.parse::<f64>().ok());
     match number {
-        Some(number) => significant(number, 9),
+        Some(number) => significant(number + 0.0, 9),
         None => or_dash(&optional(value, str::to_owned)),
     }
 }

@@ -146,17 +146,17 @@ impl<'a> Site<'a> {
     }
 
     /// Page and title of every property that some passport has, by its group.
-    fn meanings_by_group(&self) -> Vec<(String, Vec<(String, String)>)> {
+    fn meanings_by_group(&self) -> Vec<(&str, Vec<(String, &str)>)> {
         let known = self.atlas.properties();
-        let mut groups: Vec<(String, Vec<(String, String)>)> = Vec::new();
+        let mut groups: Vec<(&str, Vec<(String, &str)>)> = Vec::new();
         for own in meanings() {
             if !known.iter().any(|name| base_name(name).0 == own.name) {
                 continue;
             }
-            let entry = (property_page(&own.name), own.title);
+            let entry = (property_page(&own.name), own.title.as_str());
             match groups.iter_mut().find(|(group, _)| *group == own.group) {
                 Some((_, entries)) => entries.push(entry),
-                None => groups.push((own.group, vec![entry])),
+                None => groups.push((&own.group, vec![entry])),
             }
         }
         groups
@@ -230,7 +230,7 @@ impl<'a> Site<'a> {
     }
 
     fn properties(&self) -> Vec<SiteFile> {
-        let views = meanings().into_iter().map(|meaning| {
+        let views = meanings().iter().map(|meaning| {
             let mut view = PropertyView::new(meaning, self.atlas);
             view.figures = self.property_figures(&view);
             view

@@ -399,7 +399,7 @@ impl EdgeView {
 /// The meaning of a property and the passports that have it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct PropertyView {
-    pub meaning: Meaning,
+    pub meaning: &'static Meaning,
     pub page: String,
     /// The kinds of contact, or the axes, one a column.
     pub kinds: Vec<String>,
@@ -408,7 +408,7 @@ pub(super) struct PropertyView {
 }
 
 impl PropertyView {
-    pub fn new(meaning: Meaning, atlas: &Atlas) -> Self {
+    pub fn new(meaning: &'static Meaning, atlas: &Atlas) -> Self {
         let names = atlas.properties().into_iter();
         let names: Vec<&str> = names
             .filter(|name| base_name(name).0 == meaning.name)

@@ -51,9 +51,8 @@ impl Difference {
 
     /// The changes beside those of arms that move the yield force, of which `forces` knows nothing.
     pub fn beside_arms(&self) -> Vec<&str> {
-        let meanings = meanings();
         let moves = |own: &&Change| {
-            let mut meanings = meanings.iter();
+            let mut meanings = meanings().iter();
             let meaning = meanings.find(|one| one.name == base_name(&own.name).0);
             !own.moves_limit && meaning.is_some_and(|one| one.moves_force)
         };

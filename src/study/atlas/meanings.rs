@@ -1,6 +1,7 @@
 //! What the properties of passports mean.
 
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// What a property means.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
@@ -21,14 +22,17 @@ pub struct Meaning {
 }
 
 /// The meanings of all properties.
-pub fn meanings() -> Vec<Meaning> {
+pub fn meanings() -> &'static [Meaning] {
     #[derive(Deserialize)]
     struct File {
         property: Vec<Meaning>,
     }
-    let file: File = toml::from_str(include_str!("properties.toml"))
-        .expect("the file is part of the program and tested");
-    file.property
+    static MEANINGS: LazyLock<Vec<Meaning>> = LazyLock::new(|| {
+        let file = toml::from_str::<File>(include_str!("properties.toml"));
+        file.expect("the file is part of the program and tested")
+            .property
+    });
+    &MEANINGS
 }
 
 /// The name of a property without the kind of contact and without the axis, and both of these.

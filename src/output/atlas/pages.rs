@@ -204,7 +204,7 @@ impl<'a> Site<'a> {
 
     fn codes(&self) -> Vec<SiteFile> {
         let headings = headings(self.atlas);
-        let mut pages: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
+        let mut pages: BTreeMap<String, (&str, Vec<Value>)> = BTreeMap::new();
         for versions in self.atlas.lineages() {
             let own = &versions[0].passport;
             let last = versions.len() - 1;
@@ -213,18 +213,19 @@ impl<'a> Site<'a> {
                 Row::new(version, index == last, cells.collect())
             });
             let edges = self.edges.iter();
-            let edges =
-                edges.filter(|edge| edge.software == own.software && edge.style == own.style);
+            let edges = edges.filter(|edge| versions.iter().any(|own| own.name == edge.after_name));
             let style = page!({
                 "style": own.style,
                 "rows": rows.collect::<Vec<_>>(),
                 "edges": edges.collect::<Vec<_>>(),
             });
-            pages.entry(&own.software).or_default().push(style);
+            // Names that differ in their signs alone have one page.
+            let page = pages.entry(software_page(&own.software));
+            page.or_insert((&own.software, Vec::new())).1.push(style);
         }
-        let files = pages.into_iter().map(|(software, styles)| {
+        let files = pages.into_iter().map(|(name, (software, styles))| {
             let page = page!({ "title": software, "headings": headings, "styles": styles });
-            (software_page(software), self.render("code.html", page))
+            (name, self.render("code.html", page))
         });
         files.collect()
     }

@@ -10,7 +10,7 @@ use crate::theory::quasistatic_limit;
 const FRICTIONS: usize = 81;
 /// The stiffness of the curves, k_n r/(m g).
 pub const SPREAD_STIFFNESS: f64 = 1e2;
-/// Digits to which arms are the same.
+/// Arms are rounded to this part of a unit, so that rounding of the codes makes no group of its own.
 const ROUNDING: f64 = 1e6;
 
 /// The yield force of the paper's stack under the arms of some codes.
@@ -101,7 +101,7 @@ fn change(stack: &Stack, arms: Arms) -> Option<f64> {
 }
 
 impl Atlas {
-    /// One material under every convention: linear codes with the same arms together, most of them first.
+    /// One material under every convention: linear codes with the same arms together, the paper's arms first.
     pub fn spread(&self) -> Vec<Spread> {
         let mut spread: Vec<Spread> = Vec::new();
         for own in self.passports.iter().filter(|own| own.is_linear()) {

@@ -46,16 +46,19 @@ impl ExitStatus {
         }
     }
 
-    /// The worst of the rows. A stack that does not yield where theory expects no yield is no disagreement.
+    /// The worst of the rows.
     pub(super) fn of(judgements: &[Judgement]) -> Self {
-        let each = judgements
-            .iter()
-            .map(|judgement| match judgement.verdict() {
-                _ if judgement.grounds.is_contradicted() => Self::Disagreement,
-                Verdict::NoYield if judgement.reference_force().is_none() => Self::Success,
-                verdict => Self::of_verdict(verdict),
-            });
+        let each = judgements.iter().map(Self::of_row);
         each.max().unwrap_or(Self::Success)
+    }
+
+    /// The status of one row. A stack that does not yield where theory expects no yield is no disagreement.
+    pub(super) fn of_row(judgement: &Judgement) -> Self {
+        match judgement.verdict() {
+            _ if judgement.grounds.is_contradicted() => Self::Disagreement,
+            Verdict::NoYield if judgement.reference_force().is_none() => Self::Success,
+            verdict => Self::of_verdict(verdict),
+        }
     }
 
     /// The status that goes with one verdict, where a yield was expected.

@@ -8,12 +8,16 @@ use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{Power, shown};
-use crate::output::{Origin, report_files};
+use crate::output::{Origin, friction, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
 use crate::runs::SelectedCode;
+use crate::study::yield_force::Judgement;
 use clap::Args;
 use std::path::PathBuf;
+
+/// Most rows that are named where the exit status is explained.
+const MOST_ROWS: usize = 10;
 
 /// Write the reproducibility report for the paper
 ///
@@ -120,13 +124,44 @@ fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatu
         count(ClaimVerdict::Fails),
         count(ClaimVerdict::Untestable)
     );
-    let laws = &reproduction.laws;
-    let parts = [
-        &reproduction.yield_curves,
-        &reproduction.scaling,
-        &laws.yield_curves,
-        &laws.scaling,
-    ];
-    let each = parts.map(|judgements| ExitStatus::of(judgements));
-    each.into_iter().max().unwrap_or(ExitStatus::Success)
+    let rows: Vec<&Judgement> = reproduction.judged_rows().collect();
+    let statuses = rows.iter().map(|row| ExitStatus::of_row(row));
+    let status = statuses.max().unwrap_or(ExitStatus::Success);
+    let open: Vec<&Judgement> = rows
+        .iter()
+        .copied()
+        .filter(|row| ExitStatus::of_row(row) != ExitStatus::Success)
+        .collect();
+    tell!(
+        "exit status {}: {} of {} rows agree or have no yield where none is expected{}",
+        status.code(),
+        rows.len() - open.len(),
+        rows.len(),
+        if open.is_empty() { "" } else { "; all but" }
+    );
+    for row in open.iter().take(MOST_ROWS) {
+        tell!("  {}", said_of(row));
+    }
+    if open.len() > MOST_ROWS {
+        tell!(
+            "  and {} more: section \"What was not tested\" and the tables",
+            open.len() - MOST_ROWS
+        );
+    }
+    status
+}
+
+/// A row, its verdict and the first reason.
+fn said_of(row: &Judgement) -> String {
+    let notes = row.notes();
+    let reason = notes
+        .first()
+        .map_or(String::new(), |note| format!(": {note}"));
+    format!(
+        "{} at mu = {}, stiffness {}: {}{reason}",
+        row.code,
+        friction(row.mu()),
+        row.stiffness(),
+        row.verdict()
+    )
 }

@@ -1,7 +1,8 @@
 //! The rows of a crosscheck.
 
 use super::number::{digits, friction, one_digit, relative, small};
-use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use super::table::{Columns, DataTable};
+use super::text::{markdown_code, markdown_text};
 use crate::model::PAPER_BODIES;
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source};

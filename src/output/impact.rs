@@ -1,7 +1,8 @@
 //! Impacts by the codes beside their exact values.
 
 use super::number::{digits, one_digit, relative, rounded};
-use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use super::table::{Columns, DataTable};
+use super::text::{markdown_code, markdown_text};
 use crate::study::impact::{DIVISIONS, ImpactFinding, ImpactJudgement, NEARLY_ELASTIC};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 

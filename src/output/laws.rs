@@ -1,7 +1,8 @@
 //! What a contact law does to the yield force: the styles of all codes side by side, at one material.
 
 use super::number::{digits, friction, rounded, small};
-use super::table::{Columns, DataTable, Table, markdown_code};
+use super::table::{Columns, DataTable, Table};
+use super::text::markdown_code;
 use crate::code::Code;
 use crate::model::{ContactConvention, TangentialStiffening};
 use crate::study::Verdict;

@@ -24,6 +24,7 @@ mod series;
 mod simulation;
 mod start_list;
 mod table;
+mod text;
 mod theory;
 mod trajectory;
 mod vtk;

@@ -2,6 +2,9 @@
 
 use crate::model::{CRITICAL_FRICTION, exact};
 
+/// The name of the critical friction.
+pub(crate) const CRITICAL: &str = "mu_c";
+
 /// `value` with `digits` significant digits, in plain notation where that is short.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -49,9 +52,24 @@ pub(crate) fn relative(value: f64) -> String {
 /// A friction coefficient; the critical one by its name.
 pub(crate) fn friction(value: f64) -> String {
     if value == CRITICAL_FRICTION {
-        "mu_c".to_owned()
+        CRITICAL.to_owned()
     } else {
         exact(value)
+    }
+}
+
+/// The same as TeX.
+pub(crate) fn friction_in_tex(value: f64) -> String {
+    friction(value).replace(CRITICAL, "\\mu_c")
+}
+
+/// A deviation as TeX, with one digit and a power of ten.
+pub(crate) fn power_of_ten(value: f64) -> String {
+    let text = format!("{value:.0e}");
+    match text.split_once('e') {
+        Some(("1", exponent)) => format!("$10^{{{exponent}}}$"),
+        Some((digits, exponent)) => format!("${digits} \\times 10^{{{exponent}}}$"),
+        None => text,
     }
 }
 
@@ -98,6 +116,8 @@ mod tests {
         assert_eq!(rounded(435.6891), "435.7");
         assert_eq!(exact(1e-300), "1e-300");
         assert_eq!(exact(0.300_000_000_000_000_04), "0.30000000000000004");
+        assert_eq!(power_of_ten(1e-7), "$10^{-7}$");
+        assert_eq!(power_of_ten(-5.7e-8), "$-6 \\times 10^{-8}$");
         assert_eq!(plain(2283.4), "2280");
         assert_eq!(plain(8.6399), "8.64");
     }

@@ -2,7 +2,8 @@
 
 use super::number::{digits, one_digit, relative};
 use super::probe::probe;
-use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use super::table::{Columns, DataTable};
+use super::text::{markdown_code, markdown_text};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
 use crate::study::convention::reservations;

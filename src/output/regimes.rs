@@ -1,7 +1,8 @@
 //! The regime map, and its comparison with the DEM.
 
 use super::number::{digits, one_digit, optional, relative, significant};
-use super::table::{Columns, DataTable, Table, markdown_code};
+use super::table::{Columns, DataTable, Table};
+use super::text::markdown_code;
 use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};

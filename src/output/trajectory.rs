@@ -1,7 +1,8 @@
 //! Trajectories of codes compared with those of native twins.
 
 use super::number::{optional, small};
-use super::table::{Columns, DataTable, markdown_code, markdown_text};
+use super::table::{Columns, DataTable};
+use super::text::{markdown_code, markdown_text};
 use crate::model::PAPER_BODIES;
 use crate::study::Verdict;
 use crate::study::trajectory::{

@@ -46,7 +46,7 @@ const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
 pub(crate) struct Figure {
     /// Name of its files, without extension.
     pub name: &'static str,
-    /// The content of the figure, its runs, and the command that makes it.
+    /// The content of the figure and its runs.
     pub caption: String,
     #[serde(skip)]
     drawing: Drawing,
@@ -54,13 +54,9 @@ pub(crate) struct Figure {
 
 impl Figure {
     fn new(name: &'static str, caption: impl Into<String>, drawing: Drawing) -> Self {
-        let caption: String = caption.into();
-        let files = format!(
-            "Made by `tristack report --out DIR`: figures/{name}.svg and figures/{name}.pdf."
-        );
         Self {
             name,
-            caption: format!("{caption} {files}"),
+            caption: caption.into(),
             drawing,
         }
     }

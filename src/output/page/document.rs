@@ -1,5 +1,6 @@
 //! The report as a document, from which every format is made.
 
+use super::references::Numbers;
 use crate::output::{DataTable, Figure, Table};
 use serde::Serialize;
 
@@ -26,14 +27,16 @@ impl Section {
     }
 }
 
-/// A piece of a section. In texts `…` between backticks is code.
+/// A piece of a section. Texts have the notation of [`crate::output::text`]; in them `[](#figure-scaling)` is a link to
+/// that figure with its number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum Block {
     Paragraph { text: String },
     List { items: Vec<String> },
     Table(PageTable),
-    Figure(Figure),
+    Figure(NumberedFigure),
+    Claims(Claims),
 }
 
 impl Block {
@@ -41,9 +44,17 @@ impl Block {
         Self::Paragraph { text: text.into() }
     }
 
+    pub fn figure(figure: Figure) -> Self {
+        Self::Figure(NumberedFigure {
+            number: 0,
+            caption: figure.caption.clone(),
+            figure,
+        })
+    }
+
     /// `data` under the name `name`.
     pub fn table(name: &'static str, caption: impl Into<String>, data: &DataTable) -> Self {
-        Self::Table(PageTable::new(name, caption, data, data.shown()))
+        Self::Table(PageTable::new(name, caption, data, data.titled()))
     }
 
     /// A table that is folded if `long`.
@@ -55,8 +66,23 @@ impl Block {
     ) -> Self {
         Self::Table(PageTable {
             long,
-            ..PageTable::new(name, caption, data, data.shown())
+            ..PageTable::new(name, caption, data, data.titled())
         })
+    }
+
+    /// The texts in it.
+    fn texts(&mut self) -> Vec<&mut String> {
+        match self {
+            Self::Paragraph { text } => vec![text],
+            Self::List { items } => items.iter_mut().collect(),
+            Self::Table(table) => vec![&mut table.caption],
+            Self::Figure(figure) => vec![&mut figure.caption],
+            Self::Claims(claims) => {
+                let texts = claims.list.iter_mut();
+                let texts = texts.flat_map(|own| own.sources.iter_mut().chain(&mut own.erratum));
+                texts.chain([&mut claims.table.caption]).collect()
+            }
+        }
     }
 }
 
@@ -65,13 +91,15 @@ impl Block {
 pub(super) struct PageTable {
     /// Name of its files, without extension.
     pub name: &'static str,
+    /// Its place among the tables, from 1.
+    pub number: usize,
     pub caption: String,
     #[serde(skip)]
     pub table: Table,
     /// The same rows with every digit.
     #[serde(skip)]
     pub csv: String,
-    /// Whether it is folded on the page until it is opened or printed.
+    /// Whether it is folded on the page until it is opened, and not printed.
     pub long: bool,
     /// Number of rows shown.
     pub rows: usize,
@@ -87,6 +115,7 @@ impl PageTable {
     ) -> Self {
         Self {
             name,
+            number: 0,
             caption: caption.into(),
             csv: data.csv(),
             long: false,
@@ -96,15 +125,114 @@ impl PageTable {
     }
 }
 
+/// A figure with its place among the figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct NumberedFigure {
+    #[serde(flatten)]
+    pub figure: Figure,
+    /// From 1.
+    pub number: usize,
+    /// The caption with its references.
+    #[serde(rename = "text")]
+    pub caption: String,
+}
+
+/// The claims of the paper: a list on the page, a table in files.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Claims {
+    pub table: PageTable,
+    /// Counts by verdict, those that do not hold first.
+    pub counts: Vec<VerdictCount>,
+    /// In the order of the counts, and within that of the paper.
+    pub list: Vec<PageClaim>,
+    /// The displayed equations, in the order of the paper.
+    pub equations: Vec<PageEquation>,
+}
+
+/// How many claims have one verdict.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct VerdictCount {
+    /// In files, and as a class on the page.
+    pub verdict: String,
+    pub words: &'static str,
+    pub count: usize,
+}
+
+/// A claim on the page.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct PageClaim {
+    pub id: String,
+    /// Its place in the paper, from 1.
+    pub number: usize,
+    pub place: String,
+    pub statement: String,
+    pub verdict: String,
+    pub words: &'static str,
+    pub evidence: String,
+    pub erratum: Option<String>,
+    /// Numbers of the displayed equations that it covers.
+    pub equations: Vec<String>,
+    /// Links to the figures and tables with its numbers.
+    pub sources: Vec<String>,
+}
+
+/// A displayed equation and the claim that covers it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct PageEquation {
+    pub number: String,
+    pub claim: String,
+    pub verdict: String,
+}
+
 impl Document {
+    /// Numbers figures and tables, and puts these numbers into the references to them.
+    pub fn numbered(mut self) -> Self {
+        let (mut figures, mut tables) = (0, 0);
+        let mut numbers = Numbers::default();
+        for block in self.blocks_mut() {
+            match block {
+                Block::Figure(own) => {
+                    figures += 1;
+                    own.number = figures;
+                    numbers.add("figure", own.figure.name, figures);
+                }
+                Block::Table(table) | Block::Claims(Claims { table, .. }) => {
+                    tables += 1;
+                    table.number = tables;
+                    numbers.add("table", table.name, tables);
+                }
+                Block::Paragraph { .. } | Block::List { .. } => {}
+            }
+        }
+        for (number, claim) in self.claims().enumerate() {
+            debug_assert!(claim.number > 0, "claim {number} has its number");
+            numbers.add("claim", &claim.id, claim.number);
+        }
+        let lead: Vec<String> = self
+            .lead
+            .iter()
+            .map(|text| numbers.put_into(text))
+            .collect();
+        self.lead = lead;
+        for text in self.blocks_mut().flat_map(Block::texts) {
+            *text = numbers.put_into(text);
+        }
+        self
+    }
+
     fn blocks(&self) -> impl Iterator<Item = &Block> {
         self.sections.iter().flat_map(|section| &section.blocks)
+    }
+
+    fn blocks_mut(&mut self) -> impl Iterator<Item = &mut Block> {
+        let sections = self.sections.iter_mut();
+        sections.flat_map(|section| &mut section.blocks)
     }
 
     /// All tables, in order.
     pub fn tables(&self) -> impl Iterator<Item = &PageTable> {
         self.blocks().filter_map(|block| match block {
-            Block::Table(table) => Some(table),
+            Block::Table(table) | Block::Claims(Claims { table, .. }) => Some(table),
             _ => None,
         })
     }
@@ -112,8 +240,16 @@ impl Document {
     /// All figures, in order.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.blocks().filter_map(|block| match block {
-            Block::Figure(figure) => Some(figure),
+            Block::Figure(own) => Some(&own.figure),
             _ => None,
         })
+    }
+
+    fn claims(&self) -> impl Iterator<Item = &PageClaim> {
+        let lists = self.blocks().filter_map(|block| match block {
+            Block::Claims(claims) => Some(&claims.list),
+            _ => None,
+        });
+        lists.flatten()
     }
 }

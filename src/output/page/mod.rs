@@ -4,6 +4,7 @@ mod document;
 mod html;
 mod junit;
 mod markdown;
+mod references;
 mod ro_crate;
 mod sections;
 
@@ -11,10 +12,14 @@ pub(crate) use sections::{Origin, declared_tables};
 
 use crate::output::figures::Figure;
 use crate::output::json;
+use crate::output::table::document_of;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 use document::Document;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+/// The document of all tables in LaTeX.
+const ALL_TABLES: &str = "all";
 
 /// A file of the report.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,17 +62,19 @@ pub(crate) fn report_files(
 }
 
 fn tables(document: &Document) -> Vec<ReportFile> {
+    let names = document.tables().map(|data| data.name);
+    let all = ReportFile::new(format!("tables/{ALL_TABLES}.tex"), document_of(names));
     let tables = document.tables().flat_map(|data| {
         let name = data.name;
         [
             ReportFile::new(format!("tables/{name}.csv"), data.csv.clone()),
             ReportFile::new(
                 format!("tables/{name}.tex"),
-                data.table.latex(&data.caption, data.long),
+                data.table.latex(name, &data.caption),
             ),
         ]
     });
-    tables.collect()
+    tables.chain([all]).collect()
 }
 
 fn figures(document: &Document) -> Vec<ReportFile> {

@@ -36,6 +36,8 @@ pub(super) struct Column<'a, R> {
     pub is_optional: bool,
     /// Name in tables for people; `None` for a column that they leave out.
     pub heading: Option<&'static str>,
+    /// Its heading on a page with mathematics, where it is another one.
+    pub title: Option<&'static str>,
     value: ValueOf<'a, R>,
     /// Format of its numbers in tables for people.
     digits: fn(f64) -> String,
@@ -69,6 +71,7 @@ impl<'a, R: 'a> Column<'a, R> {
             kind: self.kind,
             is_optional: self.is_optional,
             heading: self.heading,
+            title: self.title,
             digits: self.digits,
         }
     }
@@ -119,6 +122,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             kind: V::KIND,
             is_optional: V::IS_OPTIONAL,
             heading: None,
+            title: None,
             value: Box::new(move |row| value(row).into()),
             digits: |number| number.to_string(),
             cell: None,
@@ -173,6 +177,12 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
+    /// Shows the column as `title` on a page with mathematics.
+    pub(crate) fn titled(mut self, title: &'static str) -> Self {
+        self.current().title = Some(title);
+        self
+    }
+
     /// Formats its numbers for people by `digits`.
     pub(crate) fn digits(mut self, digits: fn(f64) -> String) -> Self {
         self.current().digits = digits;
@@ -204,6 +214,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .number("mu", "1", move |row| stack(row).floor_friction)
             .means("floor friction μ")
             .shown("mu")
+            .titled("$\\mu$")
             .digits(friction)
             .number("mu_d", "1", move |row| stack(row).cylinder_friction)
             .means("friction μ_d between the bodies")

@@ -2,6 +2,7 @@
 
 use super::columns::{Column, Columns, Schema};
 use super::{Table, Value};
+use crate::output::number::CRITICAL;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
@@ -68,6 +69,20 @@ impl DataTable<'_> {
         );
         for row in 0..self.rows {
             table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
+        }
+        table
+    }
+
+    /// The columns for people on a page with mathematics.
+    pub(crate) fn titled(&self) -> Table {
+        let headings = self.headed().map(|(heading, column)| {
+            let title = column.title.unwrap_or(heading);
+            (title.to_owned(), !column.unit.is_empty())
+        });
+        let mut table = Table::new(headings);
+        for row in 0..self.rows {
+            let cells = self.headed().map(|(_, column)| column.cell(&row));
+            table.push(cells.map(in_mathematics).collect());
         }
         table
     }
@@ -170,6 +185,14 @@ impl DataTable<'_> {
             "## {name}\n\n{what} In {found_in}.\n\n{}",
             columns.markdown()
         )
+    }
+}
+
+/// `cell` on a page with mathematics: a friction by its name is a formula.
+fn in_mathematics(cell: String) -> String {
+    match cell.as_str() {
+        CRITICAL => "$\\mu_c$".to_owned(),
+        _ => cell,
     }
 }
 

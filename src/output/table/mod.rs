@@ -2,13 +2,13 @@
 
 mod columns;
 mod data;
-mod escape;
+mod latex;
 mod shown;
 mod value;
 
 pub(crate) use columns::Columns;
 pub use data::DataTable;
 pub(crate) use data::json;
-pub(crate) use escape::{html_text, markdown_code, markdown_text};
+pub(crate) use latex::document_of;
 pub use shown::Table;
 pub(crate) use value::Value;

@@ -1,6 +1,8 @@
 //! A table of text cells for people, in every format.
 
-use super::escape::{html_text, latex_text, markdown_cell, terminal_cell};
+use super::latex::{LatexColumn, latex};
+use crate::model::readable_lines;
+use crate::output::text::{html_text, markdown_cell};
 use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
 
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
@@ -10,6 +12,8 @@ pub struct Table {
     /// Whether a column holds numbers, aligned to the right.
     numeric: Vec<bool>,
     rows: Vec<Vec<String>>,
+    /// Anchors of the rows on a page; none, or one for each row.
+    anchors: Vec<String>,
 }
 
 impl Table {
@@ -20,7 +24,15 @@ impl Table {
             headings,
             numeric,
             rows: Vec::new(),
+            anchors: Vec::new(),
         }
+    }
+
+    /// The table with an anchor for each row.
+    pub(crate) fn anchored(mut self, anchors: impl IntoIterator<Item = String>) -> Self {
+        self.anchors = anchors.into_iter().collect();
+        debug_assert_eq!(self.anchors.len(), self.rows.len());
+        self
     }
 
     /// Adds a row of as many cells as there are columns.
@@ -35,7 +47,7 @@ impl Table {
 
     /// The table for a terminal.
     pub fn terminal(&self) -> String {
-        self.drawn(presets::UTF8_FULL_CONDENSED, terminal_cell)
+        self.drawn(presets::UTF8_FULL_CONDENSED, readable_lines)
     }
 
     /// The table in Markdown.
@@ -43,17 +55,25 @@ impl Table {
         self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
     }
 
+    /// The table for a terminal or in Markdown, where only the latter has anchors.
     fn drawn(&self, style: TableStyle, escaped: fn(&str) -> String) -> String {
         let cells = |cells: &[String]| -> Vec<String> {
             let cells = cells.iter().map(|cell| escaped(cell));
             cells.collect()
         };
+        let rows = self.rows.iter().enumerate().map(|(index, row)| {
+            let mut row = cells(row);
+            if let (Some(anchor), Some(first)) = (self.anchors.get(index), row.first_mut()) {
+                first.insert_str(0, &format!("<a id=\"{anchor}\"></a>"));
+            }
+            row
+        });
         let mut table = comfy_table::Table::new();
         table
             .load_style(style)
             .set_content_arrangement(ContentArrangement::Disabled)
             .set_header(cells(&self.headings))
-            .add_rows(self.rows.iter().map(|row| cells(row)));
+            .add_rows(rows);
         for (column, numeric) in table.column_iter_mut().zip(&self.numeric) {
             if *numeric {
                 column.set_cell_alignment(CellAlignment::Right);
@@ -66,44 +86,54 @@ impl Table {
         lines.join("\n") + "\n"
     }
 
-    /// LaTeX for a paper, in ASCII: booktabs, for `long` tables longtable, the caption as a comment.
-    pub(crate) fn latex(&self, caption: &str, long: bool) -> String {
-        let numeric = self.numeric.iter();
-        let alignment: String = numeric
-            .map(|&number| if number { 'r' } else { 'l' })
-            .collect();
-        let line = |cells: &[String]| {
-            let cells: Vec<String> = cells.iter().map(|cell| latex_text(cell)).collect();
-            cells.join(" & ") + " \\\\\n"
-        };
-        let (environment, head) = match long {
-            true => ("longtable", "\\endhead\n"),
-            false => ("tabular", ""),
-        };
-        let rows: String = self.rows.iter().map(|row| line(row)).collect();
-        format!(
-            "% {}\n\\begin{{{environment}}}{{{alignment}}}\n\\toprule\n{}\\midrule\n{head}{rows}\
-             \\bottomrule\n\\end{{{environment}}}\n",
-            caption.replace('\n', " "),
-            line(&self.headings)
-        )
+    /// The table in LaTeX, with a caption and the label `tab:` with `name`.
+    pub(crate) fn latex(&self, name: &str, caption: &str) -> String {
+        let columns = self.headings.iter().zip(&self.numeric).enumerate();
+        let columns = columns.map(|(column, (heading, &numeric))| LatexColumn {
+            heading,
+            numeric,
+            cells: self.rows.iter().map(|row| row[column].as_str()).collect(),
+        });
+        latex(name, caption, &columns.collect::<Vec<_>>())
     }
 
     /// The table in HTML.
     pub(crate) fn html(&self) -> String {
-        let line = |cells: &[String], tag: &str, scope: &str| {
+        let line = |cells: &[String], anchor: &str, tag: &str, scope: &str| {
             let cells = cells.iter().zip(&self.numeric).map(|(cell, numeric)| {
-                let class = if *numeric { " class=\"number\"" } else { "" };
-                format!("<{tag}{class}{scope}>{}</{tag}>", html_text(cell))
+                let (class, cell) = match numeric {
+                    true => (" class=\"number\"", html_number(cell)),
+                    false => ("", html_text(cell)),
+                };
+                format!("<{tag}{class}{scope}>{cell}</{tag}>")
             });
-            format!("<tr>{}</tr>", cells.collect::<String>())
+            format!("<tr{anchor}>{}</tr>", cells.collect::<String>())
         };
-        let head = line(&self.headings, "th", " scope=\"col\"");
-        let rows = self.rows.iter().map(|row| line(row, "td", "") + "\n");
+        let head = line(&self.headings, "", "th", " scope=\"col\"");
+        let rows = self.rows.iter().enumerate().map(|(index, row)| {
+            let anchor = self.anchors.get(index);
+            let anchor = anchor.map_or(String::new(), |anchor| format!(" id=\"{anchor}\""));
+            line(row, &anchor, "td", "") + "\n"
+        });
         format!(
             "<div class=\"scroll\"><table>\n<thead>{head}</thead>\n<tbody>\n{}</tbody></table></div>",
             rows.collect::<String>()
         )
+    }
+}
+
+/// A number in HTML with a minus sign and a power of ten; any other text as it is.
+fn html_number(cell: &str) -> String {
+    if cell.parse::<f64>().is_err() {
+        return html_text(cell);
+    }
+    let cell = cell.replace('-', "−");
+    match cell.split_once('e') {
+        Some((digits, exponent)) => {
+            let exponent = exponent.trim_start_matches('+');
+            format!("{digits}\u{2009}×\u{2009}10<sup>{exponent}</sup>")
+        }
+        None => cell,
     }
 }
 
@@ -116,14 +146,6 @@ mod tests {
         let mut table = Table::new(columns.map(|(name, numeric)| (name.to_owned(), numeric)));
         table.push(vec!["z⋆ & `a_b` |x| < 1".to_owned(), "±5 %".to_owned()]);
         table
-    }
-
-    #[test]
-    fn latex_is_ready_for_a_paper() {
-        let expected = "% Errors.\n\\begin{tabular}{lr}\n\\toprule\ntheory & error \\\\\n\\midrule\n\
-                        z$\\star$ \\& \\texttt{a\\_b} \\textbar{}x\\textbar{} $<$ 1 & $\\pm$5 \\% \\\\\n\
-                        \\bottomrule\n\\end{tabular}\n";
-        assert_eq!(table().latex("Errors.", false), expected);
     }
 
     #[test]
@@ -141,5 +163,10 @@ mod tests {
             "{html}"
         );
         assert!(html.contains("<td class=\"number\">±5 %</td>"), "{html}");
+        assert_eq!(
+            html_number("-1.5e-8"),
+            "−1.5\u{2009}×\u{2009}10<sup>−8</sup>"
+        );
+        assert_eq!(html_number("0.25"), "0.25");
     }
 }

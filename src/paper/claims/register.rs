@@ -64,6 +64,9 @@ pub struct Claim {
     pub allowed: Option<f64>,
     /// The reason why it cannot be tested.
     pub untestable: Option<String>,
+    /// Anchors of the figures and tables of the report with its numbers, such as `figure-scaling`.
+    #[serde(default)]
+    pub see: Vec<String>,
     /// Correction, if the claim does not hold as printed.
     pub erratum: Option<Erratum>,
 }

@@ -74,6 +74,17 @@ pub struct Reproduction {
     pub provenances: Vec<Provenance>,
 }
 
+impl Reproduction {
+    /// Every row that is judged: the yield curves and the scaling of both laws. Those at the paper's literal settings are
+    /// there to be compared.
+    pub(crate) fn judged_rows(&self) -> impl Iterator<Item = &Judgement> {
+        let linear = self.yield_curves.iter().chain(&self.scaling);
+        linear
+            .chain(&self.laws.yield_curves)
+            .chain(&self.laws.scaling)
+    }
+}
+
 /// A failure without which the paper cannot be reproduced.
 #[derive(Debug, Error)]
 pub enum ReproductionError {

@@ -1,82 +1,175 @@
 //! The claims of the paper, and its errata.
 
-use super::super::document::{Block, Section};
+use super::super::document::{
+    Block, Claims, PageClaim, PageEquation, PageTable, Section, VerdictCount,
+};
 use crate::output::DataTable;
 use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 
+/// The verdicts in the order of the page.
+const VERDICTS: [ClaimVerdict; 4] = [
+    ClaimVerdict::Fails,
+    ClaimVerdict::Approximately,
+    ClaimVerdict::Holds,
+    ClaimVerdict::Untestable,
+];
+
+/// A claim with its place in the paper, from 1.
+type Numbered<'a> = (usize, &'a ClaimJudgement);
+
 pub(super) fn errata(claims: &[ClaimJudgement]) -> Section {
+    let data = errata_table(claims);
+    let wrong = claims.iter().filter(|own| own.erratum.is_some());
+    let anchors = wrong.map(|own| format!("erratum-{}", own.claim.id));
+    let caption = "Errata, each with the number of the claim in [](#table-claims).";
+    let table = data.titled().anchored(anchors);
     let blocks = vec![
         Block::paragraph(
             "Displayed equations and numbers of the paper that do not hold as printed. A corrected form stands \
              here only because the same check holds with it.",
         ),
-        Block::table("errata", "Errata.", &errata_table(claims)),
+        Block::Table(PageTable::new("errata", caption, &data, table)),
     ];
     Section::new("errata", "Errata", blocks)
 }
 
 pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
-    let wrong = claims.iter().filter(|own| own.erratum.is_some());
-    Columns::<&ClaimJudgement>::new(
+    Columns::<Numbered>::new(
         "errata",
-        "A row is a displayed equation or number of the paper that does not hold as printed.",
+        "A row is a displayed equation or number of the paper that does not hold as printed. Mathematics is TeX between \
+         dollar signs.",
         "`tristack report` (tables/errata.csv)",
     )
-    .text("claim", |own| own.claim.id.clone())
+    .text("claim", |(_, own)| own.claim.id.clone())
     .means("name of the claim")
-    .text("place", |own| own.claim.place.clone())
+    .shown("claim")
+    .cell(|(number, own)| format!("[{number}](#claim-{})", own.claim.id))
+    .text("place", |(_, own)| own.claim.place.clone())
     .means("where it stands in the paper")
     .shown("place")
-    .text("statement", |own| own.claim.statement.clone())
+    .text("statement", |(_, own)| own.claim.statement.clone())
     .means("what is printed")
     .shown("as printed")
-    .text("erratum", |own| own.erratum.clone())
+    .text("erratum", |(_, own)| own.erratum.clone())
     .means("what should stand there")
     .shown("should be")
-    .text("evidence", |own| own.evidence.clone())
+    .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")
-    .rows(wrong)
+    .rows(numbered(claims).filter(|(_, own)| own.erratum.is_some()))
 }
 
 /// All claims.
 pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
+    let caption = "Claims, those that do not hold first.";
+    let sorted = sorted(claims);
+    let anchors = sorted
+        .iter()
+        .map(|(_, own)| format!("claim-{}", own.claim.id));
+    let table = claims_of(sorted.clone()).titled().anchored(anchors);
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
              is derived by running the check; the register is `reference/claims.toml`.",
         ),
-        Block::table("claims", "Claims.", &claims_table(claims)),
+        Block::Claims(Claims {
+            table: PageTable::new("claims", caption, &claims_table(claims), table),
+            counts: VERDICTS.map(|verdict| count(claims, verdict)).to_vec(),
+            list: sorted.into_iter().map(on_page).collect(),
+            equations: equations(claims),
+        }),
     ];
     Section::new("claims", "Claims", blocks)
 }
 
+fn numbered(claims: &[ClaimJudgement]) -> impl Iterator<Item = Numbered<'_>> {
+    claims
+        .iter()
+        .enumerate()
+        .map(|(index, own)| (index + 1, own))
+}
+
+/// By verdict, those that do not hold first, and within that in the order of the paper.
+fn sorted(claims: &[ClaimJudgement]) -> Vec<Numbered<'_>> {
+    let mut sorted: Vec<Numbered> = numbered(claims).collect();
+    sorted.sort_by_key(|(_, own)| VERDICTS.iter().position(|&one| one == own.verdict));
+    sorted
+}
+
+fn count(claims: &[ClaimJudgement], verdict: ClaimVerdict) -> VerdictCount {
+    let own = claims.iter().filter(|own| own.verdict == verdict);
+    VerdictCount {
+        verdict: verdict.to_string(),
+        words: in_words(verdict),
+        count: own.count(),
+    }
+}
+
+fn on_page((number, own): Numbered) -> PageClaim {
+    let claim = &own.claim;
+    PageClaim {
+        id: claim.id.clone(),
+        number,
+        place: claim.place.clone(),
+        statement: claim.statement.clone(),
+        verdict: own.verdict.to_string(),
+        words: in_words(own.verdict),
+        evidence: own.evidence.clone(),
+        erratum: own.erratum.clone(),
+        equations: claim.equations.clone(),
+        sources: claim.see.iter().map(|see| format!("[](#{see})")).collect(),
+    }
+}
+
+/// The displayed equations with the first claim on each.
+fn equations(claims: &[ClaimJudgement]) -> Vec<PageEquation> {
+    let mut equations: Vec<PageEquation> = Vec::new();
+    for own in claims {
+        for number in &own.claim.equations {
+            if !equations.iter().any(|known| known.number == *number) {
+                equations.push(PageEquation {
+                    number: number.clone(),
+                    claim: own.claim.id.clone(),
+                    verdict: own.verdict.to_string(),
+                });
+            }
+        }
+    }
+    equations
+}
+
 pub(crate) fn claims_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
-    Columns::<&ClaimJudgement>::new(
+    claims_of(numbered(claims).collect())
+}
+
+fn claims_of(claims: Vec<Numbered>) -> DataTable {
+    Columns::<Numbered>::new(
         "claims",
-        "A row is a checkable statement of the paper and the verdict on it.",
+        "A row is a checkable statement of the paper and the verdict on it. Mathematics is TeX between dollar signs.",
         "`tristack report` (tables/claims.csv, claims.json)",
     )
-    .text("id", |own| own.claim.id.clone())
+    .text("id", |(_, own)| own.claim.id.clone())
     .means("name of the claim")
+    .number("number", "1", |(number, _)| *number)
+    .means("its place among the claims, from 1")
     .shown("claim")
-    .text("place", |own| own.claim.place.clone())
+    .text("place", |(_, own)| own.claim.place.clone())
     .means("where it stands in the paper")
     .shown("place")
-    .text("statement", |own| own.claim.statement.clone())
+    .text("statement", |(_, own)| own.claim.statement.clone())
     .means("its text")
     .shown("statement")
-    .word("kind", |own| own.claim.kind)
+    .word("kind", |(_, own)| own.claim.kind)
     .means("what kind of statement it is")
-    .text("verdict", |own| own.verdict.to_string())
+    .text("verdict", |(_, own)| own.verdict.to_string())
     .means("`holds`, `approximately`, `fails` or `untestable`")
     .shown("verdict")
-    .cell(|own| in_words(own.verdict).to_owned())
-    .text("evidence", |own| own.evidence.clone())
+    .cell(|(_, own)| in_words(own.verdict).to_owned())
+    .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")
-    .text("erratum", |own| own.erratum.clone())
+    .text("erratum", |(_, own)| own.erratum.clone())
     .means("what should stand there; only where that has been checked to hold")
     .rows(claims)
 }

@@ -16,7 +16,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::paragraph(format!(
             "Codes mean different things by the same words. What each of them means was measured with \
              micro-tests of one contact (`tristack probe`); {agreeing} of {} properties are as the code \
-             declares. r₁ in R = r + r₁ × overlap is the arm; the paper’s is 0.",
+             declares. The arm is $r_1$ in $R = r + r_1 \\times$ overlap; the paper’s is 0.",
             found.len()
         )),
         Block::Table(PageTable::new(

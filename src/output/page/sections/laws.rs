@@ -21,10 +21,10 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
             &crosscheck(judgements),
             law_forces(judgements),
         )),
-        Block::Figure(laws_figure(judgements)),
+        Block::figure(laws_figure(judgements)),
         rows(
             "law_scaling",
-            "Every row of μ_c with Hertz contacts, figure scaling.",
+            "Every row at $\\mu_c$ with Hertz contacts, [](#figure-scaling).",
             &laws.scaling,
         ),
     ];

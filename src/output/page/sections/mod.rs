@@ -53,15 +53,15 @@ pub(super) fn document(
     judged: &[ClaimJudgement],
     origin: &Origin,
 ) -> Document {
-    let figures = figures(reproduction).into_iter().map(Block::Figure);
+    let figures = figures(reproduction).into_iter().map(Block::figure);
     let figures = figures.collect();
     Document {
         title: "Reproducibility report: “Anomalous Enhancement of Yield Strength due to Static Friction”"
             .to_owned(),
         lead: vec![
             "On R. Suzuki, T. Matsushima, T. Yamaguchi, M. Tani and S. Sasa, arXiv:2511.06807, and its \
-             supplement: what holds, how well, and how to see it. Forces in m g, lengths in r, speeds in \
-             r √(k_n/m), times in √(m/k_n); stiffness is 1/ε = k_n r/(m g)."
+             supplement: what holds, how well, and how to see it. Forces in $mg$, lengths in $r$, speeds in \
+             $r\\sqrt{k_n/m}$, times in $\\sqrt{m/k_n}$; stiffness is $1/\\epsilon = k_n r/(mg)$, and $F = f/(mg)$."
                 .to_owned(),
         ],
         sections: vec![
@@ -78,4 +78,5 @@ pub(super) fn document(
             untested::section(reproduction, judged, origin),
         ],
     }
+    .numbered()
 }

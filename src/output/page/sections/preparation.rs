@@ -12,22 +12,22 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
     let blocks = vec![
         Block::paragraph(
             "All runs of this report begin with a gravity ramp: three just-touching cylinders, gravity raised \
-             smoothly, which ends with c = 0 and is the state in which the exact limit starts. The paper pushes \
-             the bottom cylinders together by side walls (A), lowers the top one and withdraws the walls, and \
-             takes an A for which c = 0. c vanishes for every A up to A*, and the yield force depends on A \
-             within that range: c = 0 alone does not pin it down.",
+             smoothly, which ends with $c = 0$ and is the state in which the exact limit starts. The paper pushes \
+             the bottom cylinders together by side walls ($A$), lowers the top one and withdraws the walls, and \
+             takes an $A$ for which $c = 0$. But $c$ vanishes for every $A$ up to $A^*$, and the yield force depends on $A$ \
+             within that range: $c = 0$ alone does not pin it down.",
         ),
         Block::table(
             "critical_push",
-            "A*, the largest push (in r) that ends with c = 0, by bisection with the native DEM, and what it moves.",
+            "The largest push $A^*$ (in $r$) that ends with $c = 0$, by bisection with the native DEM, and what it moves.",
             &critical(&reproduction.preparation),
         ),
         Block::long_table(
             true,
             "preparation",
-            "c between the bottom cylinders when the compression begins, and yield force F, both in m g; A in r, \
+            "Force $c$ between the bottom cylinders when the compression begins, and yield force $F$, both in $mg$; $A$ in $r$, \
              absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
-             with a push, to leading order in ε.",
+             with a push, to leading order in $\\epsilon$.",
             &preparations(&reproduction.preparation),
         ),
     ];
@@ -47,7 +47,7 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
         study.critical_push.map(|found| found.push)
     })
     .means("A*, by bisection with the native DEM")
-    .shown_as("A*", digits::<5>)
+    .shown_as("$A^*$", digits::<5>)
     .number("width", "r", |study| {
         study.critical_push.map(|found| found.width)
     })
@@ -59,14 +59,14 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     .shown_as("to leading order", digits::<5>)
     .number("exact_force", "m g", |study| study.exact_force)
     .means("exact limit F after a gravity ramp")
-    .shown_as("F after gravity ramp, exact", digits::<7>)
+    .shown_as("$F$ after gravity ramp, exact", digits::<7>)
     .number("shift", "1", |study| {
         study
             .critical_push
             .and_then(|found| study.shift(found.push))
     })
     .means("F(A*) − F(0), relative to F + 3")
-    .shown_as("F(A*) − F(0), of F + 3", percent)
+    .shown_as("$F(A^*) - F(0)$, of $F + 3$", percent)
     .rows(studies)
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     .shown("convention of")
     .number("push", "r", |(_, row)| row.push)
     .means("A; absent for the gravity ramp")
-    .shown_as("A", digits::<5>)
+    .shown_as("$A$", digits::<5>)
     .number("limit_force", "m g", |(_, row)| row.limit_force)
     .means(
         "exact limit after a gravity ramp under this convention; with a push, what becomes \
@@ -96,14 +96,14 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     )
     .number("contact_force", "m g", |(_, row)| row.contact_force)
     .means("c between the bottom cylinders when the compression begins")
-    .shown_as("c", |force| format!("{force:.5}"))
+    .shown_as("$c$", |force| format!("{force:.5}"))
     .number("contact_uncertainty", "m g", |(_, row)| {
         row.contact_uncertainty
     })
     .means("its uncertainty")
     .number("yield_force", "m g", |(_, row)| row.yield_force)
     .means("F at vanishing wall speed")
-    .shown_as("F", digits::<7>)
+    .shown_as("$F$", digits::<7>)
     .number("uncertainty", "m g", |(_, row)| row.uncertainty)
     .means("its uncertainty")
     .shown_as("±", one_digit)

@@ -5,7 +5,7 @@ use super::tolerances::Agreement;
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::output::DataTable;
-use crate::output::number::{digits, percent};
+use crate::output::number::{digits, friction_in_tex, percent, power_of_ten};
 use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
@@ -17,6 +17,7 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
     let items = [
         Some(of_claims(claims)),
         Some(of_codes(reproduction)),
+        Some(of_rows(reproduction)),
         of_scaling(reproduction),
         of_laws(reproduction),
         of_convergence(reproduction),
@@ -28,12 +29,12 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         Block::table(
             "theories",
             "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
-             F + 3 over the frictions of Fig. 2(a). Above μ_c they are no limit of the DEM.",
+             $F + 3$ over the frictions of Fig. 2(a). Above $\\mu_c$ they are no limit of the DEM.",
             &theories(&reproduction.curves.over_friction),
         ),
         Block::table(
             "points",
-            "Yield force F = f/(m g) at some points of Fig. 2(a). A code with another limit has other torque arms \
+            "Yield force $F = f/(mg)$ at some points of Fig. 2(a). A code with another limit has other torque arms \
              than the paper’s model; that is no error.",
             &points(&reproduction.yield_curves),
         ),
@@ -43,15 +44,21 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
 
 fn of_claims(claims: &[ClaimJudgement]) -> String {
     let count = |verdict| claims.iter().filter(|own| own.verdict == verdict).count();
-    let errata = claims.iter().filter(|own| own.erratum.is_some()).count();
+    let mended = |verdict| {
+        let own = claims.iter().filter(|own| own.verdict == verdict);
+        own.filter(|own| own.erratum.is_some()).count()
+    };
     format!(
-        "Of {} checkable statements {} hold, {} hold approximately, {} do not hold as stated ({errata} of \
-         the displayed forms and numbers have an erratum), {} cannot be tested here.",
+        "Of {} [checkable statements](#claims) {} hold, {} hold approximately, {} do not hold as stated, {} cannot be \
+         tested here. A corrected form was checked for {} of those that do not hold and for {} of those that hold \
+         approximately ([errata](#errata)).",
         claims.len(),
         count(ClaimVerdict::Holds),
         count(ClaimVerdict::Approximately),
         count(ClaimVerdict::Fails),
-        count(ClaimVerdict::Untestable)
+        count(ClaimVerdict::Untestable),
+        mended(ClaimVerdict::Fails),
+        mended(ClaimVerdict::Approximately)
     )
 }
 
@@ -63,9 +70,44 @@ fn of_codes(reproduction: &Reproduction) -> String {
     let largest = agreements.iter().map(|own| own.largest_error);
     format!(
         "{} codes reproduce the yield curve of Fig. 2(a): {agreeing} of {rows} yield forces agree with the \
-         exact quasi-static limit under the convention of the code; the largest error is {:.0e} of F + 3.",
+         exact quasi-static limit under the convention of the code; the largest error is {} of $F + 3$ \
+         ([](#figure-yield-curves), [](#table-yield_curves)).",
         agreements.len(),
-        largest.fold(0.0, f64::max)
+        power_of_ten(largest.fold(0.0, f64::max))
+    )
+}
+
+/// Where the judged rows come from, and every row that is not judged.
+fn of_rows(reproduction: &Reproduction) -> String {
+    let rows: Vec<&Judgement> = reproduction.judged_rows().collect();
+    let recorded = rows.iter().filter(|row| row.is_recorded()).count();
+    let count = |verdict| rows.iter().filter(|row| row.verdict() == verdict).count();
+    let named = rows
+        .iter()
+        .filter(|row| row.verdict() == Verdict::Inconclusive);
+    let named = named.map(|row| {
+        let mu = friction_in_tex(row.mu());
+        format!(
+            "{} at $\\mu = {mu}$, stiffness {}",
+            row.code,
+            row.stiffness()
+        )
+    });
+    let named: Vec<String> = named.collect();
+    let named = match named.is_empty() {
+        true => String::new(),
+        false => format!(" ({}; [why](#untested))", named.join("; ")),
+    };
+    format!(
+        "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} are \
+         inconclusive{named}, {} have no yield, {} failed or are missing.",
+        rows.len(),
+        rows.len() - recorded,
+        count(Verdict::Agrees),
+        count(Verdict::Differs),
+        count(Verdict::Inconclusive),
+        count(Verdict::NoYield),
+        count(Verdict::Failed) + count(Verdict::Missing)
     )
 }
 
@@ -78,9 +120,9 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     let agreeing = reproduction.exponents.iter();
     let agreeing = agreeing.filter(|exponent| exponent.verdict == Verdict::Agrees);
     Some(format!(
-        "Scaling: F + 3 grows with the stiffness to the power {:.4} at μ_c and {:.4} at μ = 0.3 \
-         between 10³ and 10⁶ (1/2 and 1 for ε → 0); {} of {} exponents fitted to runs are those of the exact \
-         limit within their uncertainty.",
+        "Scaling: $F + 3$ grows with the stiffness to the power {:.4} at $\\mu_c$ and {:.4} at $\\mu = 0.3$ \
+         between $10^3$ and $10^6$ (1/2 and 1 for $\\epsilon \\to 0$); {} of {} exponents fitted to runs are those of the exact \
+         limit within their uncertainty ([](#figure-scaling), [](#table-exponents)).",
         at.exponent,
         above.exponent,
         agreeing.count(),
@@ -107,8 +149,9 @@ fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let fitted: Vec<String> = fitted.collect();
     Some(format!(
         "Hertz contacts: {agreeing} of {rows} rows of {} styles agree with their exact limits, which differ by \
-         convention alone: at μ = {}, stiffness {} the floor begins to slip at F = {} ({}) to {} ({}). At μ_c the exponent \
-         of F + 3 between 10³ and 10⁶ is {}, and 2/5 for ε → 0, where linear springs have 1/2.",
+         convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the exponent \
+         of $F + 3$ between $10^3$ and $10^6$ is {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
+         ([](#figure-laws), [](#table-law_forces)).",
         agreements.len(),
         SPREAD.0,
         SPREAD.1,
@@ -128,11 +171,11 @@ fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let paper =
         points.find(|point| point.code == Code::NATIVE && point.wall_speed == PAPER_WALL_SPEED)?;
     Some(format!(
-        "At the paper’s own settings (wall speed 10⁻⁶, time step 10⁻³) and the point of its convergence \
-         figure (μ = 0.2, stiffness 10⁴) the peak deviates by {:+.2} % from the limit, the onset of slip \
-         by {:+.0e}.",
+        "At the paper’s own settings (wall speed $10^{{-6}}$, time step $10^{{-3}}$) and the point of its convergence \
+         figure ($\\mu = 0.2$, stiffness $10^4$) the peak deviates by {:+.2} % from the limit, the onset of slip \
+         by {} of it ([](#figure-convergence)).",
         100.0 * paper.excess_of_peak()?,
-        paper.excess_of_slip()?
+        power_of_ten(paper.excess_of_slip()?)
     ))
 }
 
@@ -158,22 +201,22 @@ pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
         largest(stiffness, false, |point| point.perturbation)
     })
     .means("singular perturbation, μ < μ_c")
-    .shown_as("perturbation, μ < μ_c", percent)
+    .shown_as("perturbation, $\\mu < \\mu_c$", percent)
     .number("perturbation_above", "1", move |&stiffness| {
         largest(stiffness, true, |point| point.perturbation)
     })
     .means("the same, μ ≥ μ_c")
-    .shown_as("perturbation, μ ≥ μ_c", percent)
+    .shown_as("perturbation, $\\mu \\ge \\mu_c$", percent)
     .number("elastic_below", "1", move |&stiffness| {
         largest(stiffness, false, |point| point.elastic)
     })
     .means("elastic equation, μ < μ_c")
-    .shown_as("elastic equation, μ < μ_c", percent)
+    .shown_as("elastic equation, $\\mu < \\mu_c$", percent)
     .number("elastic_above", "1", move |&stiffness| {
         largest(stiffness, true, |point| point.elastic)
     })
     .means("the same, μ ≥ μ_c")
-    .shown_as("elastic equation, μ ≥ μ_c", percent)
+    .shown_as("elastic equation, $\\mu \\ge \\mu_c$", percent)
     .rows(PAPER_STIFFNESSES)
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, Section};
 use crate::code::Code;
-use crate::output::number::{friction, one_digit};
+use crate::output::number::{friction, one_digit, power_of_ten};
 use crate::output::table::Columns;
 use crate::output::{DataTable, crosscheck};
 use crate::paper::reproduction::{Exponent, Reproduction};
@@ -49,8 +49,10 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::paragraph(format!(
             "Each code is held to the exact quasi-static limit under its own, measured convention. The \
              tolerance of a row is the uncertainty of its own runs (wall speed, time step, preparation, \
-             sampling, round-off and print precision, each computed), but at least {MIN_TOLERANCE:e} and at most \
-             {MAX_TOLERANCE:e} of F + 3; an uncertainty above that decides nothing."
+             sampling, round-off and print precision, each computed), but at least {} and at most \
+             {} of $F + 3$; an uncertainty above that decides nothing.",
+            power_of_ten(MIN_TOLERANCE),
+            power_of_ten(MAX_TOLERANCE)
         )),
         Block::table(
             "agreement",
@@ -65,7 +67,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::long_table(
             true,
             "exponents",
-            "Exponents of F + 3 over the stiffness, fitted from 10³ to 10⁶, beside those of the \
+            "Exponents of $F + 3$ over the stiffness, fitted from $10^3$ to $10^6$, beside those of the \
              exact limit fitted in the same way.",
             &exponents(
                 reproduction
@@ -76,17 +78,17 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         ),
         rows(
             "yield_curves",
-            "Every row of figure yield_curves.",
+            "Every row of [](#figure-yield-curves).",
             &reproduction.yield_curves,
         ),
         rows(
             "scaling",
-            "Every row of figure scaling.",
+            "Every row of [](#figure-scaling) with linear springs.",
             &reproduction.scaling,
         ),
         rows(
             "literal",
-            "At the paper’s literal wall speed 10⁻⁶ and time step 10⁻³, yield force by the peak.",
+            "At the paper’s literal wall speed $10^{-6}$ and time step $10^{-3}$, yield force by the peak.",
             &reproduction.literal,
         ),
         evidence(),
@@ -128,7 +130,7 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
     .shown("agree")
     .number("largest_error", "1", |(own, _)| own.largest_error)
     .means("largest error, relative to F + 3")
-    .shown_as("largest error/(F + 3)", |error| format!("{error:.1e}"))
+    .shown_as("largest error/$(F + 3)$", |error| format!("{error:.1e}"))
     .number("largest_share", "1", |(own, _)| own.largest_share)
     .means("largest error in units of the tolerance of its row")
     .shown_as("largest error/tolerance", |share| format!("{share:.2}"))
@@ -145,7 +147,7 @@ pub(crate) fn exponents<'a>(exponents: impl IntoIterator<Item = &'a Exponent>) -
     .code(|own| own.code)
     .number("mu", "1", |own| own.mu)
     .means("floor friction μ")
-    .shown_as("μ", friction)
+    .shown_as("$\\mu$", friction)
     .number("exponent", "1", |own| own.exponent)
     .means("least-squares slope of ln(F + 3) over ln(1/ε)")
     .shown_as("fitted exponent", |exponent| format!("{exponent:.7}"))
@@ -157,7 +159,7 @@ pub(crate) fn exponents<'a>(exponents: impl IntoIterator<Item = &'a Exponent>) -
     .shown_as("of the exact limit", |exponent| format!("{exponent:.7}"))
     .number("asymptotic", "1", |own| own.asymptotic)
     .means("the exponent for ε → 0")
-    .shown("for ε → 0")
+    .shown("for $\\epsilon \\to 0$")
     .number("points", "1", |own| own.points)
     .means("how many stiffnesses were fitted")
     .number("law_power", "1", |own| own.power.value())

@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, Section};
 use super::Origin;
-use crate::output::number::friction;
+use crate::output::number::friction_in_tex;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
@@ -27,7 +27,7 @@ pub(super) fn section(
     items.extend(recorded(reproduction.yield_curves.iter().chain(laws)));
     if !origin.literal {
         items.push(
-            "Fig. 2(a) at the paper’s literal wall speed and time step, except at μ = 0.2, stiffness 10⁴: \
+            "Fig. 2(a) at the paper’s literal wall speed and time step, except at $\\mu = 0.2$, stiffness $10^4$: \
              `tristack report --literal` runs all of it, some ten minutes."
                 .to_owned(),
         );
@@ -38,8 +38,8 @@ pub(super) fn section(
         .filter(|judged| judged.verdict == ClaimVerdict::Untestable);
     items.extend(untestable.map(|judged| {
         format!(
-            "{}, “{}”: {}.",
-            judged.claim.place, judged.claim.statement, judged.evidence
+            "{}, “{}” ([](#claim-{})): {}.",
+            judged.claim.place, judged.claim.statement, judged.claim.id, judged.evidence
         )
     }));
     let blocks = vec![Block::List { items }];
@@ -63,24 +63,13 @@ fn recorded<'a>(judgements: impl Iterator<Item = &'a Judgement>) -> Option<Strin
 
 /// Rows without a judgement, each with its reason.
 fn unjudged(reproduction: &Reproduction) -> Vec<String> {
-    let Reproduction {
-        yield_curves,
-        scaling,
-        laws,
-        ..
-    } = reproduction;
     let judged = |row: &&Judgement| matches!(row.verdict(), Verdict::Agrees | Verdict::Differs);
-    let open = yield_curves
-        .iter()
-        .chain(scaling)
-        .chain(&laws.yield_curves)
-        .chain(&laws.scaling)
-        .filter(|row| !judged(row));
+    let open = reproduction.judged_rows().filter(|row| !judged(row));
     open.map(|row| {
         format!(
-            "{} at μ = {}, stiffness {} was not judged, {}: {}.",
+            "{} at $\\mu = {}$, stiffness {} was not judged, {}: {}.",
             row.code,
-            friction(row.mu()),
+            friction_in_tex(row.mu()),
             row.stiffness(),
             row.verdict(),
             row.notes().join("; ")

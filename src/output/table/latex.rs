@@ -1,0 +1,356 @@
+//! A table in LaTeX: a longtable whose text columns have widths and whose numbers are aligned at their points.
+
+use crate::output::text::latex_text;
+
+/// The packages that every table needs.
+const PACKAGES: [&str; 6] = [
+    "amsmath",
+    "amssymb",
+    "booktabs",
+    "dcolumn",
+    "longtable",
+    "lscape",
+];
+
+/// Sizes of letters, and how many average ones stand in a line of the class `article` upright and in landscape format.
+const SIZES: [(&str, f64, f64); 4] = [
+    ("\\small", 72.0, 0.0),
+    ("\\footnotesize", 81.0, 128.0),
+    ("\\scriptsize", 0.0, 144.0),
+    ("\\tiny", 0.0, 182.0),
+];
+/// Widest text, in letters, that stands in one line.
+const ONE_LINE: f64 = 22.0;
+/// Least width of a text in several lines.
+const LEAST: f64 = 14.0;
+/// Space between two columns, in letters.
+const GAP: f64 = 2.0;
+
+/// A document of the tables in these files.
+pub(crate) fn document_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let packages = PACKAGES.map(|name| format!("\\usepackage{{{name}}}\n"));
+    let inputs = names.into_iter().map(|name| format!("\\input{{{name}}}\n"));
+    format!(
+        "\\documentclass[a4paper]{{article}}\n\\usepackage[T1]{{fontenc}}\n{}\\begin{{document}}\n\\listoftables\n{}\\end{{document}}\n",
+        packages.concat(),
+        inputs.collect::<String>()
+    )
+}
+
+/// A column of a table.
+pub(super) struct LatexColumn<'a> {
+    pub heading: &'a str,
+    pub numeric: bool,
+    pub cells: Vec<&'a str>,
+}
+
+/// The table with its caption, and `tab:` with its name as its label.
+pub(super) fn latex(name: &str, caption: &str, columns: &[LatexColumn]) -> String {
+    let kinds: Vec<Kind> = columns.iter().map(Kind::of).collect();
+    let page = Page::of(&kinds);
+    let share = page.text_share(&kinds);
+    let alignment: String = kinds.iter().map(|kind| kind.alignment(share)).collect();
+    let headings = columns.iter().zip(&kinds);
+    let headings = joined(headings.map(|(column, kind)| kind.heading(column.heading)));
+    let count = columns.first().map_or(0, |column| column.cells.len());
+    let rows = (0..count).map(|row| {
+        let cells = columns.iter().zip(&kinds);
+        joined(cells.map(|(column, kind)| kind.cell(column.cells[row])))
+    });
+    let (open, close) = page.environment();
+    format!(
+        "% Needs the packages {}.\n{open}\\begin{{longtable}}{{{alignment}}}\n\
+         \\caption{{{}}}\\label{{tab:{name}}}\\\\\n\\toprule\n{headings}\\midrule\n\\endfirsthead\n\\toprule\n\
+         {headings}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n{}\\end{{longtable}}\n{close}",
+        PACKAGES.join(", "),
+        latex_text(&caption.replace('\n', " ")),
+        rows.collect::<String>(),
+    )
+}
+
+fn joined(cells: impl Iterator<Item = String>) -> String {
+    cells.collect::<Vec<_>>().join(" & ") + " \\\\\n"
+}
+
+/// How a column is set.
+enum Kind {
+    /// Numbers with so many digits, in letters, before and after the point.
+    Aligned {
+        before: usize,
+        after: usize,
+        heading: f64,
+    },
+    /// Text in one line.
+    Line { width: f64, is_right: bool },
+    /// Text in several lines; its mean width.
+    Lines { mean: f64 },
+}
+
+impl Kind {
+    fn of(column: &LatexColumn) -> Self {
+        let cells = column.cells.iter();
+        let widths: Vec<f64> = cells.map(|cell| width(cell)).collect();
+        let longest = widths.iter().copied().fold(0.0, f64::max);
+        let heading = heading_lines(column.heading, longest);
+        let heading = heading.iter().map(|line| width(line)).fold(0.0, f64::max);
+        let numbers: Option<Vec<(usize, usize)>> =
+            column.cells.iter().map(|cell| digits(cell)).collect();
+        if let (Some(numbers), true) = (numbers, column.numeric) {
+            let longest = |side: fn(&(usize, usize)) -> usize| numbers.iter().map(side).max();
+            return Self::Aligned {
+                before: longest(|own| own.0).unwrap_or(1),
+                after: longest(|own| own.1).unwrap_or(0),
+                heading,
+            };
+        }
+        if column.numeric || longest <= ONE_LINE {
+            return Self::Line {
+                width: longest.max(heading),
+                is_right: column.numeric,
+            };
+        }
+        let mean = widths.iter().sum::<f64>() / widths.len().max(1) as f64;
+        Self::Lines {
+            mean: mean.max(LEAST),
+        }
+    }
+
+    /// Its least width.
+    fn least(&self) -> f64 {
+        match self {
+            Self::Aligned {
+                before,
+                after,
+                heading,
+            } => (*before as f64 + *after as f64 + 1.0).max(*heading),
+            Self::Line { width, .. } => *width,
+            Self::Lines { .. } => LEAST,
+        }
+    }
+
+    /// What share of the text columns' width it needs, by the square root of the length of its texts.
+    fn weight(&self) -> f64 {
+        match self {
+            Self::Lines { mean } => mean.sqrt(),
+            _ => 0.0,
+        }
+    }
+
+    /// Its letter in the head of the table, where text columns have `share` of a line for each unit of weight.
+    fn alignment(&self, share: f64) -> String {
+        match self {
+            Self::Aligned { before, after, .. } => format!("D{{.}}{{.}}{{{before}.{after}}}"),
+            Self::Line { is_right: true, .. } => "r".to_owned(),
+            Self::Line { .. } => "l".to_owned(),
+            Self::Lines { .. } => format!(
+                ">{{\\raggedright\\arraybackslash}}p{{{:.3}\\linewidth}}",
+                share * self.weight()
+            ),
+        }
+    }
+
+    fn heading(&self, heading: &str) -> String {
+        let (side, longest) = match self {
+            Self::Aligned { before, after, .. } => ('c', (before + after + 1) as f64),
+            Self::Line {
+                is_right: true,
+                width,
+            } => ('r', *width),
+            Self::Line { width, .. } => ('l', *width),
+            Self::Lines { .. } => return latex_text(heading),
+        };
+        let lines: Vec<String> = heading_lines(heading, longest)
+            .iter()
+            .map(|line| latex_text(line))
+            .collect();
+        match &lines[..] {
+            [line] => format!("\\multicolumn{{1}}{{{side}}}{{{line}}}"),
+            lines => format!(
+                "\\multicolumn{{1}}{{{side}}}{{\\shortstack[{side}]{{{}}}}}",
+                lines.join("\\\\")
+            ),
+        }
+    }
+
+    fn cell(&self, cell: &str) -> String {
+        match (self, cell.split_once('e')) {
+            (Self::Aligned { .. }, _) if cell == "-" => "\\multicolumn{1}{c}{--}".to_owned(),
+            (Self::Aligned { .. }, _) if is_formula(cell) => {
+                format!("\\multicolumn{{1}}{{c}}{{{}}}", latex_text(cell))
+            }
+            (Self::Aligned { .. }, Some((digits, exponent))) => {
+                format!("{digits}\\times10^{{{}}}", exponent.trim_start_matches('+'))
+            }
+            (Self::Aligned { .. }, None) => cell.to_owned(),
+            _ => latex_text(cell),
+        }
+    }
+}
+
+/// Digits and signs of a number before and after its point, an exponent with its base as five; `None` for a text.
+fn digits(cell: &str) -> Option<(usize, usize)> {
+    if cell == "-" || cell.is_empty() || is_formula(cell) {
+        return Some((1, 0));
+    }
+    cell.parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite())?;
+    let (number, exponent) = cell.split_once('e').unwrap_or((cell, ""));
+    let (before, after) = number.split_once('.').unwrap_or((number, ""));
+    let exponent = if exponent.is_empty() { 0 } else { 5 };
+    Some((before.len(), after.len() + exponent))
+}
+
+/// Whether all of `cell` is a formula, such as a friction by its name.
+fn is_formula(cell: &str) -> bool {
+    let inside = cell
+        .strip_prefix('$')
+        .and_then(|rest| rest.strip_suffix('$'));
+    inside.is_some_and(|tex| !tex.contains('$'))
+}
+
+/// `heading` broken at spaces into lines that are hardly longer than the cells below it.
+fn heading_lines(heading: &str, longest: f64) -> Vec<String> {
+    let widest = longest.max(9.0);
+    let mut lines: Vec<String> = Vec::new();
+    for word in words(heading) {
+        match lines.last_mut() {
+            Some(line) if width(line) + width(word) < widest => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    if lines.is_empty() {
+        vec![String::new()]
+    } else {
+        lines
+    }
+}
+
+/// The words of a text; a formula is one.
+fn words(text: &str) -> Vec<&str> {
+    let mut inside = false;
+    let words = text.split(move |char: char| {
+        inside ^= char == '$';
+        char == ' ' && !inside
+    });
+    words.collect()
+}
+
+/// Width of `text` in average letters: of a formula without its commands.
+fn width(text: &str) -> f64 {
+    let (mut letters, mut in_math, mut in_command) = (0.0, false, false);
+    for char in text.chars() {
+        in_math ^= char == '$';
+        if in_command && char.is_ascii_alphabetic() {
+            continue;
+        }
+        in_command = in_math && char == '\\';
+        letters += match char {
+            '$' | '`' | '{' | '}' => 0.0,
+            '_' | '^' if in_math => 0.0,
+            _ => 1.0,
+        };
+    }
+    letters
+}
+
+/// The size of letters and the format of the page.
+struct Page {
+    size: &'static str,
+    is_landscape: bool,
+    /// Letters in a line.
+    letters: f64,
+}
+
+impl Page {
+    /// The largest letters with which the columns have their least width.
+    fn of(kinds: &[Kind]) -> Self {
+        let least: f64 = kinds.iter().map(|kind| kind.least() + GAP).sum();
+        let texts = kinds.iter().filter(|kind| kind.weight() > 0.0).count();
+        let comfort = least + 8.0 * texts as f64;
+        let upright = SIZES
+            .iter()
+            .map(|&(size, letters, _)| (size, letters, false));
+        let landscape = SIZES
+            .iter()
+            .map(|&(size, _, letters)| (size, letters, true));
+        let mut pages = upright.chain(landscape);
+        let fitting = pages.find(|(_, letters, _)| comfort <= *letters);
+        let (size, letters, is_landscape) = fitting.unwrap_or(("\\tiny", least.max(182.0), true));
+        Self {
+            size,
+            is_landscape,
+            letters,
+        }
+    }
+
+    /// The share of a line that a text column has for each unit of its weight.
+    fn text_share(&self, kinds: &[Kind]) -> f64 {
+        let fixed = kinds.iter().filter(|kind| kind.weight() == 0.0);
+        let fixed: f64 = fixed.map(Kind::least).sum();
+        let gaps = GAP * kinds.len() as f64;
+        let weights: f64 = kinds.iter().map(Kind::weight).sum();
+        let free = (self.letters - fixed - gaps).max(LEAST) / self.letters;
+        free / weights.max(1.0)
+    }
+
+    /// What stands before and after the table.
+    fn environment(&self) -> (String, &'static str) {
+        let spacing = format!("{}\\setlength{{\\tabcolsep}}{{3pt}}\n", self.size);
+        match self.is_landscape {
+            true => (
+                format!("\\begin{{landscape}}{spacing}"),
+                "\\end{landscape}\n",
+            ),
+            false => (format!("\\begingroup{spacing}"), "\\endgroup\n"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column<'a>(heading: &'a str, numeric: bool, cells: &[&'a str]) -> LatexColumn<'a> {
+        LatexColumn {
+            heading,
+            numeric,
+            cells: cells.to_vec(),
+        }
+    }
+
+    #[test]
+    fn numbers_are_aligned_and_long_texts_have_a_width() {
+        let text = "a statement that is much too long for one line of a column & more";
+        let columns = [
+            column("theory", false, &["z⋆", "rigid"]),
+            column("error", true, &["-1.25e-8", "$\\mu_c$"]),
+            column("statement", false, &[text, "-"]),
+        ];
+        let table = latex("errors", "Errors of $F$.", &columns);
+        assert!(
+            table.contains("{lD{.}{.}{2.7}>{\\raggedright\\arraybackslash}p{0."),
+            "{table}"
+        );
+        assert!(
+            table.contains("\\caption{Errors of $F$.}\\label{tab:errors}"),
+            "{table}"
+        );
+        assert!(
+            table.contains("z$\\star$ & -1.25\\times10^{-8} & a statement"),
+            "{table}"
+        );
+        assert!(
+            table.contains("rigid & \\multicolumn{1}{c}{$\\mu_c$} & -"),
+            "{table}"
+        );
+        assert!(table.contains("column \\& more"), "{table}");
+    }
+
+    #[test]
+    fn a_heading_is_broken_at_spaces_outside_of_formulas() {
+        let lines = heading_lines("F at $\\mu_c / 2$ of all codes", 8.0);
+        assert_eq!(lines, ["F at", "$\\mu_c / 2$", "of all", "codes"]);
+        assert_eq!(width("$\\mu_c$"), 2.0);
+    }
+}

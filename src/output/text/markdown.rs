@@ -1,0 +1,92 @@
+//! Texts in Markdown, their mathematics between dollar signs.
+
+use super::span::{Span, Target, spans};
+use crate::model::{readable, readable_lines};
+
+/// `text` in one cell of a Markdown table, as [`markdown_text`].
+pub(crate) fn markdown_cell(text: &str) -> String {
+    let text = readable_lines(&text.replace('\n', " "));
+    // TeX knows `\|` as another sign, and code ends at no bar in the tables of people who read Markdown.
+    let bar = |part: Span| match part {
+        Span::Math(tex) => format!("${}$", tex.replace('|', "\\vert ")),
+        other => span(other).replace('|', "\\|"),
+    };
+    spans(&text).into_iter().map(bar).collect()
+}
+
+/// `text` in Markdown without HTML in it; parts between backticks stay code, in which nothing needs an escape.
+pub(crate) fn markdown_text(text: &str) -> String {
+    let text = readable_lines(text);
+    spans(&text).into_iter().map(span).collect()
+}
+
+fn span(span: Span) -> String {
+    match span {
+        Span::Plain(text) => without_markup(text),
+        Span::Code(text) => format!("`{text}`"),
+        Span::Math(tex) => format!("${tex}$"),
+        Span::Link { text, target } => match target {
+            Target::ArXiv(_) => format!("[{text}]({target})"),
+            Target::Local(_) => format!("[{}]({target})", without_markup(text)),
+        },
+    }
+}
+
+/// `text` in which no tag, entity, link or picture begins.
+fn without_markup(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for (at, char) in text.char_indices() {
+        let next = text[at + char.len_utf8()..].chars().next();
+        let next = next.unwrap_or(' ');
+        match char {
+            '<' if next.is_ascii_alphabetic() || "/!?".contains(next) => escaped += "&lt;",
+            '&' if next.is_ascii_alphanumeric() || next == '#' => escaped += "&amp;",
+            ']' if "([:".contains(next) => escaped += "\\]",
+            _ => escaped.push(char),
+        }
+    }
+    escaped
+}
+
+/// `text` as code in Markdown, also if it has backticks.
+pub(crate) fn markdown_code(text: &str) -> String {
+    let text = readable(text);
+    let longest = text.split(|char| char != '`').map(str::len).max();
+    match longest.unwrap_or(0) {
+        0 => format!("`{text}`"),
+        longest => {
+            let fence = "`".repeat(longest + 1);
+            format!("{fence} {text} {fence}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_becomes_markup_that_is_none() {
+        for (text, expected) in [
+            ("a < b & c", "a < b & c"),
+            ("<b>x</b> &lt;", "&lt;b>x&lt;/b> &amp;lt;"),
+            ("![x](http://x)", "![x\\](http://x)"),
+            ("`<b>` and `<b>", "`<b>` and `&lt;b>"),
+            ("1\u{202e}2\u{7}", "1\\u{202e}2\\u{7}"),
+        ] {
+            assert_eq!(markdown_text(text), expected);
+        }
+        assert_eq!(markdown_code("a b"), "`a b`");
+        assert_eq!(markdown_code("a `b` <i>"), "`` a `b` <i> ``");
+        assert_eq!(markdown_cell("a|b\n<i>"), "a\\|b &lt;i>");
+    }
+
+    #[test]
+    fn a_bar_ends_no_cell_and_changes_no_formula() {
+        assert_eq!(
+            markdown_cell("$|f_n|$ or `a|b`"),
+            "$\\vert f_n\\vert $ or `a\\|b`"
+        );
+        assert_eq!(markdown_text("$|f_n|$"), "$|f_n|$");
+    }
+}

@@ -1,0 +1,13 @@
+//! Texts of one notation, written as HTML, Markdown and LaTeX.
+//!
+//! In a text `…` between backticks is code, `$…$` is TeX mathematics, `[text](#anchor)` is a link within a page or to a
+//! file beside it, and `arXiv:2511.06807` is a link to that paper. Whatever does not follow the notation is plain text.
+
+mod html;
+mod latex;
+mod markdown;
+mod span;
+
+pub(crate) use html::html_text;
+pub(crate) use latex::latex_text;
+pub(crate) use markdown::{markdown_cell, markdown_code, markdown_text};

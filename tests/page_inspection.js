@@ -10,8 +10,8 @@ addEventListener("load", () => {
     if (!node.data.trim() || parent.closest("script, style, pre#inspection, title, desc")) continue;
     const range = document.createRange();
     range.selectNodeContents(node);
-    // Parts of one label (a subscript) may touch each other.
-    const label = parent.closest("text") || node;
+    // Parts of one label or formula (a subscript) may touch each other.
+    const label = parent.closest("text, math") || node;
     const text = (label.textContent || "").trim();
     if (parent.closest("svg")) {
       const r = (parent.closest("text") || parent).getBoundingClientRect();
@@ -49,8 +49,10 @@ addEventListener("load", () => {
   });
   const fetched = performance.getEntriesByType("resource").map((entry) => entry.name);
   const sideways = document.documentElement.scrollWidth > document.documentElement.clientWidth + 1;
+  const small = boxes.filter(({ svg, r }) => svg && r.height > 0 && r.height < 8).map(({ text }) => text);
+  const shown = [...document.querySelectorAll(".claims li")].filter((item) => item.getBoundingClientRect().height > 0).length;
   const result = document.createElement("pre");
   result.id = "inspection";
-  result.textContent = JSON.stringify({ figures, fetched, overlaps: [...overlaps], cut, sideways });
+  result.textContent = JSON.stringify({ figures, fetched, overlaps: [...overlaps], cut, sideways, small, shown });
   document.body.append(result);
 });

@@ -1,6 +1,10 @@
 //! `tristack report` on a machine without codes, and its page in a real browser.
 
 mod common;
+#[path = "report/numbers.rs"]
+mod numbers;
+#[path = "report/page.rs"]
+mod page;
 
 use common::browser::{browser, inspected, laid_out};
 use common::{Bench, files_below, json, json_rows};

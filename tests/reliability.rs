@@ -42,18 +42,17 @@ fn made(value: &Value) -> String {
 
 const TOP: &str = "# What must not go wrong, and how it was tried
 
-A crosscheck takes hours, on machines where programs are killed, disks fill up and files are damaged. No finished run may
-be lost by that, no wrong verdict get out, nothing be left running or lying about, and going on must give the same
-bytes as if nothing had happened. What is done for it: ARCHITECTURE.md, \"What must not be lost\".
+A crosscheck can take hours, on machines where programs are killed, disks fill up and files are damaged. That must not lose a
+finished run, produce a wrong verdict, or leave processes and files behind, and the continued command must print the same
+bytes as if nothing had happened. What is done for it: [store.md](store.md), and [ARCHITECTURE.md](../ARCHITECTURE.md), \"Nothing finished is lost\".
 
-All figures here are measured. `bash .ci/reliability` measures them again (some hours) and writes this page; a part of
-it, `bash .ci/reliability faults`, `fuzz` or `mutants`, does so for one section. What was found on the way, and why a
-mutant may survive, is written by hand.
+All numbers here are measured. `bash .ci/reliability` measures them again (some hours) and writes this page; `bash .ci/reliability
+faults`, `fuzz` or `mutants` does so for one section. The lists of defects and the reasons why a mutant may survive are
+written by hand.
 
-Known to be left lying about: a YADE that is killed leaves an empty directory `/tmp/yade-…`, whose place is fixed in its
-program; a `simulate` without `--out`, or a program with a store that can only be read, leaves, if it is killed, its directory
-for temporary files, `/tmp/tristack-…`. What `bench`, `check`, `judge` and questions to programs leave is removed by the next
-program that needs such a directory.
+Known to be left behind: a YADE that is killed leaves an empty directory `/tmp/yade-…`, whose place is fixed in its program. A
+tristack that is killed leaves its temporary directory `/tmp/tristack-…` if it was a `simulate` without `--out` or had a store that can
+only be read. What `bench`, `check`, `judge` and requests for a version leave is removed by the next tristack that needs such a directory.
 ";
 
 fn faults_section(page: &mut String, faults: &Value) {
@@ -68,25 +67,24 @@ fn faults_section(page: &mut String, faults: &Value) {
 
 {rounds} rounds with {} faults at random moments (seed {}), complaints: {complaints}. Each round sets up a sweep of ten
 runs, by a code that replays recorded runs or, in {live} of them, by native, LIGGGHTS, YADE or LAMMPS, lets the fault
-strike, and then looks
+strike, and then checks
 
-* at the rows that were printed: each is the undisturbed one, byte by byte, or no agreement;
-* for processes: nothing that was told of the place still runs;
-* at the store: every run that was said to be finished is there, and every file has its digest;
-* at the same command once more: it prints the undisturbed bytes, and makes no finished run again;
-* for temporary files, open sessions and run directories: nothing but what failed runs have to show.
+* the printed rows: each is the undisturbed one, byte by byte, or does not agree;
+* processes: none that worked in the store or its runs is still running;
+* the store: every run that was reported as finished is there, and every file has its digest;
+* the same command once more: it prints the undisturbed bytes, and makes no finished run again;
+* temporary files, open sessions and run directories: only the evidence of failed runs is left.
 
-{finished} runs were finished when the fault struck or in spite of it, {after} had to be made after it. What disturbs a
-code must get no agreement, and what is harmless (a daemon, ten gigabytes of output, a jump of the clock, a second
+{finished} runs were finished when the fault struck or in spite of it, {after} had to be made after it. A disturbed
+code must not agree, and what is harmless (a daemon, ten gigabytes of output, a jump of the clock, a second
 program) must change nothing.
 
-The rounds with a *folder* are others: the folder of a code, as somebody writes it for `--codes ./mydem`, hangs, writes beside its
-run directory and into its home, floods, leaves processes behind, or calls itself by another version at each question, while
-its version, a micro-test or a stack is asked for by a `crosscheck`, `check`, `probe` or `simulate`; or what it left in a plan
-is a named pipe, a link, the result of another run, or far too long, when `judge` reads it. Then no row may agree but the undisturbed one;
-what cannot be overlooked is told with the name of the folder; no process is left; nothing outside of the store is touched or
-new, but the directory of a run that failed; and the same command gives the undisturbed result once the folder behaves. Not
-prevented, and not tried: a program may write wherever its user may, by a path from the root of the file system.
+The rounds with a *folder* test the folder of a code, as a user writes it for `--codes ./mydem`. While `crosscheck`, `check`, `probe` or
+`simulate` asks it for its version, a micro-test or a stack, it hangs, writes beside its run directory and into its home, floods, leaves processes
+behind, or gives another version each time; or its results in a plan are a named pipe, a link, the result of another run, or far too
+long when `judge` reads them. Then only the undisturbed row may agree, the message names the folder, no process is left,
+nothing outside of the store is touched or new except the directory of a failed run, and the same command gives the undisturbed
+result once the folder behaves. Not prevented, and not tried: a program may write wherever its user may, by an absolute path.
 
 | what goes wrong | fault | rounds | not replayed | struck in time | finished in spite of it | made after it | complaints | measured |
 |---|---|---|---|---|---|---|---|---|
@@ -126,14 +124,14 @@ fn lies_section(page: &mut String, lies: &Value) {
 {} rounds of engines that are honest in the probe and otherwise in the stack, or that write other numbers than they computed
 (`tests/lies/`): one alteration of a random kind and size, under the convention of native, LIGGGHTS, YADE or LAMMPS. None that
 moves the yield force by more than 1.2 times the tolerance of its row agreed, and each check was the only one to notice some.
-By how much an alteration moves the yield force, the theory says.
+Theory gives how much an alteration moves the yield force.
 
 The table has the resolution of the harness, for native at three stacks ({}): the smallest size, of six a decade, from which
-on neither sign agrees, and by how much of F + 3 the yield force is moved there, beside the tolerance of the row. Sizes are
-relative; of arms absolute; of cylinder friction relative to b/a at the yield; of offsets and positions in units of the load. What
-moves the yield force not at all may pass: that is no lie about it. A smallest size that moves the force by more than
-the tolerance needs a word, and there is one: *static friction*, which falls as soon as the floor slides, leaves no trace in rows
-that are wider apart than the fall takes, and passes until it delays the slip by a row.
+on neither sign agrees, and how much of F + 3 it moves the yield force, beside the tolerance of the row. Sizes are
+relative, except that those of arms are absolute, those of cylinder friction relative to b/a at the yield, and those of offsets and positions in units of the
+load. An alteration that does not move the yield force may pass: it is no lie about it. One alteration passes although it moves the force by more than
+the tolerance: a *static friction* that falls as soon as the floor slides leaves no trace in rows that are further apart than the
+fall takes, and passes until it delays the slip by a row.
 
 | altered | mu, stiffness | smallest size that is seen | moves F by, of F + 3 | tolerance |
 |---|---|---|---|---|
@@ -168,8 +166,8 @@ fn fuzz_section(page: &mut String, fuzz: &Value) {
         "
 ## Hostile input
 
-{} executions of {} targets (`{}`; {}; sanitizer {}): no panic, no input that takes more of the processor than is allowed, at most 2 GiB. What
-must hold of each parser stands in `tests/soundness/`, and proptest tries it in every run of the tests.
+{} executions of {} targets (`{}`; {}; sanitizer {}): no panic, no input that takes longer than is allowed, at most 2 GiB. What
+must hold of each parser is in `tests/soundness/`, and proptest tries it in every run of the tests.
 
 | target | what it reads | executions | seconds | allowed for one input, s | peak memory, MiB | measured |
 |---|---|---|---|---|---|---|
@@ -221,7 +219,7 @@ fn mutants_section(page: &mut String, mutants: &Value) {
 ## Mutants
 
 {} one-line changes of theory, contact law, extrapolation and verdict ({}; `{}`, cargo-mutants {}); {} survive the tests,
-each for a reason that is written down below. An unviable mutant does not compile; one that does not end is caught.
+each for a reason that is given below. An unviable mutant does not compile; one that does not end counts as caught.
 
 | area | mutants | caught | never end | unviable | survive | commit |
 |---|---|---|---|---|---|---|

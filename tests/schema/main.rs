@@ -238,6 +238,17 @@ fn cases_fit_theirs_whether_whole_or_partial() {
     ] {
         fits(&schema, &value(text));
     }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/cases");
+    for entry in std::fs::read_dir(folder).expect("the folder").flatten() {
+        if entry
+            .path()
+            .extension()
+            .is_some_and(|ending| ending == "toml")
+        {
+            let text = std::fs::read_to_string(entry.path()).expect("a case");
+            fits(&schema, &value(&text));
+        }
+    }
     for (text, part) in [
         ("[stack]\nstiffness = 100.0", "stack"),
         ("[stack]\nmu = 0.3\nmud = 0.3", "mud"),

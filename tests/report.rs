@@ -1,6 +1,8 @@
 //! `tristack report` on a machine without codes, and its page in a real browser.
 
 mod common;
+#[path = "report/numbers.rs"]
+mod numbers;
 #[path = "report/page.rs"]
 mod page;
 

@@ -37,7 +37,9 @@ fn running_text(page: &str) -> String {
         inside = char == '<' || inside && char != '>';
         !inside && char != '>'
     });
-    text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
+    text.replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&")
 }
 
 #[test]
@@ -63,19 +65,34 @@ fn every_link_leads_somewhere() {
 fn every_claim_figure_table_and_equation_has_an_anchor_and_a_number() {
     let page = file("report.html");
     let anchors: BTreeSet<&str> = attributes(&page, "id").into_iter().collect();
-    let count = |kind: &str| anchors.iter().filter(|anchor| anchor.starts_with(kind)).count();
+    let count = |kind: &str| {
+        anchors
+            .iter()
+            .filter(|anchor| anchor.starts_with(kind))
+            .count()
+    };
     let claims = super::json_rows(&file("claims.json")).len();
     assert_eq!(count("claim-"), claims);
-    assert_eq!(count("equation-"), 52, "17 of the text, 12 of the End Matter, 23 of the supplement");
+    assert_eq!(
+        count("equation-"),
+        52,
+        "17 of the text, 12 of the End Matter, 23 of the supplement"
+    );
     let pictures = super::files_below(&report().0.path("report/figures")).len() / 2;
     assert_eq!(count("figure-"), pictures);
     for number in 1..=pictures {
-        assert!(page.contains(&format!("<b>Figure {number}.</b>")), "figure {number}");
+        assert!(
+            page.contains(&format!("<b>Figure {number}.</b>")),
+            "figure {number}"
+        );
     }
     let tables = super::files_below(&report().0.path("report/tables")).len() / 2;
     assert_eq!(count("table-"), tables);
     for number in 1..=tables {
-        assert!(page.contains(&format!("<b>Table {number}.</b>")), "table {number}");
+        assert!(
+            page.contains(&format!("<b>Table {number}.</b>")),
+            "table {number}"
+        );
     }
     let errata = count("erratum-");
     assert!(errata > 0);
@@ -87,10 +104,15 @@ fn running_text_has_mathematics_in_place_of_its_source() {
     for name in ["report.html", "gallery.html"] {
         let text = running_text(&file(name));
         for relic in [
-            "$", "mu_c", "mu_d", "sqrt", "epsilon", "Theta(", "k_n", "kₙ", "z_star", ">~", "+-", "\\",
+            "$", "mu_c", "mu_d", "sqrt", "epsilon", "Theta(", "k_n", "kₙ", "z_star", ">~", "+-",
+            "\\",
         ] {
             let found = text.find(relic).map(|at| {
-                let start = text[..at].char_indices().rev().nth(60).map_or(0, |(at, _)| at);
+                let start = text[..at]
+                    .char_indices()
+                    .rev()
+                    .nth(60)
+                    .map_or(0, |(at, _)| at);
                 text[start..].chars().take(140).collect::<String>()
             });
             assert_eq!(found, None, "{relic} in the text of {name}");
@@ -110,7 +132,10 @@ fn every_row_of_a_markdown_table_has_the_cells_of_its_head() {
             (false, _) => head = None,
         }
     }
-    assert!(page.matches("\n|--").count() > 10 || page.contains("\n|-"), "there are tables");
+    assert!(
+        page.matches("\n|--").count() > 10 || page.contains("\n|-"),
+        "there are tables"
+    );
 }
 
 #[test]
@@ -129,7 +154,9 @@ fn claims_that_do_not_hold_come_first_and_can_be_shown_alone() {
             &format!("id=\"show-{verdict}\" checked"),
         );
         let only = only.replace("id=\"show-all\" checked", "id=\"show-all\"");
-        let Some(found) = inspected(&only, 1400) else { return };
+        let Some(found) = inspected(&only, 1400) else {
+            return;
+        };
         let own = order.iter().filter(|one| **one == verdict).count();
         assert_eq!(found["shown"], own, "{verdict}");
     }
@@ -155,8 +182,16 @@ fn the_printed_report_has_less_than_twenty_pages() {
     let (page, pdf) = (bench.path("page.html"), bench.path("page.pdf"));
     std::fs::write(&page, file("report.html")).expect("a page");
     let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer"])
-        .arg(format!("--user-data-dir={}", bench.path("profile").display()))
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-pdf-header-footer",
+        ])
+        .arg(format!(
+            "--user-data-dir={}",
+            bench.path("profile").display()
+        ))
         .arg(format!("--print-to-pdf={}", pdf.display()))
         .arg(format!("file://{}", page.display()))
         .output()
@@ -178,14 +213,22 @@ fn the_last_lines_say_why_the_exit_status_is_what_it_is() {
     let rows = csv::Reader::from_reader(claims.as_bytes())
         .deserialize()
         .map(|row| row.expect("a row"))
-        .map(|row: std::collections::HashMap<String, String>| -> [usize; 2] {
-            ["rows", "agreeing"].map(|column| row[column].parse().expect("a count"))
-        })
+        .map(
+            |row: std::collections::HashMap<String, String>| -> [usize; 2] {
+                ["rows", "agreeing"].map(|column| row[column].parse().expect("a count"))
+            },
+        )
         .fold([0, 0], |[rows, agreeing], [own, own_agreeing]| {
             [rows + own, agreeing + own_agreeing]
         });
-    assert!(reasons.contains(&format!(" of {} rows", rows[0])), "{reasons}");
-    let named = reasons.lines().filter(|line| line.contains(": inconclusive")).count();
+    assert!(
+        reasons.contains(&format!(" of {} rows", rows[0])),
+        "{reasons}"
+    );
+    let named = reasons
+        .lines()
+        .filter(|line| line.contains(": inconclusive"))
+        .count();
     assert_eq!(named > 0, status == 4, "{reasons}");
     assert!(laid(&message, reasons), "{message}");
 }
@@ -203,7 +246,11 @@ fn latex_compiles_every_table_without_a_line_that_is_too_long() {
     // Longtables find their widths in a second and third run.
     for _ in 0..3 {
         let output = Command::new(&compiler)
-            .args(["-interaction=nonstopmode", "-halt-on-error", "-output-directory"])
+            .args([
+                "-interaction=nonstopmode",
+                "-halt-on-error",
+                "-output-directory",
+            ])
             .arg(bench.path(""))
             .arg("all.tex")
             .current_dir(&tables)
@@ -211,7 +258,11 @@ fn latex_compiles_every_table_without_a_line_that_is_too_long() {
             .expect("LaTeX starts");
         let log = String::from_utf8_lossy(&output.stdout).into_owned();
         let end = log.len().saturating_sub(3000);
-        assert!(output.status.success(), "{}", &log[log.ceil_char_boundary(end)..]);
+        assert!(
+            output.status.success(),
+            "{}",
+            &log[log.ceil_char_boundary(end)..]
+        );
     }
     let log = std::fs::read(bench.path("all.log")).expect("a log");
     let log = String::from_utf8_lossy(&log);
@@ -248,11 +299,21 @@ fn a_dark_page_is_dark_and_its_figures_stay_on_paper() {
     let page = file("report.html").replace("</body>", probe);
     let dark = page.replace("(prefers-color-scheme: dark)", "(min-width: 1px)");
     for (page, expected) in [
-        (&page, "rgb(255, 255, 255) / rgb(26, 26, 26) / rgb(255, 255, 255)"),
-        (&dark, "rgb(23, 24, 26) / rgb(230, 230, 227) / rgb(255, 255, 255)"),
+        (
+            &page,
+            "rgb(255, 255, 255) / rgb(26, 26, 26) / rgb(255, 255, 255)",
+        ),
+        (
+            &dark,
+            "rgb(23, 24, 26) / rgb(230, 230, 227) / rgb(255, 255, 255)",
+        ),
     ] {
         let output = laid_out(&browser, &bench, page, 1400);
         let dom = String::from_utf8_lossy(&output.stdout);
-        assert!(dom.contains(expected), "{:?}", dom.split("id=\"colours\">").nth(1));
+        assert!(
+            dom.contains(expected),
+            "{:?}",
+            dom.split("id=\"colours\">").nth(1)
+        );
     }
 }

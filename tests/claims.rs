@@ -97,16 +97,140 @@ fn every_erratum_holds_and_is_needed() {
         else {
             continue;
         };
-        assert_eq!(row.erratum.as_ref(), Some(&erratum.text), "{}", claim.id);
+        let paper = erratum.apply(&printed).expect("known constants");
+        assert_eq!(row.erratum, erratum.words(&paper), "{}", claim.id);
+        assert!(row.erratum.is_some(), "{}", claim.id);
         let corrected = judge(
             &Register {
                 claims: vec![claim.clone()],
             },
-            &erratum.apply(&printed).expect("known constants"),
+            &paper,
             None,
         );
         assert_eq!(corrected[0].verdict, ClaimVerdict::Holds, "{}", claim.id);
         assert_eq!(corrected[0].erratum, None, "{}", claim.id);
+    }
+}
+
+/// The parts of `text` in front of, between and after `mark`, those between at odd indices.
+fn split<'a>(text: &'a str, mark: char, defects: &mut Vec<String>) -> Vec<&'a str> {
+    let parts: Vec<&str> = text.split(mark).collect();
+    if parts.len() % 2 == 0 {
+        defects.push(format!("a {mark} without its pair"));
+    }
+    parts
+}
+
+/// The defects of a formula between the characters `before` and `after` it.
+fn defects_of_formula(formula: &str, before: Option<char>, after: Option<char>) -> Vec<String> {
+    let mut defects = Vec::new();
+    if formula.is_empty() || formula.trim() != formula {
+        defects.push(format!("spaces at the ends of ${formula}$"));
+    }
+    // Markdown would take such dollar signs for prices.
+    let touched = [before, after].into_iter().flatten();
+    if touched.into_iter().any(char::is_alphanumeric) {
+        defects.push(format!("a word touches ${formula}$"));
+    }
+    if formula.matches('{').count() != formula.matches('}').count() {
+        defects.push(format!("a brace without its pair in ${formula}$"));
+    }
+    let characters = formula.chars().zip(formula.chars().skip(1));
+    let escaped = |(first, second): (char, char)| first == '\\' && second.is_ascii_punctuation();
+    if characters.into_iter().any(escaped) || formula.contains('|') {
+        defects.push(format!("what Markdown takes for its own in ${formula}$"));
+    }
+    defects
+}
+
+/// Names of symbols, which stand in formulas alone.
+const SYMBOLS: &str = "mu mu_c epsilon kappa alpha beta delta eta theta omega rho pi sqrt sqrt3 ln infty mg \
+                       Phi Theta Delta D E F T b c d e f h k l m n r t u v w x y z";
+
+/// What words outside formulas and code have of formulas.
+fn relics(prose: &str) -> Vec<String> {
+    let signs = prose.matches([
+        '_', '^', '<', '>', '=', '|', '\\', '[', '@', '±', '→', '≥', '≤',
+    ]);
+    let ends = |character: char| character.is_ascii_punctuation();
+    let words = prose.split_whitespace().map(|word| word.trim_matches(ends));
+    let is_symbol = |word: &str| SYMBOLS.split_whitespace().any(|symbol| symbol == word);
+    let is_scientific = |word: &str| word.contains('e') && word.parse::<f64>().is_ok();
+    let words = words.filter(|word| is_symbol(word) || is_scientific(word));
+    signs.chain(words).map(str::to_owned).collect()
+}
+
+/// What is wrong with the notation of a text: formulas stand between dollar signs, and nowhere else.
+fn defects(text: &str) -> Vec<String> {
+    let mut defects = Vec::new();
+    let parts = split(text, '$', &mut defects);
+    for (index, part) in parts.iter().enumerate() {
+        if index % 2 == 0 {
+            let uncoded = split(part, '`', &mut defects);
+            let prose: Vec<&str> = uncoded.into_iter().step_by(2).collect();
+            let found = relics(&prose.join(" "));
+            defects.extend(found.into_iter().map(|relic| format!("{relic} is no word")));
+        } else {
+            let before = parts[index - 1].chars().next_back();
+            let after = parts.get(index + 1).and_then(|next| next.chars().next());
+            defects.extend(defects_of_formula(part, before, after));
+        }
+    }
+    defects
+}
+
+/// Every text of the rows has its formulas in TeX, and no other.
+fn assert_notation(rows: &[ClaimJudgement]) {
+    for row in rows {
+        let claim = &row.claim;
+        let texts = [&claim.place, &claim.statement, &row.evidence].into_iter();
+        for text in texts.chain(&row.erratum).chain(&claim.untestable) {
+            let defects = defects(text);
+            assert!(defects.is_empty(), "{}: {defects:?} in: {text}", claim.id);
+        }
+    }
+}
+
+#[test]
+fn formulas_stand_between_dollar_signs_and_nowhere_else() {
+    assert_notation(&judge(&register(), &PaperTheory::printed(), None));
+    let sound = r"at $\mu_c$ (`mu_c`), $\epsilon = 10^{-6}$: Fig. 2(b), 3 g, a wall's $+0.5$ %";
+    assert_eq!(defects(sound), Vec::<String>::new());
+    let wrong = [
+        "at $\\mu",
+        "mu = 0.2",
+        "up to 1e-9",
+        "kappa, r and k_n",
+        "z >= 3",
+        "5 +- 1 at [0.28]",
+        "sqrt3 r",
+        "kg/m$^3$",
+        "$ z $",
+        "$z$s",
+        r"$\frac{1{2}$",
+        r"$50\%$",
+        "$|z|$",
+    ];
+    for text in wrong {
+        assert!(!defects(text).is_empty(), "{text}");
+    }
+}
+
+/// They come from the constants with which the check holds, or from the paper's other constants.
+#[test]
+fn no_measured_number_is_typed_into_an_erratum() {
+    for claim in register().claims {
+        let Some(erratum) = claim.erratum else {
+            continue;
+        };
+        let typed: String = erratum.text.split('@').step_by(2).collect();
+        let decimals =
+            typed.split(|character: char| !character.is_ascii_digit() && character != '.');
+        let decimals: Vec<&str> = decimals
+            .filter(|number| number.trim_matches('.').contains('.'))
+            .collect();
+        assert!(decimals.is_empty(), "{}: {decimals:?}", claim.id);
+        assert!(!typed.contains('%'), "{}: {typed}", claim.id);
     }
 }
 
@@ -292,6 +416,7 @@ fn verdicts_on_the_simulations() {
         .filter(|row| untested.contains(&row.claim.id))
         .collect();
     assert_snapshot!(table(&on_runs));
+    assert_notation(&on_runs);
     a_wrong_constant_is_noticed(&register, &runs);
 }
 

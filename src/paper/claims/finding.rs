@@ -1,5 +1,7 @@
 //! The finding of a check, and the one rule that derives a verdict from it.
 
+use super::notation::size;
+
 /// Deviation below which two formulas count as the same. The states at which they are evaluated are known to
 /// some 1e-11.
 pub(crate) const ROUND_OFF: f64 = 1e-8;
@@ -103,20 +105,6 @@ pub(crate) fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
 /// 0 where a condition holds, 1 where it does not.
 pub(crate) fn violation(holds: bool) -> f64 {
     if holds { 0.0 } else { 1.0 }
-}
-
-/// The items, separated by commas.
-pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
-    items.into_iter().collect::<Vec<_>>().join(", ")
-}
-
-/// A deviation in words. Round-off is not spelled out, because its digits differ between machines.
-pub(crate) fn size(deviation: f64, bound: f64) -> String {
-    if deviation <= bound {
-        format!("below {bound:.0e}")
-    } else {
-        format!("{deviation:.2e}")
-    }
 }
 
 /// Distance of a sum from zero, relative to its largest term.

@@ -69,6 +69,8 @@ fn erratum(
     if verdict != ClaimVerdict::Fails && verdict != ClaimVerdict::Approximately {
         return None;
     }
-    let corrected = examine(claim, &erratum.apply(paper)?, runs).ok()?;
-    (corrected.verdict(None) == ClaimVerdict::Holds).then(|| erratum.text.clone())
+    let corrected = erratum.apply(paper)?;
+    let finding = examine(claim, &corrected, runs).ok()?;
+    let holds = finding.verdict(None) == ClaimVerdict::Holds;
+    holds.then(|| erratum.words(&corrected)).flatten()
 }

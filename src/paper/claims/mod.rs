@@ -4,11 +4,14 @@
 //! the paper as it stands, misprints included: its formulas, with constants that can be changed. `truth` derives
 //! the same quantities anew, `checks` compare the two (and runs, for the paper's simulations), and `finding`
 //! derives a verdict from the deviation. A misprint becomes an erratum only if the same check holds with the
-//! constants of the corrected form.
+//! constants of the corrected form. All texts have their formulas in TeX between dollar signs; `notation` writes
+//! numbers and lists so.
 
 mod checks;
 mod finding;
 mod judgement;
+mod multiplied_out;
+mod notation;
 mod printed;
 mod register;
 mod truth;

@@ -2,6 +2,7 @@
 //! test them. It holds no verdicts.
 
 use super::checks;
+use super::notation::number;
 use super::printed::PaperTheory;
 use crate::model::InvalidValue;
 use serde::{Deserialize, Serialize};
@@ -27,7 +28,7 @@ pub enum ClaimKind {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Erratum {
-    /// The corrected form.
+    /// The corrected form; `@name@` stands for the value of a constant of the corrected paper.
     pub text: String,
     /// The constants of [`PaperTheory`] with which the check must hold.
     pub set: BTreeMap<String, f64>,
@@ -39,6 +40,30 @@ impl Erratum {
         let mut set = self.set.iter();
         set.try_fold(paper.clone(), |paper, (name, &value)| {
             paper.with(name, value)
+        })
+    }
+
+    /// The corrected form with the constants of the `corrected` paper in place; `None` if it has no constant of a
+    /// name.
+    pub fn words(&self, corrected: &PaperTheory) -> Option<String> {
+        let parts = self.text.split('@').enumerate();
+        let words = parts.map(|(index, part)| match index % 2 {
+            0 => Some(part.to_owned()),
+            _ => corrected.constant(part).map(number),
+        });
+        words.collect()
+    }
+
+    fn validate_text(&self) -> Result<(), InvalidValue> {
+        let accepted = || format!("text with placeholders @name@ of {}", a_constant());
+        if self.text.matches('@').count() % 2 == 1 {
+            return Err(invalid("erratum.text", &self.text, accepted()));
+        }
+        let mut names = self.text.split('@').skip(1).step_by(2);
+        let unknown = names.find(|name| !PaperTheory::NAMES.contains(name));
+        unknown.map_or(Ok(()), |name| {
+            let placeholder = format!("@{name}@");
+            Err(invalid("erratum.text", placeholder, accepted()))
         })
     }
 }
@@ -96,6 +121,11 @@ fn invalid(key: &str, value: impl ToString, accepted: impl Into<String>) -> Inva
         value: value.to_string(),
         accepted: accepted.into(),
     }
+}
+
+/// The names of constants that are accepted.
+fn a_constant() -> String {
+    format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "))
 }
 
 impl Register {
@@ -159,12 +189,10 @@ impl Claim {
                 return Err(invalid(&key, value, "a finite number"));
             }
             if !PaperTheory::NAMES.contains(&name.as_str()) {
-                let names = PaperTheory::NAMES.join(", ");
-                let accepted = format!("a constant of the paper: {names}");
-                return Err(invalid("erratum.set", name, accepted));
+                return Err(invalid("erratum.set", name, a_constant()));
             }
         }
-        Ok(())
+        erratum.validate_text()
     }
 }
 
@@ -193,5 +221,31 @@ mod tests {
         let message =
             error("check = 'quintic'\n[claim.erratum]\ntext = 't'\nset = { nothing = 1 }");
         assert!(message.contains("`erratum.set` is nothing"), "{message}");
+    }
+
+    #[test]
+    fn placeholders_of_an_erratum_are_constants_of_the_paper() {
+        let erratum = |text: &str| {
+            format!(
+                "check = 'quintic'\n[claim.erratum]\ntext = '{text}'\nset = {{ restitution = 1 }}"
+            )
+        };
+        let message = error(&erratum("$@nothing@$"));
+        let expected = "my.toml: claim `a`: `erratum.text` is @nothing@, but must be text with placeholders \
+                        @name@ of a constant of the paper: mass_factor, ";
+        assert!(message.starts_with(expected), "{message}");
+        let message = error(&erratum("$@restitution$"));
+        assert!(message.contains("`erratum.text` is $@restitution$, but must be text with"));
+    }
+
+    #[test]
+    fn words_of_an_erratum_hold_the_constants_of_the_corrected_paper() {
+        let erratum = Erratum {
+            text: r"$v = @compression_speed@$ and $e_r = @restitution@$".to_owned(),
+            set: BTreeMap::from([("compression_speed".to_owned(), 1e-7)]),
+        };
+        let corrected = erratum.apply(&PaperTheory::printed()).unwrap();
+        let words = erratum.words(&corrected).unwrap();
+        assert_eq!(words, "$v = 10^{-7}$ and $e_r = 0.7$");
     }
 }

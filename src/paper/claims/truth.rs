@@ -3,6 +3,7 @@
 //! Lengths, stiffnesses and weights keep their dimensions here, so that a missing factor r shows.
 
 use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{closed_form_limit, elastic_root};
 use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
 use std::sync::LazyLock;
@@ -11,6 +12,19 @@ use std::sync::LazyLock;
 pub(crate) const RADIUS: f64 = 1.7;
 /// A normal stiffness that is not 1.
 pub(crate) const NORMAL_STIFFNESS: f64 = 2.3;
+/// Frictions of the yield states: below, at and above the critical one.
+pub(crate) const FRICTIONS: [f64; 10] = [
+    0.1,
+    0.15,
+    0.2,
+    0.25,
+    CRITICAL_FRICTION,
+    0.28,
+    0.3,
+    0.4,
+    0.5,
+    0.7,
+];
 /// Stiffness ratios κ: the paper's, a smaller and a larger one.
 pub(crate) const RATIOS: [f64; 3] = [1.0, 2.5, 10.0];
 
@@ -252,12 +266,10 @@ pub(crate) fn yield_states() -> &'static [YieldState] {
 }
 
 fn solve_everywhere() -> Vec<YieldState> {
-    let below = [0.1, 0.15, 0.2, 0.25];
-    let above = [0.28, 0.3, 0.4, 0.5, 0.7];
     let mut states = Vec::new();
-    for friction in below.into_iter().chain([CRITICAL_FRICTION]).chain(above) {
-        for (epsilon, ratio) in pairs([1e-2, 1e-3, 1e-4], RATIOS) {
-            states.extend(YieldState::solve(friction, ratio, epsilon));
+    for friction in FRICTIONS {
+        for (stiffness, ratio) in pairs(PAPER_STIFFNESSES, RATIOS) {
+            states.extend(YieldState::solve(friction, ratio, 1.0 / stiffness));
         }
     }
     states
@@ -293,7 +305,7 @@ pub(crate) fn yield_force(stack: &Stack) -> f64 {
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
 pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
-        let stacks = [1e2, 1e3, 1e4].into_iter().flat_map(|stiffness| {
+        let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
             (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
         });
         let with_load = |stack: Stack| Some((stack, closed_form_limit(&stack).yield_force? + 3.0));
@@ -315,51 +327,6 @@ pub(crate) fn arbitrary_displacements() -> impl Iterator<Item = Displacements> {
     })
 }
 
-/// The elastic equation multiplied out, with r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.
-///
-/// Follows from T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
-/// G = (T² + 2√3 T − 1)/(T (1 + T²)(1 + κ(1 + T²))) (docs/theory.md, Eqs. 12, 14 and 67).
-pub(crate) fn multiplied_out(friction: f64, ratio: f64) -> [[f64; 6]; 6] {
-    let rest: Polynomial = vec![(1, 0, 1.0), (0, 1, -1.0)];
-    let slip: Polynomial = vec![(1, 0, friction)];
-    let square = product(&rest, &rest);
-    let slip_square = product(&slip, &slip);
-    let length = sum(&square, &slip_square);
-    let compliance = sum(&square, &scaled(&length, ratio));
-    let mixed = scaled(&product(&slip, &rest), 2.0 * 3f64.sqrt());
-    let numerator = sum(&sum(&slip_square, &mixed), &scaled(&square, -1.0));
-    // (z − ε) T (1 + T²)(1 + κ(1 + T²)) = T² + 2√3 T − 1, times (z − ε)⁴.
-    let left = product(&product(&slip, &length), &compliance);
-    let all = sum(&left, &scaled(&product(&numerator, &square), -1.0));
-    let mut table = [[0.0; 6]; 6];
-    for (z_power, epsilon_power, coefficient) in all {
-        table[z_power][epsilon_power] += coefficient;
-    }
-    let leading = table[5][0];
-    table.map(|row| row.map(|coefficient| coefficient / leading))
-}
-
-/// Terms ε^j z^k as tuples of k, j and coefficient.
-type Polynomial = Vec<(usize, usize, f64)>;
-
-fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
-    let pairs = left.iter().flat_map(|l| right.iter().map(move |r| (l, r)));
-    pairs
-        .map(|(l, r)| (l.0 + r.0, l.1 + r.1, l.2 * r.2))
-        .collect()
-}
-
-fn sum(left: &Polynomial, right: &Polynomial) -> Polynomial {
-    left.iter().chain(right).copied().collect()
-}
-
-fn scaled(polynomial: &Polynomial, factor: f64) -> Polynomial {
-    polynomial
-        .iter()
-        .map(|&(k, j, value)| (k, j, factor * value))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -373,20 +340,6 @@ mod tests {
             let root = elastic_root(&stack).unwrap();
             assert!((state.z() / RADIUS - root.z).abs() < 1e-10 * root.z);
             assert!((state.y() / RADIUS - root.y).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn multiplied_out_vanishes_at_the_root() {
-        for (friction, ratio, epsilon) in [(0.2, 2.5, 1e-2), (0.4, 1.0, 1e-3)] {
-            let state = YieldState::solve(friction, ratio, epsilon).unwrap();
-            let z = state.z() / RADIUS;
-            let table = multiplied_out(friction, ratio);
-            let terms: Vec<f64> = (0..6)
-                .flat_map(|k| (0..6).map(move |j| (k, j)))
-                .map(|(k, j)| table[k][j] * z.powi(k as i32) * epsilon.powi(j as i32))
-                .collect();
-            assert!(crate::paper::claims::finding::imbalance(&terms) < 1e-11);
         }
     }
 }

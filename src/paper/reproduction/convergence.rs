@@ -9,7 +9,7 @@ use crate::study::yield_force::PAPER_TIME_STEP;
 use crate::theory::quasistatic_limit;
 
 /// Wall speeds at the paper's time step. The native DEM alone runs the slowest.
-const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
+pub(crate) const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 /// Time steps at [`FAST_WALL`]. The native DEM alone runs the smallest.
 const TIME_STEPS: [f64; 6] = [1e-1, 5e-2, 1e-2, 5e-3, 1e-3, 1e-4];
 /// Wall speed at which the paper varies the time step.

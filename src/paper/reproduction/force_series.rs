@@ -50,12 +50,17 @@ impl Reading for ForceRows {
     }
 }
 
+/// The stack of the paper's figure on f(t).
+pub(crate) fn force_series_stack() -> Stack {
+    Stack::paper(0.2, 100.0)
+}
+
 /// Runs the native DEM at the paper's settings; also returns the summary.
 ///
 /// # Errors
 /// If the run fails.
 pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), RunError> {
-    let stack = Stack::paper(0.2, 100.0);
+    let stack = force_series_stack();
     let case = case_at_speed(Code::NATIVE, stack, PAPER_WALL_SPEED, PAPER_TIME_STEP);
     let workload = Workload {
         code: Code::NATIVE,

@@ -9,9 +9,10 @@ mod snapshots;
 mod spheres;
 
 pub use convergence::{Convergence, ConvergencePoint, converge};
-pub(crate) use convergence::{FAST_WALL, convergence_stack, convergence_workloads};
+pub(crate) use convergence::{FAST_WALL, WALL_SPEEDS, convergence_stack, convergence_workloads};
 pub(crate) use curves::codes_by_arms;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
+pub(crate) use force_series::force_series_stack;
 pub use force_series::{ForceSeries, force_series};
 pub use laws::Laws;
 pub use scaling::{Exponent, exponents, scaling_measurements};

@@ -2,19 +2,21 @@
 
 use super::Check;
 use crate::paper::claims::finding::{Finding, relative, worst};
+use crate::paper::claims::notation::{FRICTION, RATIO, STIFFNESS, number, range, values};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{
-    Displacements, Forces, NORMAL_STIFFNESS, RADIUS, YieldState, yield_states,
+    Displacements, FRICTIONS, Forces, NORMAL_STIFFNESS, RADIUS, RATIOS, YieldState, yield_states,
 };
+use crate::study::yield_force::PAPER_STIFFNESSES;
 
 pub(crate) const CHECKS: &[Check] = &[
     // Newton's method finds isolated solutions, because the Jacobian of the five equations is regular.
     Check::theory("five-unknowns", |_| {
-        let expected = 90;
+        let expected = FRICTIONS.len() * PAPER_STIFFNESSES.len() * RATIOS.len();
         let found = yield_states().len();
         let evidence = format!(
-            "Newton's method on the five equations (three balances of cylinder 2, one of cylinder 1, e = mu d) in \
-             delta_11, delta_21, delta_22, theta and f, with a regular Jacobian, has converged for {found} of {expected} stacks"
+            "Newton's method on the five equations (three balances of cylinder 2, one of cylinder 1, \
+             $e = \\mu d$) in {UNKNOWNS}, with a regular Jacobian, has converged for {found} of {expected} stacks"
         );
         Finding::exceptions(expected - found, evidence)
     }),
@@ -51,7 +53,8 @@ pub(crate) const CHECKS: &[Check] = &[
         });
         let smallest = factors.fold(f64::INFINITY, f64::min);
         let evidence = format!(
-            "{COMPARED}: (x + sqrt3 y)/(epsilon r) and (r + y)/r are both at least {smallest:.3}"
+            "{}: {FACTORS} are both at least {smallest:.3}",
+            at_solutions()
         );
         Finding::statement(smallest > 0.0, evidence)
     }),
@@ -78,18 +81,37 @@ pub(crate) const CHECKS: &[Check] = &[
         };
         let pulling = paper.forces(&moved, paper.stiffness_ratio).a / NORMAL_STIFFNESS;
         let evidence = format!(
-            "not necessary: of {inward} solutions with y < 0 (mu = 0.1 to 0.7, kappa = 1, 2.5, 10), {needless} have a, b, d, e > 0; \
-             not sufficient: x = 0, y = z = 0.01 r or so makes a = {pulling:.4} k_n r < 0. What y >= 0 does is keep the \
-             bottom cylinders apart, c = 0"
+            "not necessary: of {inward} solutions with $y < 0$ ({}, {}), {needless} have $a, b, d, e > 0$; \
+             not sufficient: $x = 0$, $y = {}r$, $z = {}r$ makes $a = {pulling:.4}k_n r < 0$. What $y \\ge 0$ does is keep \
+             the bottom cylinders apart, $c = 0$",
+            range(FRICTION, &FRICTIONS),
+            values(RATIO, &RATIOS),
+            number(moved.delta_22 / RADIUS),
+            number(moved.delta_21 / RADIUS)
         );
         let violations = needless + usize::from(pulling < 0.0);
         Finding::exceptions(violations, evidence)
     }),
 ];
 
-const COMPARED: &str = "put in solutions of the five unreduced equations (Newton's method; mu = 0.1 to 0.7, \
-                        1/epsilon = 1e2 to 1e4, kappa = 1, 2.5, 10; r and k_n not 1)";
+const UNKNOWNS: &str = r"$\delta_{11}$, $\delta_{21}$, $\delta_{22}$, $\theta$ and $f$";
+const FACTORS: &str = r"$(x + \sqrt{3}y)/(\epsilon r)$ and $(r + y)/r$";
+
+/// The range of the yield states, and the dimensions in which they are solved, in words.
+pub(super) fn range_of_states() -> String {
+    format!(
+        "{}, {}, {}; $r$ and $k_n$ not 1",
+        range(FRICTION, &FRICTIONS),
+        range(STIFFNESS, &PAPER_STIFFNESSES),
+        values(RATIO, &RATIOS)
+    )
+}
+
+fn at_solutions() -> String {
+    let states = range_of_states();
+    format!("put in solutions of the five unreduced equations (Newton's method; {states})")
+}
 
 pub(crate) fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {
-    Finding::identity(yield_states().iter().map(deviation), COMPARED)
+    Finding::identity(yield_states().iter().map(deviation), &at_solutions())
 }

@@ -3,6 +3,9 @@
 use super::Check;
 use crate::model::Stack;
 use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, violation, worst};
+use crate::paper::claims::notation::{
+    FRICTION, STIFFNESS as INVERSE_EPSILON, range, scientific, values,
+};
 use crate::paper::claims::printed::Sliding;
 use crate::paper::claims::truth::{NORMAL_STIFFNESS as STIFFNESS, RADIUS};
 use crate::theory::{LoadingOutcome, LoadingPhase};
@@ -21,7 +24,7 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("normal-force", |paper| {
         let energy = |overlap: f64| 0.5 * STIFFNESS * overlap.max(0.0).powi(2);
         let damping = 0.6;
-        let compared = "derivative of the energy k_n overlap^2/2, a dashpot that takes the power eta_n v^2, nothing without contact";
+        let compared = r"derivative of the energy $k_n\Delta^2/2$, a dashpot that takes the power $\eta_n v^2$, nothing without contact";
         at_samples(30, compared, |sample| {
             let (overlap, velocity) = (0.1 * sample, 0.3 * (7.0 * sample).sin());
             let step = 1e-6;
@@ -37,7 +40,7 @@ pub(crate) const CHECKS: &[Check] = &[
         })
     }),
     Check::theory("tangential-spring", |paper| {
-        let compared = "power of a spring k_t and of a dashpot eta_t";
+        let compared = r"power of a spring $k_t$ and of a dashpot $\eta_t$";
         at_samples(30, compared, |sample| {
             let contact = Sliding {
                 damping: 0.6,
@@ -51,7 +54,8 @@ pub(crate) const CHECKS: &[Check] = &[
         })
     }),
     Check::theory("pair-tangent", |paper| {
-        let compared = "product with the line of centres, and n turned by 90 degrees";
+        let compared =
+            r"product with the line of centres, and $\boldsymbol{n}$ turned by 90 degrees";
         at_samples(20, compared, |sample| {
             let separation = unit_vector(9.0 * sample) * 3.3;
             let tangent = paper.pair_tangent(separation);
@@ -64,7 +68,7 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     // Surface velocities at the contact point are v + ω × arm, with arms r along the line of centres.
     Check::theory("tangential-velocity", |paper| {
-        let compared = "velocities of the two surfaces from rigid motion with arms r";
+        let compared = "velocities of the two surfaces from rigid motion with arms $r$";
         at_samples(20, compared, |sample| {
             let normal = unit_vector(9.0 * sample);
             let velocity = Vector2::new(sample, (3.0 * sample).cos());
@@ -97,7 +101,9 @@ pub(crate) const CHECKS: &[Check] = &[
         let one_step = contact.velocity * step * STIFFNESS / cap;
         let evidence = format!(
             "a contact dragged at constant speed: the force reaches the cap, never exceeds it, and the spring stops at \
-             mu |f_n|/k_t within one step ({one_step:.1e})"
+             {} within one step (${}$)",
+            r"$\mu\lvert\boldsymbol{f}_{ij}^{(n)}\rvert/k_t$",
+            scientific(one_step, 1)
         );
         Finding::new(worst([overshoot, stretch]), 1.01 * one_step, evidence)
     }),
@@ -121,8 +127,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let unloading = worst([-1e-3, -0.1, -1.0].map(jump));
         let undefined = force(1.0, 0.0).is_nan();
         let evidence = format!(
-            "jump of the force as |h_t| passes the cap, in units of the cap: {loading:.2} while the spring is stretched \
-             further, {unloading:.2} while it relaxes; a contact at rest with |h_t| above the cap has {} force",
+            "jump of the force as {SPRING_FORCE} passes the cap, in units of the cap: {loading:.2} while the spring is stretched \
+             further, {unloading:.2} while it relaxes; a contact at rest with {SPRING_FORCE} above the cap has {} force",
             if undefined { "no defined" } else { "a defined" }
         );
         let deviation = worst([loading, unloading, violation(!undefined)]);
@@ -130,19 +136,21 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     // Whether stacks that the paper has yield at the floor stand until then, with the printed cap between cylinders.
     Check::theory("cap-between-cylinders", |paper| {
-        let frictions = [0.12, 0.15, 0.2, 0.25];
+        let (frictions, stiffness) = ([0.12, 0.15, 0.2, 0.25], 1e3);
         let falls = |&mu: &f64| {
             let stack = Stack {
                 cylinder_friction: paper.friction_between_cylinders(mu),
-                ..Stack::paper(mu, 1e3)
+                ..Stack::paper(mu, stiffness)
             };
             let outcome = LoadingOutcome::of(&stack);
             outcome.is_none_or(|outcome| outcome.first.stage == LoadingPhase::OwnWeight)
         };
         let (fallen, all) = (frictions.into_iter().filter(falls).count(), frictions.len());
         let evidence = format!(
-            "exact path of equilibria at 1/epsilon = 1e3 with this cap between cylinders: {fallen} of {all} stacks with mu from \
-             0.12 to 0.25 (Fig. 2(a) has all of them yield under the wall) fall under their own weight, because b/a = T >= mu_c"
+            "exact path of equilibria at {} with this cap between cylinders: {fallen} of {all} stacks with {} (Fig. 2(a) has \
+             all of them yield under the wall) fall under their own weight, because $b/a = T \\ge \\mu_c$",
+            values(INVERSE_EPSILON, &[stiffness]),
+            range(FRICTION, &frictions)
         );
         Finding::new(fallen as f64 / all as f64, 0.0, evidence)
     }),
@@ -155,15 +163,15 @@ pub(crate) const CHECKS: &[Check] = &[
         let correction = |scale: f64| torque(scale, -0.5) - torque(scale, 0.0);
         let order = (correction(1e-2) / correction(1e-3)).log10();
         let evidence = format!(
-            "the torque (r + r1 delta_n) k_t u less r k_t u falls with the displacements to the power {order:.6}. \
-             Quadratic is not negligible: see the claim on r1 = 0"
+            "the torque $(r + r_1\\delta_n)k_t u$ less $r k_t u$ falls with the displacements to the power {order:.6}. \
+             Quadratic is not negligible: see the claim on $r_1 = 0$"
         );
         Finding::new((paper.arm_order - order).abs(), 1e-6, evidence)
     }),
     Check::theory("normal-damping", |paper| {
         let measured = restitution(MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
         let evidence = format!(
-            "a cylinder thrown against a wall with this eta_n, integrated: restitution {measured:.5}"
+            "a cylinder thrown against a wall with this $\\eta_n$, integrated: restitution {measured:.5}"
         );
         restores(measured, evidence)
     }),
@@ -172,20 +180,22 @@ pub(crate) const CHECKS: &[Check] = &[
         let measured = restitution(MASS, stiffness, paper.damping(MASS, stiffness));
         let turning = restitution(MASS / 3.0, stiffness, paper.damping(MASS, stiffness));
         let evidence = format!(
-            "a mass m on a spring k_t with this eta_t, integrated: restitution {measured:.5}. (A cylinder free to turn \
-             has the tangential mass m/3 at a wall and {turning:.3}.)"
+            "a mass $m$ on a spring $k_t$ with this $\\eta_t$, integrated: restitution {measured:.5}. (A cylinder free to \
+             turn has the tangential mass $m/3$ at a wall and {turning:.3}.)"
         );
         restores(measured, evidence)
     }),
     Check::theory("pair-restitution", |paper| {
         let measured = restitution(0.5 * MASS, STIFFNESS, paper.damping(MASS, STIFFNESS));
         let evidence = format!(
-            "two cylinders thrown against each other with this eta_n (reduced mass m/2), integrated: restitution {measured:.5}"
+            "two cylinders thrown against each other with this $\\eta_n$ (reduced mass $m/2$), integrated: restitution {measured:.5}"
         );
         restores(measured, evidence)
     }),
 ];
 
+/// TeX of |h_t|.
+const SPRING_FORCE: &str = r"$\lvert\boldsymbol{h}_{ij}^{(t)}\rvert$";
 const MASS: f64 = 0.8;
 /// e_r of the paper.
 const RESTITUTION: f64 = 0.7;

@@ -1,12 +1,17 @@
 //! Eqs. (6) to (10) and (12), and the statements around them.
 
 use super::Check;
+use super::appendix::range_of_states;
 use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
-use crate::paper::claims::finding::{Finding, list, relative, worst};
+use crate::paper::claims::finding::{Finding, relative, worst};
+use crate::paper::claims::notation::{
+    FRICTION, STIFFNESS, list, number, percent, range, scientific, values,
+};
 use crate::paper::claims::truth::{
     NORMAL_STIFFNESS, RADIUS, RATIOS, YieldState, elastic_displacement, figure_loads, pairs,
     yield_force, yield_states,
 };
+use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{elastic_root, pair_overlap, quasistatic_limit};
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -17,11 +22,11 @@ pub(crate) const CHECKS: &[Check] = &[
             relative(printed, weight / NORMAL_STIFFNESS)
         });
         let compared =
-            "epsilon r against how far one cylinder sinks into the floor under its weight";
+            r"$\epsilon r$ against how far one cylinder sinks into the floor under its weight";
         Finding::identity(deviations, compared)
     }),
     Check::theory("floor-load", |paper| {
-        let compared = "(f + 3mg)/mg of the solution against 2z/(epsilon r)";
+        let compared = r"$(f + 3mg)/mg$ of the solution against $2z/(\epsilon r)$";
         at_states(compared, |state| {
             let load = state.force / state.weight() + 3.0;
             relative(paper.floor_load(state.z(), state.epsilon, RADIUS), load)
@@ -35,17 +40,17 @@ pub(crate) const CHECKS: &[Check] = &[
                 relative(paper.lowest_displacement, truth),
                 relative(paper.floor_load(truth, 1.0, 1.0), 3.0),
             ],
-            "z/(epsilon r) of three weights on two floor contacts, f = 0",
+            r"$z/(\epsilon r)$ of three weights on two floor contacts, $f = 0$",
         )
     }),
     Check::theory("elastic-equation", |paper| {
-        at_states("z against r D E at the solution's own alpha", |state| {
-            paper.closed_form(state)
-        })
+        let compared = r"$z$ against $r\mathcal{D}\mathcal{E}$ at the solution's own $\alpha$";
+        at_states(compared, |state| paper.closed_form(state))
     }),
     // 𝒟 = (T² + 2√3 T − 1)/(T (1 + T²))/(1 − α) with T read off the solution's geometry.
     Check::theory("script-d", |paper| {
-        let compared = "D against its value in terms of the angle of the line of centres";
+        let compared =
+            r"$\mathcal{D}$ against its value in terms of the angle of the line of centres";
         at_states(compared, |state| {
             let tangent = state.half_angle_tangent();
             let square = tangent * tangent;
@@ -57,7 +62,8 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     // ℰ = 1/(1 + κ(1 + T²)).
     Check::theory("script-e", |paper| {
-        let compared = "E against its value in terms of the angle of the line of centres";
+        let compared =
+            r"$\mathcal{E}$ against its value in terms of the angle of the line of centres";
         at_states(compared, |state| {
             let tangent = state.half_angle_tangent();
             let truth = 1.0 / (1.0 + state.ratio * (1.0 + tangent * tangent));
@@ -72,25 +78,35 @@ pub(crate) const CHECKS: &[Check] = &[
             let truth = RADIUS * numerator / (mu * (1.0 + square)) / (1.0 + kappa * (1.0 + square));
             relative(paper.stiff_displacement(mu, kappa, RADIUS), truth)
         });
-        let compared = "the right side of the elastic equation at alpha = 0, in terms of T = mu";
+        let compared =
+            r"the right side of the elastic equation at $\alpha = 0$, in terms of $T = \mu$";
         Finding::identity(deviations, compared)
     }),
     Check::theory("stiff-displacement-changes-sign", |paper| {
         let kappa = paper.stiffness_ratio;
         let at = |mu: f64| paper.stiff_displacement(mu, kappa, 1.0);
-        let (below, above) = (at(CRITICAL_FRICTION - 1e-9), at(CRITICAL_FRICTION + 1e-9));
-        let evidence =
-            format!("z_star is {below:.2e} r at mu_c - 1e-9 and {above:.2e} r at mu_c + 1e-9");
+        let distance = 1e-9;
+        let [below, above] = [-distance, distance].map(|offset| at(CRITICAL_FRICTION + offset));
+        let evidence = format!(
+            "$z_\\star$ is ${}r$ at $\\mu_c - {1}$ and ${2}r$ at $\\mu_c + {1}$",
+            scientific(below, 2),
+            number(distance),
+            scientific(above, 2)
+        );
         Finding::statement(below < 0.0 && above > 0.0, evidence)
     }),
     Check::theory("stiff-displacement-is-the-limit", |paper| {
-        let largest = worst([0.28, 0.3, 0.4, 0.5, 0.7].map(|mu| {
+        let (frictions, stiffness) = ([0.28, 0.3, 0.4, 0.5, 0.7], 1e8);
+        let largest = worst(frictions.map(|mu| {
             let printed = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0);
-            relative(elastic_displacement(&paper.stack(mu, 1e8)), printed)
+            relative(elastic_displacement(&paper.stack(mu, stiffness)), printed)
         }));
         let evidence = format!(
-            "root of the elastic equation at 1/epsilon = 1e8 against z_star, mu = 0.28 to 0.7: largest relative \
-             difference {largest:.1e} (it falls as epsilon)"
+            "root of the elastic equation at {} against $z_\\star$, {}: largest relative difference ${}$ (it falls as \
+             $\\epsilon$)",
+            values(STIFFNESS, &[stiffness]),
+            range(FRICTION, &frictions),
+            scientific(largest, 1)
         );
         Finding::new(largest, 1e-4, evidence)
     }),
@@ -100,36 +116,43 @@ pub(crate) const CHECKS: &[Check] = &[
             let printed = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0);
             (mu, printed / exact - 1.0)
         });
-        let listed = differences
-            .map(|(mu, difference)| format!("{:+.2} % at mu = {mu}", 100.0 * difference));
+        let listed = differences.map(|(mu, difference)| {
+            format!("{} at {}", percent(difference, 2), values(FRICTION, &[mu]))
+        });
         let evidence = format!(
-            "z_star against the displacement G(mu) at which the DEM's exact quasi-static limit slips for epsilon -> 0: {}",
+            "$z_\\star$ against the displacement $G(\\mu)$ at which the DEM's exact quasi-static limit slips for \
+             $\\epsilon \\to 0$: {}",
             list(listed)
         );
         let largest = worst(differences.map(|(_, difference)| difference.abs()));
         Finding::new(largest, 1e-3, evidence)
     }),
     Check::theory("small-displacements", |_| {
+        let stiffness = 1e8;
         let displacements = [0.2, 0.3, 0.5].map(|mu| {
-            let limit = quasistatic_limit(&Stack::paper(mu, 1e8), &ContactConvention::PAPER);
+            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
             (mu, limit.z.unwrap_or(f64::NAN))
         });
-        let listed = displacements.map(|(mu, z)| format!("{z:.1e} r at mu = {mu}"));
+        let listed = displacements
+            .map(|(mu, z)| format!("${}r$ at {}", scientific(z, 1), values(FRICTION, &[mu])));
         let evidence = format!(
-            "z at yield in the exact quasi-static limit at 1/epsilon = 1e8: {}. Above mu_c displacements do not become small \
-             as epsilon -> 0, and the springs' linearisation is off there at any stiffness",
+            "$z$ at yield in the exact quasi-static limit at {}: {}. Above $\\mu_c$ displacements do not become small \
+             as $\\epsilon \\to 0$, and the springs' linearisation is off there at any stiffness",
+            values(STIFFNESS, &[stiffness]),
             list(listed)
         );
         Finding::new(worst(displacements.map(|(_, z)| z)), 1e-3, evidence)
     }),
     Check::theory("slip-above-critical", |_| {
-        let frictions = [0.27, 0.3, 0.4, 0.5];
-        let forces = frictions.map(|mu| yield_force(&Stack::paper(mu, 1e2)));
+        let (frictions, stiffness) = ([0.27, 0.3, 0.4, 0.5], 1e2);
+        let forces = frictions.map(|mu| yield_force(&Stack::paper(mu, stiffness)));
         let yields = forces.iter().filter(|force| force.is_finite()).count();
         let evidence = format!(
-            "the exact quasi-static limit at 1/epsilon = 1e2 yields at the floor for {yields} of {} frictions above mu_c \
-             (0.27 to 0.5), at a finite force",
-            frictions.len()
+            "the exact quasi-static limit at {} yields at the floor for {yields} of {} frictions above $\\mu_c$ ({}), at a \
+             finite force",
+            values(STIFFNESS, &[stiffness]),
+            frictions.len(),
+            range(FRICTION, &frictions)
         );
         Finding::exceptions(frictions.len() - yields, evidence)
     }),
@@ -139,26 +162,32 @@ pub(crate) const CHECKS: &[Check] = &[
         };
         let (deviation, mu, stiffness) = over_figure(load);
         let evidence = format!(
-            "f_epsilon + 3mg against the DEM's exact quasi-static limit, mu = 0.1 to 0.5, 1/epsilon = 1e2 to 1e4: at most \
-             {:.1} % off (mu = {mu:.2}, 1/epsilon = {stiffness:.0})",
-            100.0 * deviation
+            "$f_\\epsilon + 3mg$ against the DEM's exact quasi-static limit, {}: at most {:.1} % off ({}, {})",
+            range_of_figure(),
+            100.0 * deviation,
+            values(FRICTION, &[mu]),
+            values(STIFFNESS, &[stiffness])
         );
         Finding::new(deviation, 1e-3, evidence)
     }),
-    Check::theory("elastic-equation-of-dem", |_| {
+    Check::theory("elastic-equation-of-dem", |paper| {
         let load = |stack: &Stack| elastic_root(stack).map_or(f64::NAN, |root| root.load);
         let (deviation, mu, stiffness) = over_figure(load);
-        let at = |mu: f64| {
-            let stack = Stack::paper(mu, 1e4);
-            100.0 * (load(&stack) / (yield_force(&stack) + 3.0) - 1.0)
-        };
+        let stiffest = paper.highest_stiffness;
+        let listed = [0.2, 0.3].map(|mu| {
+            let stack = Stack::paper(mu, stiffest);
+            let change = load(&stack) / (yield_force(&stack) + 3.0) - 1.0;
+            format!("{} at {}", percent(change, 2), values(FRICTION, &[mu]))
+        });
         let evidence = format!(
-            "solution of the elastic equation against the DEM's exact quasi-static limit, mu = 0.1 to 0.5, 1/epsilon = 1e2 to \
-             1e4: F + 3 at most {:.1} % off (mu = {mu:.2}, 1/epsilon = {stiffness:.0}); at 1e4, {:+.2} % at mu = 0.2, \
-             {:+.2} % at 0.3",
+            "solution of the elastic equation against the DEM's exact quasi-static limit, {}: $f + 3mg$ is at most {:.1} % \
+             off ({}, {}); at {}, {}",
+            range_of_figure(),
             100.0 * deviation,
-            at(0.2),
-            at(0.3)
+            values(FRICTION, &[mu]),
+            values(STIFFNESS, &[stiffness]),
+            values(STIFFNESS, &[stiffest]),
+            list(listed)
         );
         Finding::new(deviation, 1e-3, evidence)
     }),
@@ -170,25 +199,30 @@ pub(crate) const CHECKS: &[Check] = &[
             let force = |arms| limit(arms).floor_slip_force.unwrap_or(f64::NAN);
             force(half_way) / force(Arms::PAPER) - 1.0
         };
-        let changes = [1e2, 1e3, 1e4].map(|stiffness| change(0.3, stiffness));
-        let [soft, middle, stiff] = changes.map(|change| 100.0 * change);
+        let [below, above, stiffest] = [0.2, 0.3, 1e4];
+        let changes = PAPER_STIFFNESSES.map(|stiffness| change(above, stiffness));
         let evidence = format!(
             "exact quasi-static limit with the contact point on the undeformed floor and half-way between cylinders \
-             (r1 = -1 and -1/2) against r1 = 0: F changes by {soft:+.1} %, {middle:+.1} %, {stiff:+.1} % at mu = 0.3, 1/epsilon = 1e2, 1e3, 1e4, and \
-             by {:+.2} % at mu = 0.2, 1e4. Above mu_c it does not vanish for stiff cylinders",
-            100.0 * change(0.2, 1e4)
+             ($r_1 = -1$ and $-1/2$) against $r_1 = 0$: $f$ changes by {} at {} and {}, and by {} at {} and {}. Above $\\mu_c$ \
+             it does not vanish for stiff cylinders",
+            list(changes.map(|change| percent(change, 1))),
+            values(FRICTION, &[above]),
+            values(STIFFNESS, &PAPER_STIFFNESSES),
+            percent(change(below, stiffest), 2),
+            values(FRICTION, &[below]),
+            values(STIFFNESS, &[stiffest])
         );
         Finding::new(worst(changes.map(f64::abs)), 1e-2, evidence)
     }),
 ];
 
-const STATES: &str = "solutions of the five unreduced equations (mu = 0.1 to 0.7, 1/epsilon = 1e2 to 1e4, \
-                      kappa = 1, 2.5, 10; r and k_n not 1)";
-
 fn at_states(compared: &str, deviation: impl Fn(&YieldState) -> f64) -> Finding {
     Finding::identity(
         yield_states().iter().map(deviation),
-        &format!("{compared}; {STATES}"),
+        &format!(
+            "{compared}; solutions of the five unreduced equations ({})",
+            range_of_states()
+        ),
     )
 }
 
@@ -203,4 +237,13 @@ fn over_figure(load: impl Fn(&Stack) -> f64) -> (f64, f64, f64) {
     // In this order a deviation that is not a number is the largest.
     let largest = compared.max_by(|left, right| left.0.total_cmp(&right.0));
     largest.unwrap_or((f64::NAN, f64::NAN, f64::NAN))
+}
+
+/// The range of the stacks of Fig. 2(a), in words.
+fn range_of_figure() -> String {
+    let stacks = || figure_loads().iter().map(|(stack, _)| stack);
+    let frictions: Vec<f64> = stacks().map(|stack| stack.floor_friction).collect();
+    let stiffnesses: Vec<f64> = stacks().map(|stack| stack.stiffness).collect();
+    let stiffnesses = range(STIFFNESS, &stiffnesses);
+    format!("{}, {stiffnesses}", range(FRICTION, &frictions))
 }

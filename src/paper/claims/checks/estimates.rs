@@ -2,7 +2,10 @@
 
 use super::Check;
 use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, list, violation, worst};
+use crate::paper::claims::finding::{Finding, violation, worst};
+use crate::paper::claims::notation::{
+    FRICTION, STIFFNESS, fixed, number, range, scientific, values,
+};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::yield_force;
 use crate::theory::floor_slip_force;
@@ -16,14 +19,16 @@ pub(crate) const CHECKS: &[Check] = &[
         let estimate = radius * density * GRAVITY / modulus;
         let factor = epsilon / estimate;
         let evidence = format!(
-            "with k_n = E l, the order of a line contact's stiffness, mg/(k_n r) = {factor:.3} L rho g/E for L = r: {:.2} decades",
+            "with $k_n = El$, the order of a line contact's stiffness, $mg/(k_n r) = {factor:.3}L\\rho g/E$ for $L = r$: {:.2} \
+             decades",
             decades(epsilon, estimate)
         );
         Finding::new(decades(epsilon, estimate), 0.0, evidence)
     }),
     Check::theory("epsilon-of-elastomer", |paper| {
         let epsilon = elastomer(paper);
-        let evidence = format!("L rho g/E = {epsilon:.3e} for the values given");
+        let found = scientific(epsilon, 3);
+        let evidence = format!("$L\\rho g/E = {found}$ for the values given");
         Finding::new(decades(epsilon, paper.elastomer_epsilon), 0.0, evidence)
     }),
     Check::theory("elastomer-in-range", |paper| {
@@ -34,26 +39,37 @@ pub(crate) const CHECKS: &[Check] = &[
             0.0,
         ]);
         let evidence = format!(
-            "1/epsilon = {stiffness:.0} against the studied {:.0} to {:.0}: {outside:.3} decades outside",
-            paper.lowest_stiffness, paper.highest_stiffness
+            "$1/\\epsilon = {stiffness:.0}$ against the studied {}: {outside:.3} decades outside",
+            range(
+                STIFFNESS,
+                &[paper.lowest_stiffness, paper.highest_stiffness]
+            )
         );
         Finding::new(outside, 0.0, evidence)
     }),
     Check::theory("force-of-elastomer", |paper| {
         let force = paper.estimate_mass * GRAVITY / paper.elastomer_epsilon;
-        let evidence = format!("mg/epsilon = {force:.1} N for m = 1 g and epsilon = 1e-4");
+        let evidence = format!(
+            "$mg/\\epsilon = {force:.1}$ N for $m = {}$ g and $\\epsilon = {}$",
+            number(1e3 * paper.estimate_mass),
+            number(paper.elastomer_epsilon)
+        );
         Finding::new(decades(force, paper.elastomer_force), 0.0, evidence)
     }),
     Check::theory("force-is-inverse-epsilon", |_| {
-        let frictions = [CRITICAL_FRICTION, 0.28, 0.3, 0.4, 0.5];
-        let factors =
-            frictions.map(|mu| floor_slip_force(&Stack::paper(mu, 1e4)).unwrap_or(f64::NAN) / 1e4);
-        let evidence = format!(
-            "epsilon f/mg of the exact quasi-static limit at 1/epsilon = 1e4: {} at mu = mu_c, 0.28, 0.3, 0.4, 0.5: the order of \
-             magnitude is right from 0.3 on, up to a factor of 5",
-            list(factors.map(|factor| format!("{factor:.3}")))
-        );
+        let (frictions, stiffness) = ([CRITICAL_FRICTION, 0.28, 0.3, 0.4, 0.5], 1e4);
+        let force = |mu| floor_slip_force(&Stack::paper(mu, stiffness)).unwrap_or(f64::NAN);
+        let factors = frictions.map(|mu| force(mu) / stiffness);
         let deviation = worst(factors[2..].iter().map(|&factor| decades(factor, 1.0)));
+        let evidence = format!(
+            "$\\epsilon f/mg$ of the exact quasi-static limit at {}: {} at {}: from ${}$ on the order of magnitude is \
+             right up to a factor of {:.1}",
+            values(STIFFNESS, &[stiffness]),
+            fixed(factors, 3),
+            values(FRICTION, &frictions),
+            number(frictions[2]),
+            10f64.powf(deviation)
+        );
         Finding::new(deviation, 0.0, evidence)
     }),
     Check::theory("mass-of-estimates", |paper| {
@@ -61,10 +77,12 @@ pub(crate) const CHECKS: &[Check] = &[
         let cube = density * length.powi(3);
         let cylinder = paper.mass(density, length, length);
         let evidence = format!(
-            "rho L^3 = {:.2} g; pi rho r^2 l = {:.2} g for r = l = 1 cm and {:.2} g for a diameter of 1 cm",
+            "$\\rho L^3 = {:.2}$ g; $\\pi\\rho r^2 l = {:.2}$ g for $r = l = {length}$ cm and {:.2} g for a diameter of \
+             {length} cm",
             1e3 * cube,
             1e3 * cylinder,
-            0.25e3 * cylinder
+            0.25e3 * cylinder,
+            length = 1e2 * length
         );
         Finding::new(decades(cube, paper.estimate_mass), 1e-9, evidence)
     }),
@@ -73,30 +91,39 @@ pub(crate) const CHECKS: &[Check] = &[
         let epsilon = paper.estimate_mass * GRAVITY / paper.wood_force;
         let modulus = paper.elastomer_length * paper.elastomer_density * GRAVITY / epsilon;
         // A cylinder on its side is pressed across the grain: 0.3 to 2 GPa.
-        let across = 1e9;
+        let (across, along) = (1e9, 1e10);
         let evidence = format!(
-            "the paper gives no modulus; mg/epsilon = 1e5 N implies epsilon = {epsilon:.1e} and E = {:.2} GPa, that of wood across the grain (0.3 to 2 GPa); \
-             along the grain (10 GPa) it would be 1e6 N",
-            modulus / 1e9
+            "the paper gives no modulus; $mg/\\epsilon = {}$ N implies $\\epsilon = {}$ and $E = {:.2}$ GPa, that of wood across \
+             the grain (0.3 to 2 GPa); along the grain ({:.0} GPa) it would be ${}$ N",
+            number(paper.wood_force),
+            scientific(epsilon, 1),
+            modulus / 1e9,
+            along / 1e9,
+            scientific(paper.wood_force * along / modulus, 0)
         );
         Finding::new(decades(modulus, across), 0.0, evidence)
     }),
     Check::theory("movie-density", |paper| {
         let volume = paper.mass(1.0, paper.movie_radius, paper.movie_width);
         let density = paper.movie_mass / volume;
+        let (low, high) = (300.0, 900.0);
+        let outside = worst([low / density - 1.0, density / high - 1.0, 0.0]);
         let evidence = format!(
-            "m/(pi r^2 w) = {density:.0} kg/m^3, within the 300 to 900 kg/m^3 of common dry wood"
+            "$m/(\\pi r^2 w) = {density:.0}$ {UNIT}, {} the {low} to {high} {UNIT} of common dry wood",
+            if outside > 0.0 { "outside" } else { "within" }
         );
-        let outside = worst([300.0 / density - 1.0, density / 900.0 - 1.0, 0.0]);
         Finding::new(outside, 0.0, evidence)
     }),
     Check::theory("stiffness-range", |paper| {
         let decades = (paper.highest_stiffness / paper.lowest_stiffness).log10();
         let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
-        let yields = stiffnesses.map(|stiffness| yield_force(&paper.stack(0.3, stiffness)));
+        let mu = 0.3;
+        let yields = stiffnesses.map(|stiffness| yield_force(&paper.stack(mu, stiffness)));
         let evidence = format!(
-            "all three have a yield force in the exact limit at mu = 0.3: {:.2}, {:.2}, {:.2} mg; they span {decades:.0} decades, in steps of one",
-            yields[0], yields[1], yields[2]
+            "the yield forces of all three in the exact limit at {} are {} (in $mg$); the stiffnesses span {decades:.0} decades, \
+             in steps of one",
+            values(FRICTION, &[mu]),
+            fixed(yields, 2)
         );
         let all_yield = yields.iter().all(|force| force.is_finite());
         let wrong = worst([(decades - 2.0).abs(), violation(all_yield)]);
@@ -106,6 +133,8 @@ pub(crate) const CHECKS: &[Check] = &[
 
 /// Standard gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;
+/// TeX of the unit of a density.
+const UNIT: &str = r"$\mathrm{kg/m^3}$";
 
 fn decades(number: f64, printed: f64) -> f64 {
     (number / printed).log10().abs()

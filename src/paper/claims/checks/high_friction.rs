@@ -2,41 +2,54 @@
 
 use super::Check;
 use crate::model::{ContactConvention, Stack};
-use crate::paper::claims::finding::{Finding, list, worst};
+use crate::paper::claims::finding::{Finding, worst};
+use crate::paper::claims::notation::{FRICTION, STIFFNESS, fixed, number, range, values};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::pairs;
+use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{
     Boundary, EquilibriumPath, Event, LoadingOutcome, bracketed_root, elastic_root, followed_limit,
 };
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::theory("inward-friction", |paper| {
-        let found = [1e2, 1e3, 1e4, 1e8].map(|stiffness| last_outward(paper, stiffness));
+        let stiffnesses = [1e2, 1e3, 1e4, NEARLY_RIGID];
+        let found = stiffnesses.map(|stiffness| last_outward(paper, stiffness));
         let exact = (1.0 - 1.0 / paper.stiffness_ratio).sqrt();
         let evidence = format!(
-            "y of the elastic equation changes sign at mu = {:.4}, {:.4}, {:.4} for 1/epsilon = 1e2, 1e3, 1e4, and at (1 - 1/kappa)^(1/2) = {exact:.4} for \
-             epsilon -> 0 ({:.4} at 1e8)",
-            found[0], found[1], found[2], found[3]
+            "$y$ of the elastic equation changes sign at $\\mu$ of {} for {}, and at $\\sqrt{{1 - 1/\\kappa}} = {exact:.4}$ for \
+             $\\epsilon \\to 0$",
+            fixed(found, 4),
+            values(STIFFNESS, &stiffnesses)
         );
         let deviation = worst(found.map(|mu| (mu - paper.inward_friction).abs()));
         // Two printed digits would mean half a unit of the second.
         Finding::new(deviation, 0.005, evidence)
     }),
     Check::theory("inward-solutions", |paper| {
-        let stacks = pairs([0.8, 0.85, 0.9, 0.95], [1e2, 1e3, 1e4]);
-        let inward = |&(mu, stiffness): &(f64, f64)| outward(paper, mu, stiffness) < 0.0;
-        let right = stacks.filter(inward).count();
+        let frictions = [0.8, 0.85, 0.9, 0.95];
+        let stacks: Vec<_> = pairs(frictions, PAPER_STIFFNESSES).collect();
+        let inward = |&&(mu, stiffness): &&(f64, f64)| outward(paper, mu, stiffness) < 0.0;
+        let right = stacks.iter().filter(inward).count();
         let evidence = format!(
-            "the elastic equation has one root z >= 3 epsilon r/2 with y > -r; at {right} of 12 stacks (mu = 0.8 to 0.95, 1/epsilon = 1e2 \
-             to 1e4) it has y < 0"
+            "the elastic equation has one root $z \\ge 3\\epsilon r/2$ with $y > -r$; at {right} of {} stacks ({}, {}) it has \
+             $y < 0$",
+            stacks.len(),
+            range(FRICTION, &frictions),
+            range(STIFFNESS, &PAPER_STIFFNESSES)
         );
-        Finding::exceptions(12 - right, evidence)
+        Finding::exceptions(stacks.len() - right, evidence)
     }),
     // Whether a stack with μ ≥ 0.8 withstands any force.
     Check::theory("non-destructive", |paper| {
-        let stacks = pairs([0.8, 0.9], [1e2, 1e3, 1e4]);
-        let stacks = stacks.map(|(mu, stiffness)| stack(paper, mu, stiffness));
+        let frictions = [0.8, 0.9];
+        let stacks = pairs(frictions, PAPER_STIFFNESSES);
+        let stacks: Vec<Stack> = stacks
+            .map(|(mu, stiffness)| stack(paper, mu, stiffness))
+            .collect();
+        let all = stacks.len();
         let ends: Vec<_> = stacks
+            .into_iter()
             .filter_map(|stack| LoadingOutcome::of(&stack))
             .collect();
         let ends = ends.iter().map(|outcome| outcome.first.event);
@@ -44,10 +57,13 @@ pub(crate) const CHECKS: &[Check] = &[
         let wall = count(&[Event::WallContact]);
         let slips = count(&[Event::FloorSlip, Event::CylinderSlip]);
         let evidence = format!(
-            "exact path of equilibria with mu = 0.8 and 0.9, mu_d = 0.7, 1/epsilon = 1e2 to 1e4: in {wall} of 6 stacks the top wall reaches the \
-             bottom cylinders first, in {slips} a contact slips first; none is left standing by y < 0, which is not reached"
+            "exact path of equilibria with {}, $\\mu_d = {}$, {}: in {wall} of {all} stacks the top wall reaches the bottom \
+             cylinders first, in {slips} a contact slips first; none is left standing by $y < 0$, which is not reached",
+            values(FRICTION, &frictions),
+            number(paper.cylinder_friction),
+            range(STIFFNESS, &PAPER_STIFFNESSES)
         );
-        Finding::exceptions(6 - wall, evidence)
+        Finding::exceptions(all - wall, evidence)
     }),
     Check::theory("wall-contact", |paper| {
         let closed = wall_contact_friction(paper, paper.lowest_stiffness);
@@ -58,36 +74,49 @@ pub(crate) const CHECKS: &[Check] = &[
             )
             .event
         };
-        let confirmed =
-            side(closed - 1e-4) == Event::FloorSlip && side(closed + 1e-4) == Event::WallContact;
+        let distance = 1e-4;
+        let confirmed = side(closed - distance) == Event::FloorSlip
+            && side(closed + distance) == Event::WallContact;
+        let stiffer = [1e3, 1e4];
         let evidence = format!(
-            "exact quasi-static limit at 1/epsilon = 1e2: from mu = {closed:.5} on the top wall reaches cylinder 2 before the floor slips ({}confirmed by \
-             the path follower at mu +- 1e-4); {:.5} at 1e3 and {:.5} at 1e4",
+            "exact quasi-static limit at {}: from $\\mu = {closed:.5}$ on the top wall reaches cylinder 2 before the floor \
+             slips ({}confirmed by the path follower at $\\mu \\pm {}$); from {} on at {}",
+            values(STIFFNESS, &[paper.lowest_stiffness]),
             if confirmed { "" } else { "not " },
-            wall_contact_friction(paper, 1e3),
-            wall_contact_friction(paper, 1e4)
+            number(distance),
+            fixed(
+                stiffer.map(|stiffness| wall_contact_friction(paper, stiffness)),
+                5
+            ),
+            values(STIFFNESS, &stiffer)
         );
         let deviation = confirmed.then_some((closed - paper.wall_contact_friction).abs());
         Finding::new(deviation.unwrap_or(f64::NAN), 0.005, evidence)
     }),
     // The concluding remarks use the friction of wall contact for the breakdown of the analysis.
     Check::theory("breakdown", |paper| {
-        let last = last_outward(paper, 1e8);
-        let roots = [0.6, 0.65, 0.7].map(|mu| format!("{:.3}", outward(paper, mu, 1e4)));
+        let last = last_outward(paper, NEARLY_RIGID);
+        let (frictions, stiffness) = ([0.6, 0.65, 0.7], 1e4);
         let evidence = format!(
-            "the analysis rests on y > 0, which the elastic equation gives up to mu = {last:.3} (y = {} r at mu = 0.6, 0.65, 0.7, \
-             1/epsilon = 1e4); 0.58 is what End Matter C says of wall contact in the DEM at k_n r/mg = 1e2",
-            list(roots)
+            "the analysis rests on $y > 0$, which the elastic equation gives up to $\\mu = {last:.3}$ ($y/r$ is {} at {}, \
+             {}); ${}$ is what End Matter C says of wall contact in the DEM at $k_n r/mg = {}$",
+            fixed(frictions.map(|mu| outward(paper, mu, stiffness)), 3),
+            values(FRICTION, &frictions),
+            values(STIFFNESS, &[stiffness]),
+            number(paper.wall_contact_friction),
+            number(paper.lowest_stiffness)
         );
         Finding::new((paper.breakdown_friction - last).abs(), 0.005, evidence)
     }),
     // Whether μ_d keeps the cylinders from slipping on each other wherever the paper has the floor yield.
     Check::theory("cylinder-friction", |paper| {
+        let frictions: Vec<f64> = (0..=10).map(|step| 0.1 + 0.04 * f64::from(step)).collect();
+        let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
         let mut highest = 0.0f64;
         let mut slips = 0;
-        for stiffness in [paper.lowest_stiffness, 1e3, paper.highest_stiffness] {
-            for step in 0..=10 {
-                let base = stack(paper, 0.1 + 0.04 * f64::from(step), stiffness);
+        for stiffness in stiffnesses {
+            for &mu in &frictions {
+                let base = stack(paper, mu, stiffness);
                 if let Some(outcome) = LoadingOutcome::of(&base) {
                     slips += usize::from(outcome.first.event == Event::CylinderSlip);
                     highest = highest.max(outcome.first.tangent);
@@ -95,12 +124,18 @@ pub(crate) const CHECKS: &[Check] = &[
             }
         }
         let evidence = format!(
-            "exact path, mu = 0.1 to 0.5, 1/epsilon = 1e2 to 1e4: the contact between cylinders needs at most b/a = {highest:.3} by the time of yield, \
-             and slips first in {slips} of 33 stacks"
+            "exact path, {}, {}: the contact between cylinders needs at most $b/a = {highest:.3}$ by the time of yield, and \
+             slips first in {slips} of {} stacks",
+            range(FRICTION, &frictions),
+            range(STIFFNESS, &stiffnesses),
+            frictions.len() * stiffnesses.len()
         );
         Finding::exceptions(slips, evidence)
     }),
 ];
+
+/// 1/ε at which the frictions of the elastic equation are those for ε → 0, to 8 digits.
+const NEARLY_RIGID: f64 = 1e8;
 
 fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
     Stack {

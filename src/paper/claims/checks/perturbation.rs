@@ -2,18 +2,23 @@
 
 use super::Check;
 use crate::model::CRITICAL_FRICTION;
-use crate::paper::claims::finding::{Finding, imbalance, list, relative, worst};
+use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::paper::claims::notation::{
+    FRICTION, RATIO, STIFFNESS, fixed, number, range, scientific, values,
+};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{RADIUS, RATIOS, elastic_displacement, pairs, stack};
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::theory("remainder", |paper| {
-        let away = [0.2, 0.25, 0.3, 0.5].map(|mu| order(paper, mu, 1e-4, 1e-5));
+        let frictions = [0.2, 0.25, 0.3, 0.5];
+        let away = frictions.map(|mu| order(paper, mu, 1e-4, 1e-5));
         let at = order(paper, CRITICAL_FRICTION, 1e-5, 1e-7);
         let evidence = format!(
-            "z(z - z_star) - epsilon r^2 Phi at the root of the elastic equation falls as epsilon to the power {} at \
-             mu = 0.2, 0.25, 0.3, 0.5, but {at:.2} at mu_c, where alpha is of order epsilon^(1/2)",
-            list(away.map(|order| format!("{order:.2}")))
+            "$z(z - z_\\star) - \\epsilon r^2\\Phi$ at the root of the elastic equation falls as $\\epsilon$ to the power {} at {}, but \
+             {at:.2} at $\\mu_c$, where $\\alpha$ is of order {ROOT_OF_EPSILON}",
+            fixed(away, 2),
+            values(FRICTION, &frictions)
         );
         let away = worst(away.map(|order| (order - paper.remainder_order).abs()));
         let at = (at - paper.remainder_order_at_transition).abs();
@@ -21,16 +26,21 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("coefficient", |paper| {
         let frictions = [0.1, 0.15, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.7];
+        let stiffness = 1e8;
         let largest = worst(pairs(frictions, RATIOS).map(|(mu, kappa)| {
-            let epsilon = 1e-8;
+            let epsilon = 1.0 / stiffness;
             let alpha = epsilon / root(mu, kappa, epsilon);
             // F(μ, α → 0) with a step that rounding allows.
             let truth = true_quotient(mu, kappa, alpha.max(1e-6));
             relative(paper.coefficient(mu, kappa), truth)
         }));
         let evidence = format!(
-            "Phi against [DE(alpha) - DE(0)]/alpha at the elastic equation's own alpha for 1/epsilon = 1e8, mu = 0.1 to 0.7, kappa = 1, 2.5, 10: \
-             largest relative difference {largest:.0e} (it falls with epsilon)"
+            "$\\Phi$ against {QUOTIENT} at the elastic equation's own $\\alpha$ for {}, {}, {}: largest relative difference ${}$ \
+             (it falls with $\\epsilon$)",
+            values(STIFFNESS, &[stiffness]),
+            range(FRICTION, &frictions),
+            values(RATIO, &RATIOS),
+            scientific(largest, 0)
         );
         Finding::new(largest, 1e-3, evidence)
     }),
@@ -39,14 +49,15 @@ pub(crate) const CHECKS: &[Check] = &[
             let printed = paper.product_quotient(mu, kappa, alpha);
             relative(printed, true_quotient(mu, kappa, alpha))
         });
-        let compared = "F against [DE(alpha) - DE(0)]/alpha of the springs' own D E";
-        Finding::identity(deviations, compared)
+        let compared = format!("$F$ against {QUOTIENT} of the springs' own {PRODUCT}");
+        Finding::identity(deviations, &compared)
     }),
     // 𝒟 and ℰ are smooth in α: D and E have limits for α → 0.
     Check::theory("difference-quotients", |paper| {
+        let alpha = 1e-5;
         let change = |function: &dyn Fn(f64) -> f64| {
             let quotient = |alpha: f64| (function(alpha) - function(0.0)) / alpha;
-            (quotient(1e-5) - quotient(-1e-5)).abs() / (1.0 + quotient(1e-5).abs())
+            (quotient(alpha) - quotient(-alpha)).abs() / (1.0 + quotient(alpha).abs())
         };
         let largest = worst(pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
             worst([
@@ -55,7 +66,11 @@ pub(crate) const CHECKS: &[Check] = &[
             ])
         }));
         let evidence = format!(
-            "D and E at alpha = 1e-5 and -1e-5 differ by at most {largest:.0e} at 15 pairs of mu and kappa: they are regular at alpha = 0"
+            "$D$ and $E$ at $\\alpha = {0}$ and $-{0}$ differ by at most ${1}$ at {2} pairs of $\\mu$ and $\\kappa$: they are regular at \
+             $\\alpha = 0$",
+            number(alpha),
+            scientific(largest, 0),
+            FRICTIONS.len() * RATIOS.len()
         );
         Finding::new(largest, 1e-2, evidence)
     }),
@@ -69,7 +84,8 @@ pub(crate) const CHECKS: &[Check] = &[
                 imbalance(&[z * z, -z * stiff, -source])
             })
         });
-        let compared = "z = epsilon r (f + 3mg)/(2mg) put into z(z - z_star) = epsilon r^2 Phi";
+        let compared =
+            r"$z = \epsilon r(f + 3mg)/(2mg)$ put into $z(z - z_\star) = \epsilon r^2\Phi$";
         Finding::identity(deviations, compared)
     }),
     // z = z⋆ + α r (ℰ(0) D + 𝒟(0) E + α D E).
@@ -80,11 +96,13 @@ pub(crate) const CHECKS: &[Check] = &[
             let added = alpha * RADIUS * paper.product_quotient(mu, kappa, alpha);
             imbalance(&[stiff, added, -z])
         });
-        Finding::identity(deviations, "r D E against z_star + alpha r F, r not 1")
+        let compared = r"$r\mathcal{D}\mathcal{E}$ against $z_\star + \alpha rF$, $r$ not 1";
+        Finding::identity(deviations, compared)
     }),
     // z(z − z⋆) = ε r² F(μ, α) at roots of the elastic equation.
     Check::theory("quadratic", |paper| {
-        let epsilon = 1e-2;
+        let stiffness = 1e2;
+        let epsilon = 1.0 / stiffness;
         let deviations = pairs(FRICTIONS, RATIOS).map(|(mu, kappa)| {
             let z = RADIUS * root(mu, kappa, epsilon);
             let alpha = epsilon * RADIUS / z;
@@ -92,22 +110,37 @@ pub(crate) const CHECKS: &[Check] = &[
             let source = epsilon * RADIUS * RADIUS * paper.product_quotient(mu, kappa, alpha);
             imbalance(&[z * z, -z * stiff, -source])
         });
-        let compared = "roots of the elastic equation at 1/epsilon = 1e2, r not 1";
-        Finding::identity(deviations, compared)
+        let at = values(STIFFNESS, &[stiffness]);
+        let compared = format!("roots of the elastic equation at {at}, $r$ not 1");
+        Finding::identity(deviations, &compared)
     }),
     Check::theory("limiting-alpha", |paper| {
-        let alpha = |mu: f64, epsilon: f64| epsilon / root(mu, paper.stiffness_ratio, epsilon);
-        let deviation = |mu: f64| (alpha(mu, 1e-8) - paper.limiting_alpha(mu)).abs();
-        let away = worst([0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5].map(deviation));
+        let stiffness = 1e8;
+        let epsilon = 1.0 / stiffness;
+        let alpha = |mu: f64| epsilon / root(mu, paper.stiffness_ratio, epsilon);
+        let deviation = |mu: f64| (alpha(mu) - paper.limiting_alpha(mu)).abs();
+        let frictions = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5];
+        let away = worst(frictions.map(deviation));
         let at = deviation(CRITICAL_FRICTION);
         let evidence = format!(
-            "alpha of the elastic equation at 1/epsilon = 1e8: within {away:.0e} of the limit at seven mu from 0.1 to 0.5, {at:.0e} at mu_c, \
-             where it vanishes as epsilon^(1/2)"
+            "$\\alpha$ of the elastic equation at {}: within ${}$ of the limit at {} frictions ({}), ${}$ at $\\mu_c$, where it \
+             vanishes as {ROOT_OF_EPSILON}",
+            values(STIFFNESS, &[stiffness]),
+            scientific(away, 0),
+            frictions.len(),
+            range(FRICTION, &frictions),
+            scientific(at, 0)
         );
         Finding::new(worst([away, at]), 1e-3, evidence)
     }),
 ];
 
+/// TeX of ε to the power 1/2.
+const ROOT_OF_EPSILON: &str = r"$\epsilon^{1/2}$";
+/// TeX of the product of the script letters.
+const PRODUCT: &str = r"$\mathcal{D}\mathcal{E}$";
+/// TeX of their difference quotient.
+const QUOTIENT: &str = r"$[\mathcal{D}\mathcal{E}(\alpha) - \mathcal{D}\mathcal{E}(0)]/\alpha$";
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 
 fn root(mu: f64, kappa: f64, epsilon: f64) -> f64 {

@@ -2,7 +2,8 @@
 
 use super::Check;
 use crate::code::Code;
-use crate::paper::claims::finding::{Finding, list, worst};
+use crate::paper::claims::finding::{Finding, worst};
+use crate::paper::claims::notation::{list, number, percent};
 use crate::study::preparation::PreparationStudy;
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -13,7 +14,7 @@ pub(crate) const CHECKS: &[Check] = &[
             without += usize::from(contact_forces(study).contains(&(0.0, Some(0.0))));
             if let Some(found) = study.critical_push {
                 let push = found.push * study.stack.stiffness;
-                listed.push(format!("{push:.4} epsilon r at {}", name(study)));
+                listed.push(format!("{push:.4} at {}", name(study)));
             }
         }
         let all = runs.preparation.len();
@@ -21,7 +22,8 @@ pub(crate) const CHECKS: &[Check] = &[
             return Err(MISSING.to_owned());
         }
         let evidence = format!(
-            "native runs of the protocol: c = 0 after it with A = 0 for {without} of {all} stacks, and up to A = {}",
+            "native runs of the protocol: $c = 0$ after it with $A = 0$ for {without} of {all} stacks, and up to $A/(\\epsilon r)$ \
+             of {}",
             list(listed)
         );
         Ok(Finding::exceptions(all - without, evidence))
@@ -30,20 +32,21 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut wrong = 0;
         let mut listed = Vec::new();
         for study in &runs.preparation {
-            let contacts = contact_forces(study).into_iter();
-            let contacts = contacts.map(|(_, force)| force.unwrap_or(f64::NAN));
-            let contacts: Vec<f64> = contacts.collect();
+            let pushed = contact_forces(study).into_iter();
+            let pushed = pushed.map(|(push, force)| (push, force.unwrap_or(f64::NAN)));
+            let pushed: Vec<(f64, f64)> = pushed.collect();
+            let contacts: Vec<f64> = pushed.iter().map(|&(_, force)| force).collect();
             let mut pairs = contacts.windows(2);
             let grows = pairs.all(|pair| pair[1] > pair[0] || pair == [0.0, 0.0]);
             let last = contacts.last().copied().unwrap_or(f64::NAN);
             wrong += usize::from(!(grows && last > 0.0));
-            listed.push(format!("{last:.3} mg at {}", name(study)));
+            listed.push(format!("{} at {}", course(study, &pushed), name(study)));
         }
         if runs.preparation.is_empty() {
             return Err(MISSING.to_owned());
         }
         let evidence = format!(
-            "native runs of the protocol: c is 0 up to some A and grows with A beyond, to {} for the largest A (5 epsilon r)",
+            "native runs of the protocol, $c/mg$ over $A$: {}",
             list(listed)
         );
         Ok(Finding::exceptions(wrong, evidence))
@@ -55,7 +58,7 @@ pub(crate) const CHECKS: &[Check] = &[
         for study in &runs.preparation {
             let critical = study.critical_push;
             if let Some(shift) = critical.and_then(|found| study.shift(found.push)) {
-                listed.push(format!("{:+.3} % at {}", 100.0 * shift, name(study)));
+                listed.push(format!("{} at {}", percent(shift, 3), name(study)));
                 shifts.push(shift.abs());
             }
         }
@@ -63,8 +66,8 @@ pub(crate) const CHECKS: &[Check] = &[
             return Err(MISSING.to_owned());
         }
         let evidence = format!(
-            "native runs of the protocol: between A = 0 and the largest A that also ends with c = 0, f + 3mg at yield changes by {}. The \
-             tangential forces that A leaves are not fixed by c = 0",
+            "native runs of the protocol: between $A = 0$ and the largest $A$ that also ends with $c = 0$, $f + 3mg$ at yield \
+             changes by {}. The tangential forces that $A$ leaves are not fixed by $c = 0$",
             list(listed)
         );
         Ok(Finding::new(worst(shifts), 1e-4, evidence))
@@ -82,9 +85,27 @@ fn contact_forces(study: &PreparationStudy) -> Vec<(f64, Option<f64>)> {
     pushed
 }
 
+/// c at the push with the largest c, and where c falls again, at the largest push.
+fn course(study: &PreparationStudy, pushed: &[(f64, f64)]) -> String {
+    let largest = pushed
+        .iter()
+        .max_by(|left, right| left.1.total_cmp(&right.1));
+    let at = |&(push, force): &(f64, f64)| {
+        let push = number(push * study.stack.stiffness);
+        let force = (1e3 * force).round() / 1e3;
+        format!("{force} at $A = {push}\\epsilon r$")
+    };
+    match (largest, pushed.last()) {
+        (Some(largest), Some(last)) if largest != last => {
+            format!("a maximum of {} and {}", at(largest), at(last))
+        }
+        (Some(largest), _) => format!("0 up to some $A$ and then growing, to {}", at(largest)),
+        _ => "nothing".to_owned(),
+    }
+}
+
 fn name(study: &PreparationStudy) -> String {
-    format!(
-        "mu = {:.3}, k_n r/mg = {:e}",
-        study.stack.floor_friction, study.stack.stiffness
-    )
+    let friction = number(study.stack.floor_friction);
+    let stiffness = number(study.stack.stiffness);
+    format!("$(\\mu, k_n r/mg) = ({friction}, {stiffness})$")
 }

@@ -2,8 +2,10 @@
 
 use super::Check;
 use crate::model::CRITICAL_FRICTION;
-use crate::paper::claims::finding::{Finding, ROUND_OFF, list, relative, size, worst};
-use crate::paper::claims::truth::{RADIUS, RATIOS, multiplied_out, pairs};
+use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, worst};
+use crate::paper::claims::multiplied_out::multiplied_out;
+use crate::paper::claims::notation::{RATIO, fixed, scientific, size, values};
+use crate::paper::claims::truth::{RADIUS, RATIOS, pairs};
 use crate::theory::bracketed_root;
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -24,10 +26,12 @@ pub(crate) const CHECKS: &[Check] = &[
         let coefficient = multiplied_out(CRITICAL_FRICTION, kappa)[0][4];
         let (constant, leading) = (worst(constant), worst(leading));
         let evidence = format!(
-            "the elastic equation multiplied out at {count} pairs of mu and kappa, coefficient of z^5 made 1: that of z^4 at \
-             epsilon = 0 is -z_star (deviation {}); the constant term is c_0 epsilon^4 with c_0 = {coefficient:.4} r^5 at mu_c and kappa = 2.5, \
-             off by a factor of up to {:.2} from the printed one. With the bare epsilon^4 the roots given for beta = 1 would not follow",
+            "the elastic equation multiplied out at {count} pairs of $\\mu$ and $\\kappa$, coefficient of $z^5$ made 1: that of \
+             $z^4$ at $\\epsilon = 0$ is $-z_\\star$ (deviation {}); the constant term is $c_0\\epsilon^4$ with \
+             $c_0 = {coefficient:.4}r^5$ at $\\mu_c$ and {}, off by a factor of up to {:.2} from the printed one. With the \
+             bare $\\epsilon^4$ the roots given for $\\beta = 1$ would not follow",
             size(leading, ROUND_OFF),
+            values(RATIO, &[kappa]),
             constant + 1.0
         );
         Finding::new(worst([constant, leading]), ROUND_OFF, evidence)
@@ -52,22 +56,25 @@ pub(crate) const CHECKS: &[Check] = &[
         }
         let found = size(stray, ROUND_OFF);
         let evidence = format!(
-            "the elastic equation multiplied out at 15 pairs of mu and kappa: largest coefficient of a power of epsilon that the \
-             form does not have: {found}. (The coefficients depend on kappa as well as on mu.)"
+            "the elastic equation multiplied out at {} pairs of $\\mu$ and $\\kappa$: largest coefficient of a power of $\\epsilon$ that \
+             the form does not have: {found}. (The coefficients depend on $\\kappa$ as well as on $\\mu$.)",
+            FRICTIONS.len() * RATIOS.len()
         );
         Finding::new(stray, ROUND_OFF, evidence)
     }),
     Check::theory("balance-exponents", |paper| {
         let kappa = paper.stiffness_ratio;
-        let (coarse, fine) = (roots(kappa, 1e-8), roots(kappa, 1e-10));
+        let epsilons = [1e-8, 1e-10];
+        let [coarse, fine] = epsilons.map(|epsilon| roots(kappa, epsilon));
         let exponents = [0, 1, 2, 3, 4].map(|index| (coarse[index] / fine[index]).log10() / 2.0);
         let (outer, inner) = (paper.larger_exponent, paper.smaller_exponent);
         let expected = [outer, inner, inner, inner, outer];
         let deviation =
             worst([0, 1, 2, 3, 4].map(|index| (exponents[index] - expected[index]).abs()));
         let evidence = format!(
-            "all five roots at mu_c, between epsilon = 1e-8 and 1e-10: {}",
-            list(exponents.map(|exponent| format!("{exponent:.3}")))
+            "the powers of $\\epsilon$ with which all five roots at $\\mu_c$ fall, between {}: {}",
+            values(EPSILON, &epsilons),
+            fixed(exponents, 3)
         );
         Finding::new(deviation, 1e-3, evidence)
     }),
@@ -81,23 +88,28 @@ pub(crate) const CHECKS: &[Check] = &[
         let bare = paper.balancing_superscript == 0.0;
         let named = table[3][if bare { 1 } else { 2 }];
         let evidence = format!(
-            "z^5 and c epsilon z^3 balance at mu_c with c = -z^2/epsilon = {needed:.4}; the quintic has c_3^(0) = {:.4}, c_3^(1) = {:.4} \
-             (kappa = 2.5, r = 1), and c_3^(1) comes with epsilon^2",
-            table[3][1], table[3][2]
+            "$z^5$ and $c\\epsilon z^3$ balance at $\\mu_c$ with $c = -z^2/\\epsilon = {needed:.4}$; the quintic has \
+             $c_3^{{(0)}} = {:.4}$, $c_3^{{(1)}} = {:.4}$ ({}, $r = 1$), and $c_3^{{(1)}}$ comes with $\\epsilon^2$",
+            table[3][1],
+            table[3][2],
+            values(RATIO, &[kappa])
         );
         Finding::new(relative(named, needed), 1e-3, evidence)
     }),
     Check::theory("larger-roots", |paper| {
+        let epsilon = 1e-10;
         let deviations = RATIOS.map(|kappa| {
-            let epsilon = 1e-10;
             let [negative, .., positive] = roots(kappa, epsilon);
             let printed = paper.critical_displacement(kappa, epsilon, 1.0);
             worst([relative(printed, positive), relative(-printed, negative)])
         });
         let largest = worst(deviations);
         let evidence = format!(
-            "largest and smallest root of the multiplied-out equation at mu_c, epsilon = 1e-10, kappa = 1, 2.5, 10: relative \
-             difference at most {largest:.1e} (it falls as the root of epsilon)"
+            "largest and smallest root of the multiplied-out equation at $\\mu_c$, {}, {}: relative difference at most ${}$ (it \
+             falls as $\\sqrt\\epsilon$)",
+            values(EPSILON, &[epsilon]),
+            values(RATIO, &RATIOS),
+            scientific(largest, 1)
         );
         Finding::new(largest, 1e-3, evidence)
     }),
@@ -112,8 +124,10 @@ pub(crate) const CHECKS: &[Check] = &[
             (beyond_one - 1.0).abs(),
         ]);
         let evidence = format!(
-            "roots of order epsilon at mu_c, epsilon = 1e-10: z/(epsilon r) = {lowest:.5} and {near_one:.5}, {beyond_one:.5} (the latter two \
-             meet at 1); 1/(4 mu_c) = {printed:.5}"
+            "roots of order $\\epsilon$ at $\\mu_c$, {}: $z/(\\epsilon r)$ is {} (the latter two meet at 1); \
+             $1/(4\\mu_c) = {printed:.5}$",
+            values(EPSILON, &[epsilon]),
+            fixed([lowest, near_one, beyond_one], 5)
         );
         Finding::new(deviation, 1e-3, evidence)
     }),
@@ -123,12 +137,15 @@ pub(crate) const CHECKS: &[Check] = &[
         let roots = roots(paper.stiffness_ratio, epsilon).into_iter();
         let admissible = roots.filter(|&root| root >= lowest).count();
         let evidence = format!(
-            "{admissible} of the five roots at mu_c, epsilon = 1e-6, has z >= 3 epsilon r/2"
+            "{admissible} of the five roots at $\\mu_c$, {}, has $z \\ge 3\\epsilon r/2$",
+            values(EPSILON, &[epsilon])
         );
         Finding::new((admissible as f64 - 1.0).abs(), 0.0, evidence)
     }),
 ];
 
+/// TeX of ε.
+const EPSILON: &str = r"\epsilon";
 const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 
 /// P(z) at μ_c.

@@ -3,6 +3,7 @@
 use super::Check;
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::paper::claims::finding::{Finding, imbalance, relative, worst};
+use crate::paper::claims::notation::{FRICTION, STIFFNESS, list, range};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::{Balanced, Forces, equilibrium, pairs, turned};
 use crate::theory::quasistatic_limit;
@@ -39,7 +40,7 @@ pub(crate) const CHECKS: &[Check] = &[
             let load = (limit.floor_slip_force? + paper.stack_weights) * epsilon;
             Some(relative(shear, mu * (load / paper.floor_contacts)))
         });
-        let compared = "e and d = (f + 3mg)/2 of the exact quasi-static limit at yield";
+        let compared = "$e$ and $d = (f + 3mg)/2$ of the exact quasi-static limit at yield";
         Finding::identity(deviations, compared)
     }),
     Check::theory("bottom-contact-open", |paper| {
@@ -51,23 +52,29 @@ pub(crate) const CHECKS: &[Check] = &[
         });
         let lowest = -worst(inward);
         let evidence = format!(
-            "in the exact quasi-static limit the bottom cylinders have parted at yield everywhere (mu from 0.12 to \
-             0.53, 1/epsilon from 1e2 to 1e4): y/(epsilon r) is at least {lowest:.3}"
+            "in the exact quasi-static limit the bottom cylinders have parted at yield everywhere ({}, {}): \
+             $y/(\\epsilon r)$ is at least {lowest:.3}",
+            range(FRICTION, &frictions),
+            range(STIFFNESS, &stiffnesses)
         );
         Finding::statement(lowest > 0.0, evidence)
     }),
     Check::theory("six-conditions", |paper| {
         let mut known = Vector6::zeros();
         (known[0], known[5]) = (-paper.stack_weights, paper.upper_weights);
-        let solved = [0.1, 0.15, 0.2, 0.25].map(|mu| {
+        let frictions = [0.1, 0.15, 0.2, 0.25];
+        let solved = frictions.map(|mu| {
             let solution = conditions(paper, mu).lu().solve(&known);
             let force = solution.map_or(f64::NAN, |solution| solution[5]);
             relative(force, slip_force(mu))
         });
         let singular = conditions(paper, CRITICAL_FRICTION).determinant().abs();
         let deviations = solved.into_iter().chain([singular]);
-        let compared = "six linear equations for six unknowns, solved for mu = 0.1 to 0.25; singular at mu_c alone, where f diverges";
-        Finding::identity(deviations, compared)
+        let compared = format!(
+            "six linear equations for six unknowns, solved for {}; singular at $\\mu_c$ alone, where $f$ diverges",
+            range(FRICTION, &frictions)
+        );
+        Finding::identity(deviations, &compared)
     }),
     Check::theory("torque-balance", |paper| {
         in_balance(&ANGLES, |state| imbalance(&paper.torque_terms(state)))
@@ -89,7 +96,7 @@ pub(crate) const CHECKS: &[Check] = &[
             let of_the_bottom = d - a * normal.y - b * turned(normal).y - WEIGHT;
             ((of_the_bottom + 0.5 * upper + 0.5 * stack) / d).abs()
         });
-        let compared = "Eq. (3) is the balance of the upper cylinder, as the paper says right below it; with f + 3mg = 2d it is \
+        let compared = "Eq. (3) is the balance of the upper cylinder, as the paper says right below it; with $f + 3mg = 2d$ it is \
              equivalent to the vertical balance of the bottom one";
         Finding::identity(deviations, compared)
     }),
@@ -103,7 +110,7 @@ pub(crate) const CHECKS: &[Check] = &[
                 (tangent - turned(normal)).norm(),
             ])
         });
-        let compared = "length of t, its product with n, and n turned by -90 degrees";
+        let compared = r"length of $\boldsymbol{t}$, its product with $\boldsymbol{n}$, and $\boldsymbol{n}$ turned by $-90$ degrees";
         Finding::identity(deviations, compared)
     }),
     Check::theory("rigid-directions", |paper| {
@@ -129,17 +136,20 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("rigid-slips-at-once", |paper| {
         let (lowest, _) = ratios();
         let threshold = paper.critical_friction / paper.rigid_threshold;
-        let compared = "mu_c/3 against the smallest e/d of the balances, over f from 0 to 1e12 mg (it is that at f = 0)";
+        let compared = r"$\mu_c/3$ against the smallest $e/d$ of the balances, over $f$ from 0 to $10^{12}mg$ (it is that at $f = 0$)";
         Finding::identity([relative(threshold, lowest)], compared)
     }),
     Check::theory("rigid-never-slips", |paper| {
         let (_, highest) = ratios();
-        let compared = "mu_c against the largest e/d of the balances, over f from 0 to 1e12 mg (it is approached from below)";
+        let compared = r"$\mu_c$ against the largest $e/d$ of the balances, over $f$ from 0 to $10^{12}mg$ (it is approached from below)";
         Finding::identity([relative(paper.critical_friction, highest)], compared)
     }),
     Check::theory("rigid-yield-force", |paper| {
-        let deviations = (1..=80).map(|index| {
-            let mu = 0.005 * f64::from(index) + 1e-3;
+        let step = 0.005;
+        let frictions: Vec<f64> = (1..=80)
+            .map(|index| step * f64::from(index) + 1e-3)
+            .collect();
+        let deviations = frictions.iter().map(|&mu| {
             let (printed, truth) = (paper.rigid_yield_force(mu), slip_force(mu));
             // Both are infinite from μ_c on.
             match printed == truth {
@@ -147,8 +157,11 @@ pub(crate) const CHECKS: &[Check] = &[
                 false => ((printed - truth) / (truth + 3.0)).abs(),
             }
         });
-        let compared = "f at which e = mu d in the balances, by bisection, at mu = 0.006 to 0.401 in steps of 0.005";
-        Finding::identity(deviations, compared)
+        let compared = format!(
+            "$f$ at which $e = \\mu d$ in the balances, by bisection, at {} in steps of {step}",
+            range(FRICTION, &frictions)
+        );
+        Finding::identity(deviations, &compared)
     }),
     Check::theory("rigid-divergence", |paper| {
         let distances = [1e-2, 1e-3, 1e-4];
@@ -158,20 +171,20 @@ pub(crate) const CHECKS: &[Check] = &[
         let pairs = frictions.iter().zip(forces);
         let deviations = pairs.map(|(&mu, force)| relative(paper.rigid_yield_force(mu), force));
         let compared = format!(
-            "f at which e = mu d in the balances, 1 %, 0.1 % and 0.01 % below mu_c: it grows as the distance to the \
-             power -{exponent:.2}"
+            "$f$ at which $e = \\mu d$ in the balances, {} below $\\mu_c$: it grows as the distance to the power $-{exponent:.2}$",
+            list(distances.map(|distance| format!("{} %", 100.0 * distance)))
         );
         Finding::identity(deviations, &compared)
     }),
     Check::theory("critical-friction", |paper| {
         let deviation = relative(paper.critical_friction, tan_15_degrees());
         let compared =
-            "mu_c against tan 15 degrees, the e/d of rigid cylinders under a large force";
+            r"$\mu_c$ against $\tan 15^\circ$, the $e/d$ of rigid cylinders under a large force";
         Finding::identity([deviation], compared)
     }),
     Check::theory("critical-friction-decimal", |paper| {
         let (printed, truth) = (paper.critical_friction_decimal, tan_15_degrees());
-        let evidence = format!("tan 15 degrees is {truth:.5}, printed is {printed}");
+        let evidence = format!("$\\tan 15^\\circ = {truth:.5}$, printed is {printed}");
         // It may be off by half a unit of its last digit.
         Finding::new((printed - truth).abs(), 0.5e-3 * (1.0 + 1e-9), evidence)
     }),

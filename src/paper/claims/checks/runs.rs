@@ -3,9 +3,13 @@
 use super::Check;
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention};
-use crate::paper::claims::finding::{Finding, list, relative, violation, worst};
-use crate::paper::reproduction::{ConvergencePoint, FITTED_FROM, Reproduction, exponent_at};
-use crate::study::yield_force::Judgement;
+use crate::paper::claims::finding::{Finding, relative, violation, worst};
+use crate::paper::claims::notation::{FRICTION, list, number, percent, scientific, stack, values};
+use crate::paper::reproduction::{
+    ConvergencePoint, FAST_WALL, FITTED_FROM, Reproduction, SCALING_FRICTIONS, WALL_SPEEDS,
+    convergence_stack, exponent_at, force_series_stack,
+};
+use crate::study::yield_force::{Judgement, PAPER_TIME_STEP};
 
 pub(crate) const CHECKS: &[Check] = &[
     // f(t) rises, has one maximum, and falls.
@@ -21,9 +25,11 @@ pub(crate) const CHECKS: &[Check] = &[
         }
         let last = rows.last().map_or(f64::NAN, |row| row.1);
         let evidence = format!(
-            "native DEM at mu = 0.2, k_n r/mg = 1e2, v = 1e-6: f rises to {highest:.4} mg (largest fall on the way {:.1e} of it) and then \
-             falls to {last:.3} mg",
-            drop / highest
+            "native DEM at {}, {}: $f$ rises to ${highest:.4}mg$ (largest fall on the way ${}$ of it) and then falls to \
+             ${last:.3}mg$",
+            stack(&force_series_stack()),
+            speed(runs.force_series.wall_speed),
+            scientific(drop / highest, 1)
         );
         let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
         Ok(Finding::new(deviation, 1e-3, evidence))
@@ -34,10 +40,11 @@ pub(crate) const CHECKS: &[Check] = &[
         let forces = series.peak_force.zip(series.limit);
         let (peak, limit) = forces.ok_or_else(|| missing("f(t)"))?;
         let evidence = format!(
-            "native DEM at mu = 0.2, k_n r/mg = 1e2, v = {:e}, dt = {:e}: peak {peak:.6} mg, exact quasi-static limit {limit:.6} mg: {:+.4} %",
-            series.wall_speed,
-            series.time_step,
-            100.0 * (peak / limit - 1.0)
+            "native DEM at {}, {}, {}: peak ${peak:.6}mg$, exact quasi-static limit ${limit:.6}mg$: {}",
+            stack(&force_series_stack()),
+            speed(series.wall_speed),
+            time_step(series.time_step),
+            percent(peak / limit - 1.0, 4)
         );
         Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
     }),
@@ -48,8 +55,10 @@ pub(crate) const CHECKS: &[Check] = &[
             return Err(missing("the convergence study"));
         };
         let evidence = format!(
-            "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}",
-            percents(runs, &[1e-3, 1e-4, 1e-5, 1e-6, 1e-7])
+            "native DEM at {}, {}: peak against the exact quasi-static limit {}",
+            stack(&convergence_stack()),
+            time_step(PAPER_TIME_STEP),
+            percents(runs, &WALL_SPEEDS)
         );
         let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
         Ok(Finding::statement(shrinks, evidence))
@@ -58,8 +67,10 @@ pub(crate) const CHECKS: &[Check] = &[
         let excess = excess(runs, paper.compression_speed);
         let excess = excess.ok_or_else(|| missing("this wall speed"))?;
         let evidence = format!(
-            "native DEM at mu = 0.2, k_n r/mg = 1e4, dt = 1e-3: peak against the exact quasi-static limit {}: it grows as v/epsilon",
-            percents(runs, &[1e-5, 1e-6, 1e-7])
+            "native DEM at {}, {}: peak against the exact quasi-static limit {}: it grows as $v_{{\\mathrm{{com}}}}/\\epsilon$",
+            stack(&convergence_stack()),
+            time_step(PAPER_TIME_STEP),
+            percents(runs, &WALL_SPEEDS[2..])
         );
         Ok(Finding::new(excess.abs(), 1e-3, evidence))
     }),
@@ -68,14 +79,18 @@ pub(crate) const CHECKS: &[Check] = &[
         let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
         let peaks = peak(paper.time_step).zip(peak(0.1 * paper.time_step));
         let (at, finer) = peaks.ok_or_else(|| missing("these time steps"))?;
-        let coarse = peak(0.1).map_or_else(String::new, |coarse| {
-            let off = relative(coarse, finer);
-            format!("; even at dt = 0.1 it is {off:.1e} off")
+        let coarsest = 0.1;
+        let coarse = peak(coarsest).map_or_else(String::new, |coarse| {
+            let off = scientific(relative(coarse, finer), 1);
+            format!("; even at {} it is ${off}$ off", time_step(coarsest))
         });
         let change = relative(at, finer);
         let evidence = format!(
-            "native DEM at mu = 0.2, k_n r/mg = 1e4, v = 1e-3: the peak changes by {change:.1e} between dt = {:e} and a tenth of it{coarse}",
-            paper.time_step
+            "native DEM at {}, {}: the peak changes by ${}$ between {} and a tenth of it{coarse}",
+            stack(&convergence_stack()),
+            speed(FAST_WALL),
+            scientific(change, 1),
+            time_step(paper.time_step)
         );
         Ok(Finding::new(change, 1e-4, evidence))
     }),
@@ -85,8 +100,10 @@ pub(crate) const CHECKS: &[Check] = &[
                 .stack(0.2, 1e4)
                 .longest_time_step(&ContactConvention::PAPER);
         let evidence = format!(
-            "a leapfrog step is stable up to 2/omega of the stiffest mode of the stack; dt = {:e} is {ratio:.1e} of the longest safe step",
-            paper.time_step
+            "a leapfrog step is stable up to $2/\\omega$ of the stiffest mode of the stack; {} is ${}$ of the longest safe \
+             step",
+            time_step(paper.time_step),
+            scientific(ratio, 1)
         );
         Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
     }),
@@ -104,10 +121,11 @@ pub(crate) const CHECKS: &[Check] = &[
         let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
         let near = worst(near.map(|row| row.0));
         let evidence = format!(
-            "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): f + 3mg differs by at most {:.1} % \
-             (mu = {mu}, k_n r/mg = {stiffness:.0}), {:.1} % up to mu_c. The distance does not vanish for stiff cylinders above mu_c",
+            "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): $f + 3mg$ differs by at \
+             most {:.1} % ({}), {:.1} % up to $\\mu_c$. The distance does not vanish for stiff cylinders above $\\mu_c$",
             compared.len(),
             100.0 * largest,
+            stack(&paper.stack(mu, stiffness)),
             100.0 * near
         );
         Ok(Finding::new(largest, 1e-3, evidence))
@@ -124,8 +142,11 @@ pub(crate) const CHECKS: &[Check] = &[
         let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
         let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
         let evidence = format!(
-            "native DEM at mu = 0.25: f + 3mg comes closer to f_0 + 3mg with every decade of k_n r/mg, to {closest:.1e} at {stiffness:.0e}; \
-             at mu_c and above it grows without bound (see the exponents)"
+            "native DEM at {}: $f + 3mg$ comes closer to $f_0 + 3mg$ with every decade of $k_n r/mg$, to ${}$ at ${}$; at \
+             $\\mu_c$ and above it grows without bound (see the exponents)",
+            values(FRICTION, &SCALING_FRICTIONS[..1]),
+            scientific(closest, 1),
+            number(stiffness)
         );
         let deviation = worst([closest, violation(shrinks)]);
         Ok(Finding::new(deviation, 1e-2, evidence))
@@ -138,15 +159,19 @@ pub(crate) const CHECKS: &[Check] = &[
             let printed = exponent_at(exponent.mu, [0.0, paper.scaling_at, paper.scaling_above]);
             deviations.push((exponent.exponent - printed).abs());
             listed.push(format!(
-                "{:.4} +- {:.0e} at mu = {:.3}",
-                exponent.exponent, exponent.uncertainty, exponent.mu
+                "${:.4} \\pm {}$ at {}",
+                exponent.exponent,
+                scientific(exponent.uncertainty, 0),
+                values(FRICTION, &[exponent.mu])
             ));
         }
         if deviations.len() < 3 {
             return Err(missing("Fig. 2(b)"));
         }
         let evidence = format!(
-            "slopes of ln(f + 3mg) over ln(k_n r/mg), native DEM, fitted from {FITTED_FROM:.0e} on: {}; the paper's 0, {} and {} are their limits",
+            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, native DEM, fitted from ${}$ on: {}; the paper's 0, {} and {} are \
+             their limits",
+            number(FITTED_FROM),
             list(listed),
             paper.scaling_at,
             paper.scaling_above
@@ -178,9 +203,18 @@ fn excess(runs: &Reproduction, speed: f64) -> Option<f64> {
 
 fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
     list(speeds.iter().map(|&speed| match excess(runs, speed) {
-        Some(excess) => format!("{:+.3} % at v = {speed:e}", 100.0 * excess),
-        None => format!("not run at {speed:e}"),
+        Some(excess) => format!("{} at {}", percent(excess, 3), self::speed(speed)),
+        None => format!("not run at {}", self::speed(speed)),
     }))
+}
+
+/// A speed of the compressing wall.
+fn speed(speed: f64) -> String {
+    format!(r"$v_{{\mathrm{{com}}}} = {}r\sqrt{{k_n/m}}$", number(speed))
+}
+
+fn time_step(step: f64) -> String {
+    format!(r"$\Delta t = {}\sqrt{{m/k_n}}$", number(step))
 }
 
 /// Friction, stiffness and yield force of the native rows that have one.

@@ -2,19 +2,25 @@
 
 use super::Check;
 use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, relative, size, violation, worst};
+use crate::paper::claims::finding::{Finding, relative, violation, worst};
+use crate::paper::claims::notation::{
+    FRICTION, STIFFNESS, fixed, list, powers, range, scientific, size, values,
+};
 use crate::paper::claims::printed::PaperTheory;
 use crate::paper::claims::truth::elastic_displacement;
+use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{floor_slip_force, rigid_yield};
 
 pub(crate) const CHECKS: &[Check] = &[
     Check::theory("scaling", |paper| {
-        let far = exponents(paper, 1e7, 1e8, exact_load);
-        let near = exponents(paper, 1e2, 1e4, exact_load);
+        let own = [paper.lowest_stiffness, paper.highest_stiffness];
+        let far = exponents(paper, FAR, exact_load);
+        let near = exponents(paper, own, exact_load);
         let evidence = format!(
-            "exponents of the DEM's exact quasi-static limit between 1/epsilon = 1e7 and 1e8: {}; over the paper's own range \
-             1e2 to 1e4: {}",
+            "exponents of the DEM's exact quasi-static limit between {}: {}; over the paper's own range, {}: {}",
+            values(STIFFNESS, &FAR),
             listed(far),
+            range(STIFFNESS, &own),
             listed(near)
         );
         Finding::new(off_printed(paper, far), EXPONENT, evidence)
@@ -34,8 +40,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let exponent = |mu| (load(mu, 1e-8) / load(mu, 1e-6)).log10() / 2.0;
         let (at, above) = (exponent(CRITICAL_FRICTION), exponent(ABOVE));
         let evidence = format!(
-            "2z/(epsilon r) of Eq. (13): (f_0 + 3mg)/mg at mu = 0.25 (relative difference {}), exponents {at:.3} at mu_c and \
-             {above:.3} at 0.3",
+            "$2z/(\\epsilon r)$ of Eq. (13): $(f_0 + 3mg)/mg$ at $\\mu = {BELOW}$ (relative difference {}), exponents {at:.3} at \
+             $\\mu_c$ and {above:.3} at ${ABOVE}$",
             size(rigid, 1e-9)
         );
         let deviation = worst([
@@ -46,9 +52,10 @@ pub(crate) const CHECKS: &[Check] = &[
         Finding::new(deviation, 1e-9, evidence)
     }),
     Check::theory("scaling-of-perturbation", |paper| {
-        let far = exponents(paper, 1e7, 1e8, |stack| perturbative_load(paper, stack));
+        let far = exponents(paper, FAR, |stack| perturbative_load(paper, stack));
         let evidence = format!(
-            "exponents of Eq. (17) between 1/epsilon = 1e7 and 1e8: {}",
+            "exponents of Eq. (17) between {}: {}",
+            values(STIFFNESS, &FAR),
             listed(far)
         );
         Finding::new(off_printed(paper, far), EXPONENT, evidence)
@@ -73,46 +80,62 @@ pub(crate) const CHECKS: &[Check] = &[
     // Eq. (13) below μ_c meets z ≥ 3 ε r/2 from μ_c/3 on.
     Check::theory("naive-validity", |paper| {
         let excess = |mu: f64| paper.displacement_below(mu, 1.0, 1.0) - paper.lowest_displacement;
-        let lowest = CRITICAL_FRICTION / 3.0;
+        let factors = [0.999, 1.001];
+        let [below, above] = factors.map(|factor| excess(factor * CRITICAL_FRICTION / 3.0));
         let evidence = format!(
-            "z/(epsilon r) - 3/2 of Eq. (13) is {:+.1e} at 0.999 mu_c/3, {:+.1e} at 1.001 mu_c/3: below mu_c/3 there is no solution",
-            excess(0.999 * lowest),
-            excess(1.001 * lowest)
+            "$z/(\\epsilon r) - 3/2$ of Eq. (13) is ${}$ at ${}\\mu_c/3$ and ${}$ at ${}\\mu_c/3$: below $\\mu_c/3$ there is no solution",
+            scientific(below, 1),
+            factors[0],
+            scientific(above, 1),
+            factors[1]
         );
-        let right = excess(0.999 * lowest) < 0.0 && excess(1.001 * lowest) > 0.0;
+        let right = below < 0.0 && above > 0.0;
         Finding::statement(right, evidence)
     }),
     Check::theory("naive-breaks-down", |paper| {
         let distances = [1e-2, 1e-3, 1e-4];
-        let root = |mu: f64| elastic_displacement(&paper.stack(mu, 1e4));
+        let stiffness = 1e4;
+        let root = |mu: f64| elastic_displacement(&paper.stack(mu, stiffness));
         let ratios = distances.map(|distance| {
             let mu = CRITICAL_FRICTION * (1.0 - distance);
-            paper.displacement_below(mu, 1e-4, 1.0) / root(mu)
+            paper.displacement_below(mu, 1.0 / stiffness, 1.0) / root(mu)
         });
-        let mu = CRITICAL_FRICTION * (1.0 + 1e-4);
+        let mu = CRITICAL_FRICTION * (1.0 + distances[2]);
         let above = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0) / root(mu);
+        let percents = distances.map(|distance| format!("{} %", 100.0 * distance));
         let evidence = format!(
-            "naive over true displacement at 1/epsilon = 1e4: {:.1}, {:.1}, {:.0} at 1 %, 0.1 %, 0.01 % below mu_c: it diverges there \
-             as mu_c/(mu_c - mu). From above it does not diverge but vanishes ({above:.4} at 0.01 %): it breaks down on both sides",
-            ratios[0], ratios[1], ratios[2]
+            "naive over true displacement at {}: {} at {} below $\\mu_c$: it diverges there as $\\mu_c/(\\mu_c - \\mu)$. From \
+             above it does not diverge but vanishes ({above:.4} at {}): it breaks down on both sides",
+            values(STIFFNESS, &[stiffness]),
+            fixed(ratios, 1),
+            list(percents.clone()),
+            percents[2]
         );
         let diverges = ratios[1] > 5.0 * ratios[0] && ratios[2] > 5.0 * ratios[1] && above < 0.1;
         Finding::statement(diverges, evidence)
     }),
     Check::theory("rigid-limit", |paper| {
+        let stiffness = 1e8;
         let loads = |mu: f64| {
-            let stack = paper.stack(mu, 1e8);
+            let stack = paper.stack(mu, stiffness);
             [exact_load(&stack), perturbative_load(paper, &stack)]
         };
-        let below = worst([0.1, 0.15, 0.2, 0.25].map(|mu| {
+        let finite = [0.1, 0.15, 0.2, 0.25];
+        let below = worst(finite.map(|mu| {
             let rigid = paper.rigid_yield_force(mu) + 3.0;
             worst(loads(mu).map(|load| relative(load, rigid)))
         }));
-        let above = [CRITICAL_FRICTION, 0.3, 0.5].into_iter().flat_map(loads);
+        let infinite = [CRITICAL_FRICTION, 0.3, 0.5];
+        let above = infinite.into_iter().flat_map(loads);
         let least = above.fold(f64::INFINITY, f64::min);
         let evidence = format!(
-            "at 1/epsilon = 1e8 the DEM's exact quasi-static limit and Eq. (17) are within {below:.1e} of f_0 + 3mg for mu = 0.1 to \
-             0.25, and above {least:.0e} mg at mu_c, 0.3 and 0.5, where f_0 is infinite"
+            "at {} the DEM's exact quasi-static limit and Eq. (17) are within ${}$ of $f_0 + 3mg$ for {}, and at least ${}mg$ at \
+             {}, where $f_0$ is infinite",
+            values(STIFFNESS, &[stiffness]),
+            scientific(below, 1),
+            range(FRICTION, &finite),
+            scientific(least, 1),
+            values(FRICTION, &infinite)
         );
         Finding::new(worst([below, violation(least > 1e3)]), 1e-4, evidence)
     }),
@@ -127,8 +150,9 @@ pub(crate) const CHECKS: &[Check] = &[
             relative(left, right)
         }));
         let evidence = format!(
-            "in the exact quasi-static limit F is finite at mu_c and its slopes on both sides of it agree to {largest:.1e} \
-             (1/epsilon = 1e2, 1e3, 1e4)"
+            "in the exact quasi-static limit $f$ is finite at $\\mu_c$ and its slopes on both sides of it agree to ${}$ ({})",
+            scientific(largest, 1),
+            values(STIFFNESS, &stiffnesses)
         );
         Finding::new(largest, 1e-2, evidence)
     }),
@@ -143,11 +167,12 @@ pub(crate) const CHECKS: &[Check] = &[
             let largest = numbered.max_by(|left, right| left.1.total_cmp(&right.1));
             largest.map_or(f64::NAN, |(index, _)| mu(index as i32 - 17))
         };
-        let found = [1e2, 1e3, 1e4].map(steepest);
+        let found = PAPER_STIFFNESSES.map(steepest);
         let evidence = format!(
-            "d ln(F + 3)/d mu of the exact quasi-static limit is largest at mu = {:.3}, {:.3}, {:.3} for 1/epsilon = 1e2, 1e3, 1e4 \
-             (mu_c = 0.268)",
-            found[0], found[1], found[2]
+            "$d\\ln(f + 3mg)/d\\mu$ of the exact quasi-static limit is largest at $\\mu$ of {} for {} ($\\mu_c = {:.3}$)",
+            fixed(found, 3),
+            values(STIFFNESS, &PAPER_STIFFNESSES),
+            CRITICAL_FRICTION
         );
         Finding::new(relative(found[2], paper.critical_friction), 0.01, evidence)
     }),
@@ -155,6 +180,8 @@ pub(crate) const CHECKS: &[Check] = &[
 
 /// Deviation of an exponent that the next order causes at 1/ε = 10⁷.
 const EXPONENT: f64 = 2e-3;
+/// Stiffnesses at which the next order no longer shows.
+const FAR: [f64; 2] = [1e7, 1e8];
 /// The frictions of Fig. 2(b).
 const BELOW: f64 = 0.25;
 const ABOVE: f64 = 0.3;
@@ -169,7 +196,7 @@ fn rigid_load(mu: f64) -> f64 {
 }
 
 /// Exponents of ε below, and of 1/ε at and above μ_c, between two stiffnesses.
-fn exponents(paper: &PaperTheory, from: f64, to: f64, load: impl Fn(&Stack) -> f64) -> [f64; 3] {
+fn exponents(paper: &PaperTheory, [from, to]: [f64; 2], load: impl Fn(&Stack) -> f64) -> [f64; 3] {
     let slope = |low: f64, high: f64| (high / low).ln() / (to / from).ln();
     let at = |mu, stiffness| load(&paper.stack(mu, stiffness));
     let missing = |stiffness| (rigid_load(BELOW) - at(BELOW, stiffness)).abs();
@@ -196,7 +223,7 @@ fn perturbative_load(paper: &PaperTheory, stack: &Stack) -> f64 {
 
 fn listed([below, at, above]: [f64; 3]) -> String {
     format!(
-        "{below:.3} (correction to f_0 at mu = 0.25, in epsilon), {at:.3} (mu_c) and {above:.3} (0.3)"
+        "{below:.3} (correction to $f_0$ at $\\mu = {BELOW}$, in $\\epsilon$), {at:.3} ($\\mu_c$) and {above:.3} (${ABOVE}$)"
     )
 }
 
@@ -213,10 +240,13 @@ fn naive(
             relative(z(mu, 1.0 / stiffness), root)
         }))
     };
-    let [coarse, middle, fine] = [1e4, 1e6, 1e8].map(at);
+    let stiffnesses = [1e4, 1e6, 1e8];
+    let found = stiffnesses.map(at);
     let evidence = format!(
-        "largest relative difference to the root of the elastic equation, mu = {frictions:.3?}: {coarse:.1e}, {middle:.1e}, \
-         {fine:.1e} at 1/epsilon = 1e4, 1e6, 1e8"
+        "largest relative difference to the root of the elastic equation, {}: {} at {}",
+        values(FRICTION, frictions),
+        powers(found, 1),
+        values(STIFFNESS, &stiffnesses)
     );
-    Finding::new(fine, bound, evidence)
+    Finding::new(found[2], bound, evidence)
 }

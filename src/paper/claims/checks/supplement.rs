@@ -88,8 +88,7 @@ pub(crate) const CHECKS: &[Check] = &[
                 relative(forces.e, state.friction * forces.d),
             ])
         });
-        let compared =
-            "the supplement's a, b, d, e in solutions of the unreduced equations, and e = mu d";
+        let compared = r"the supplement's $a$, $b$, $d$ and $e$ in solutions of the unreduced equations, and $e = \mu d$";
         Finding::identity(deviations, compared)
     }),
     // Without c = 0: torque and horizontal balance of 2, vertical balance of 1 and of the stack, for a, b, c, d, e.
@@ -107,7 +106,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let along_c = (0..4).map(|index| spanned[(2, index)].powi(2)).sum::<f64>();
         let freedom = 1.0 - along_c;
         let evidence = format!(
-            "four balances for the five contact forces of the symmetric stack: rank {rank}; the free direction changes c \
+            "four balances for the five contact forces of the symmetric stack: rank {rank}; the free direction changes $c$ \
              (its share is {:.3})",
             freedom.sqrt()
         );
@@ -119,7 +118,7 @@ const RATIO: f64 = 2.5;
 
 fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
     let deviations = arbitrary_displacements().map(|moved| deviation(&moved) / RADIUS);
-    let compared = "positions and motions of rigid cylinders at arbitrary displacements, r not 1";
+    let compared = "positions and motions of rigid cylinders at arbitrary displacements, $r$ not 1";
     Finding::identity(deviations, compared)
 }
 
@@ -138,6 +137,6 @@ fn springs(component: fn(Forces) -> f64, printed: impl Fn(&Displacements) -> For
         let truth = component(moved.spring_forces(RATIO));
         ((component(printed(&moved)) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
     });
-    let compared = "springs on the motion of the two surfaces at arbitrary displacements, r and k_n not 1 (deviations in k_n r)";
+    let compared = "springs on the motion of the two surfaces at arbitrary displacements, $r$ and $k_n$ not 1 (deviations in $k_n r$)";
     Finding::identity(deviations, compared)
 }

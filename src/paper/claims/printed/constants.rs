@@ -22,6 +22,14 @@ macro_rules! constants {
                 Self { $($name: $value),* }
             }
 
+            /// The value of the constant of that name; `None` if there is none.
+            pub fn constant(&self, name: &str) -> Option<f64> {
+                match name {
+                    $(stringify!($name) => Some(self.$name),)*
+                    _ => None,
+                }
+            }
+
             /// The constant of that name, to be changed; `None` if there is none.
             pub fn constant_mut(&mut self, name: &str) -> Option<&mut f64> {
                 match name {
@@ -155,6 +163,7 @@ mod tests {
         for name in PaperTheory::NAMES {
             let changed = printed.with(name, 123.0).expect("a constant");
             assert_ne!(changed, printed, "{name}");
+            assert_eq!(changed.constant(name), Some(123.0));
         }
         assert_eq!(printed.with("no_such_constant", 1.0), None);
         assert_eq!(SQRT_3, 3f64.sqrt());

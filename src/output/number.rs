@@ -1,6 +1,7 @@
 //! Numbers as people read them.
 
 use crate::model::{CRITICAL_FRICTION, exact};
+use crate::paper::claims::scientific;
 
 /// The name of the critical friction.
 pub(crate) const CRITICAL: &str = "mu_c";
@@ -65,12 +66,7 @@ pub(crate) fn friction_in_tex(value: f64) -> String {
 
 /// A deviation as TeX, with one digit and a power of ten.
 pub(crate) fn power_of_ten(value: f64) -> String {
-    let text = format!("{value:.0e}");
-    match text.split_once('e') {
-        Some(("1", exponent)) => format!("$10^{{{exponent}}}$"),
-        Some((digits, exponent)) => format!("${digits} \\times 10^{{{exponent}}}$"),
-        None => text,
-    }
+    format!("${}$", scientific(value, 0))
 }
 
 /// A small distance: two digits and an exponent.
@@ -117,7 +113,7 @@ mod tests {
         assert_eq!(exact(1e-300), "1e-300");
         assert_eq!(exact(0.300_000_000_000_000_04), "0.30000000000000004");
         assert_eq!(power_of_ten(1e-7), "$10^{-7}$");
-        assert_eq!(power_of_ten(-5.7e-8), "$-6 \\times 10^{-8}$");
+        assert_eq!(power_of_ten(-5.7e-8), "$-6\\times10^{-8}$");
         assert_eq!(plain(2283.4), "2280");
         assert_eq!(plain(8.6399), "8.64");
     }

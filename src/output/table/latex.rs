@@ -182,12 +182,27 @@ impl Kind {
                 format!("{digits}\\times10^{{{}}}", exponent.trim_start_matches('+'))
             }
             (Self::Aligned { .. }, None) => cell.to_owned(),
+            (Self::Lines { .. }, _) => breakable(&latex_text(cell)),
             _ => latex_text(cell),
         }
     }
 }
 
-/// Digits and signs of a number before and after its point, an exponent with its base as five; `None` for a text.
+/// `text` whose long words, such as versions, may be broken after signs.
+fn breakable(text: &str) -> String {
+    let words = text.split(' ').map(|word| {
+        let is_plain = !word.contains(['\\', '$']);
+        match is_plain && word.len() as f64 > LEAST {
+            true => word
+                .replace('+', "+\\allowbreak{}")
+                .replace('.', ".\\allowbreak{}"),
+            false => word.to_owned(),
+        }
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// Digits and signs of a number before and after its point, a power of ten as five and its exponent; `None` for a text.
 fn digits(cell: &str) -> Option<(usize, usize)> {
     if cell == "-" || cell.is_empty() || is_formula(cell) {
         return Some((1, 0));
@@ -197,7 +212,11 @@ fn digits(cell: &str) -> Option<(usize, usize)> {
         .filter(|number| number.is_finite())?;
     let (number, exponent) = cell.split_once('e').unwrap_or((cell, ""));
     let (before, after) = number.split_once('.').unwrap_or((number, ""));
-    let exponent = if exponent.is_empty() { 0 } else { 5 };
+    let exponent = if exponent.is_empty() {
+        0
+    } else {
+        5 + exponent.len()
+    };
     Some((before.len(), after.len() + exponent))
 }
 
@@ -329,7 +348,7 @@ mod tests {
         ];
         let table = latex("errors", "Errors of $F$.", &columns);
         assert!(
-            table.contains("{lD{.}{.}{2.7}>{\\raggedright\\arraybackslash}p{0."),
+            table.contains("{lD{.}{.}{2.9}>{\\raggedright\\arraybackslash}p{0."),
             "{table}"
         );
         assert!(

@@ -2,8 +2,11 @@
 
 use super::latex::{LatexColumn, latex};
 use crate::model::readable_lines;
-use crate::output::text::{html_text, markdown_cell};
+use crate::output::text::{html_attribute, html_text, markdown_cell};
 use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
+
+/// Letters from which on a text is long for a column.
+const LONG_TEXT: usize = 60;
 
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -97,34 +100,67 @@ impl Table {
         latex(name, caption, &columns.collect::<Vec<_>>())
     }
 
-    /// The table in HTML.
+    /// The table in HTML. On a narrow screen each row of one with long texts becomes a block of lines.
     pub(crate) fn html(&self) -> String {
-        let line = |cells: &[String], anchor: &str, tag: &str, scope: &str| {
-            let cells = cells.iter().zip(&self.numeric).map(|(cell, numeric)| {
-                let (class, cell) = match numeric {
-                    true => (" class=\"number\"", html_number(cell)),
-                    false => ("", html_text(cell)),
-                };
-                format!("<{tag}{class}{scope}>{cell}</{tag}>")
-            });
-            format!("<tr{anchor}>{}</tr>", cells.collect::<String>())
+        let class = if self.has_long_texts() {
+            " class=\"stacked\""
+        } else {
+            ""
         };
-        let head = line(&self.headings, "", "th", " scope=\"col\"");
+        let headings = self.headings.iter().zip(&self.numeric);
+        let head = headings.map(|(heading, &numeric)| {
+            format!(
+                "<th{} scope=\"col\">{}</th>",
+                number_class(numeric),
+                html_text(heading)
+            )
+        });
         let rows = self.rows.iter().enumerate().map(|(index, row)| {
             let anchor = self.anchors.get(index);
             let anchor = anchor.map_or(String::new(), |anchor| format!(" id=\"{anchor}\""));
-            line(row, &anchor, "td", "") + "\n"
+            format!("<tr{anchor}>{}</tr>\n", self.html_cells(row))
         });
         format!(
-            "<div class=\"scroll\"><table>\n<thead>{head}</thead>\n<tbody>\n{}</tbody></table></div>",
+            "<div class=\"scroll\"><table{class}>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>",
+            head.collect::<String>(),
             rows.collect::<String>()
         )
     }
+
+    fn html_cells(&self, row: &[String]) -> String {
+        let is_stacked = self.has_long_texts();
+        let columns = self.headings.iter().zip(&self.numeric);
+        let cells = row.iter().zip(columns).map(|(cell, (heading, &numeric))| {
+            let heading = match is_stacked {
+                true => format!(" data-heading=\"{}\"", html_attribute(heading)),
+                false => String::new(),
+            };
+            let cell = if numeric {
+                html_number(cell)
+            } else {
+                html_text(cell)
+            };
+            format!("<td{}{heading}>{cell}</td>", number_class(numeric))
+        });
+        cells.collect()
+    }
+
+    fn has_long_texts(&self) -> bool {
+        let cells = self.rows.iter().flatten();
+        cells
+            .into_iter()
+            .any(|cell| cell.chars().count() > LONG_TEXT)
+    }
 }
 
-/// A number in HTML with a minus sign and a power of ten; any other text as it is.
+fn number_class(numeric: bool) -> &'static str {
+    if numeric { " class=\"number\"" } else { "" }
+}
+
+/// A number in HTML with a minus sign and a power of ten, or with its percent sign; any other text as it is.
 fn html_number(cell: &str) -> String {
-    if cell.parse::<f64>().is_err() {
+    let number = cell.strip_suffix(" %").unwrap_or(cell);
+    if number.parse::<f64>().is_err() {
         return html_text(cell);
     }
     let cell = cell.replace('-', "−");

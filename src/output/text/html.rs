@@ -10,6 +10,11 @@ pub(crate) fn html_text(text: &str) -> String {
     spans(&text).into_iter().map(span).collect()
 }
 
+/// `text` as the value of an attribute, as it is written.
+pub(crate) fn html_attribute(text: &str) -> String {
+    escaped(&readable_lines(text))
+}
+
 fn span(span: Span) -> String {
     match span {
         Span::Plain(text) => escaped(text),

@@ -8,6 +8,6 @@ mod latex;
 mod markdown;
 mod span;
 
-pub(crate) use html::html_text;
+pub(crate) use html::{html_attribute, html_text};
 pub(crate) use latex::latex_text;
 pub(crate) use markdown::{markdown_cell, markdown_code, markdown_text};

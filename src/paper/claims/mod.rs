@@ -18,7 +18,7 @@ mod truth;
 
 pub use checks::check_names;
 pub use finding::ClaimVerdict;
-pub(crate) use notation::scientific;
 pub use judgement::{ClaimJudgement, judge};
+pub(crate) use notation::scientific;
 pub use printed::PaperTheory;
 pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};

@@ -151,17 +151,14 @@ fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatu
     status
 }
 
-/// A row, its verdict and the first reason.
+/// A row, its verdict and the reason.
 fn said_of(row: &Judgement) -> String {
-    let notes = row.notes();
-    let reason = notes
-        .first()
-        .map_or(String::new(), |note| format!(": {note}"));
     format!(
-        "{} at mu = {}, stiffness {}: {}{reason}",
+        "{} at mu = {}, stiffness {}: {}: {}",
         row.code,
         friction(row.mu()),
         row.stiffness(),
-        row.verdict()
+        row.verdict(),
+        row.reason()
     )
 }

@@ -124,6 +124,11 @@ impl<S, F> Judged<S, F> {
     pub fn notes(&self) -> Vec<&str> {
         self.grounds.notes()
     }
+
+    /// Why the verdict is not `agrees`, in one line.
+    pub(crate) fn reason(&self) -> String {
+        self.grounds.reason()
+    }
 }
 
 /// Carries out studies: the codes that take part, the runs that exist, and the conventions that were measured.

@@ -120,6 +120,26 @@ impl Ground {
         }
     }
 
+    /// The numbers of a comparison that does not agree, in words.
+    fn comparison(&self) -> Option<String> {
+        let &Self::Deviation {
+            error,
+            uncertainty,
+            tolerance,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        match self.verdict(0.0)? {
+            Verdict::Agrees => None,
+            Verdict::Inconclusive => Some(format!(
+                "the uncertainty {uncertainty:.1e} exceeds the tolerance {tolerance:.1e}"
+            )),
+            _ => Some(format!("the error {error:.1e} exceeds the tolerance {tolerance:.1e}")),
+        }
+    }
+
     /// The verdict that this ground alone would give; `None` if it gives none. Deviations up to `blur` decide
     /// nothing.
     fn verdict(&self, blur: f64) -> Option<Verdict> {
@@ -205,6 +225,16 @@ impl Grounds {
     /// Notes that explain the verdict, in the order in which they were added.
     pub fn notes(&self) -> Vec<&str> {
         self.0.iter().filter_map(Ground::note).collect()
+    }
+
+    /// Why the verdict is not `agrees`, in one line: the notes, or the numbers of the comparisons that decide.
+    pub fn reason(&self) -> String {
+        let notes = self.notes();
+        if !notes.is_empty() {
+            return notes.join("; ");
+        }
+        let reasons: Vec<String> = self.0.iter().filter_map(Ground::comparison).collect();
+        reasons.join("; ")
     }
 
     /// Error and tolerance of the first comparison; `None` where the reference is not the right one.
@@ -327,6 +357,21 @@ mod tests {
     fn only_a_deviation_that_does_not_agree_is_explained() {
         assert!(grounds(&[deviation(0.1)]).notes().is_empty());
         assert_eq!(grounds(&[deviation(3.0)]).notes(), ["off by 3"]);
+        let unsaid = |error, uncertainty| Ground::Deviation {
+            error,
+            uncertainty,
+            tolerance: 1.0,
+            note: None,
+        };
+        assert_eq!(
+            grounds(&[unsaid(3.0, 0.5)]).reason(),
+            "the error 3.0e0 exceeds the tolerance 1.0e0"
+        );
+        assert_eq!(
+            grounds(&[unsaid(0.1, 2.0)]).reason(),
+            "the uncertainty 2.0e0 exceeds the tolerance 1.0e0"
+        );
+        assert_eq!(grounds(&[unsaid(0.1, 0.5)]).reason(), "");
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
         let verdicts = judgement.verdicts().into_iter().enumerate();
         verdicts.map(|(index, verdict)| {
             let name = format!("{} comparison {}", judgement.code, index + 1);
-            TestCase::new(name, status(verdict, &judgement.notes().join("; ")))
+            TestCase::new(name, status(verdict, &judgement.reason()))
         })
     });
     add_suite("trajectories", trajectories.collect());
@@ -51,7 +51,7 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
 fn row(row: &Judgement) -> TestCase {
     let (mu, stiffness) = (friction(row.mu()), row.stiffness());
     let name = format!("{} at mu = {mu}, stiffness = {stiffness}", row.code);
-    TestCase::new(name, status(row.verdict(), &row.notes().join("; ")))
+    TestCase::new(name, status(row.verdict(), &row.reason()))
 }
 
 fn status(verdict: Verdict, text: &str) -> TestCaseStatus {

@@ -72,7 +72,7 @@ fn unjudged(reproduction: &Reproduction) -> Vec<String> {
             friction_in_tex(row.mu()),
             row.stiffness(),
             row.verdict(),
-            row.notes().join("; ")
+            row.reason()
         )
     })
     .collect()

@@ -3,6 +3,7 @@
 use super::Figure;
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, Point, Sample};
+use super::sheet::Sheet;
 use super::style::{EXACT, GUIDE, ONSET, PEAK};
 use crate::paper::reproduction::ForceSeries;
 
@@ -23,7 +24,7 @@ pub(super) fn force_series(series: &ForceSeries) -> Figure {
              circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
         series.wall_speed, series.time_step
     );
-    Figure::of_halves("force-series", caption, &panels)
+    Figure::of_sheet("force-series", caption, &Sheet::of_halves(panels))
 }
 
 fn whole(series: &ForceSeries) -> Panel {

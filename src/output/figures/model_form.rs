@@ -4,6 +4,7 @@ use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::codes;
 use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
 use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
 use crate::code::Code;
 use crate::model::CRITICAL_FRICTION;
@@ -36,7 +37,7 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
          wall speed. {}; the paper has r₁ = 0.",
         letters.join(", ")
     );
-    Figure::of_halves("model-form", caption, &panels)
+    Figure::of_sheet("model-form", caption, &Sheet::of_halves(panels))
 }
 
 /// The arm coefficients of pair and floor in words.

@@ -3,6 +3,7 @@
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
 use super::style::{
     BODIES_SLIP, BODIES_STROKES, GUIDE, INK, Mark, OWN_WEIGHT, RIGID, Stroke, WALL_REACHES,
 };
@@ -28,7 +29,7 @@ pub(crate) fn spheres_figure(spheres: &Spheres) -> Figure {
         power_of_ten(soft),
         power_of_ten(stiff)
     );
-    Figure::of_halves("spheres", caption, &panels)
+    Figure::of_sheet("spheres", caption, &Sheet::of_halves(panels))
 }
 
 fn panel(spheres: &Spheres, stiffness: f64) -> Panel {

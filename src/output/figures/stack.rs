@@ -35,7 +35,7 @@ fn cylinders(code: &str, case: &Case, frames: &Frames, panels: &[StackPanel]) ->
             "{code} reports the forces of floor and wall alone; those between the cylinders are not drawn."
         ));
     }
-    plane::drawn(panels, stack.epsilon(), &caption)
+    plane::drawn(panels, panels.len(), stack.epsilon(), &caption)
 }
 
 fn spheres(code: &str, case: &Case, panels: &[StackPanel]) -> Drawing {
@@ -75,9 +75,7 @@ pub(super) fn stack(snapshots: &Snapshots) -> Figure {
          now and (light) at the start.",
         stack.floor_friction, stack.stiffness, stack.stiffness_ratio
     );
-    Figure::new(
-        "stack",
-        caption,
-        plane::drawn(&panels, stack.epsilon(), &[]),
-    )
+    let layouts =
+        [panels.len(), 1].map(|columns| plane::drawn(&panels, columns, stack.epsilon(), &[]));
+    Figure::new("stack", caption, layouts)
 }

@@ -6,13 +6,19 @@ use crate::output::table::html_text;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 
-pub(super) fn html(document: &Document) -> String {
+/// The engine of the templates of pages, with the filter `inline` for texts.
+pub(super) fn environment() -> Environment<'static> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.add_filter("inline", |text: &str| {
         Value::from_safe_string(html_text(text))
     });
+    environment
+}
+
+pub(super) fn html(document: &Document) -> String {
+    let mut environment = environment();
     environment
         .add_template("report", include_str!("report.html"))
         .expect("the template is part of the program and tested");

@@ -35,6 +35,6 @@ pub(super) fn gallery(document: &Document) -> String {
         .get_template("gallery")
         .expect("the template has just been added");
     template
-        .render(context! { title => document.title, pictures => Value::from(Serde(pictures)) })
+        .render(context! { title => &document.title, pictures => Value::from(Serde(pictures)) })
         .expect("the template uses only what the pictures have")
 }

@@ -136,7 +136,9 @@ impl Ground {
             Verdict::Inconclusive => Some(format!(
                 "the uncertainty {uncertainty:.1e} exceeds the tolerance {tolerance:.1e}"
             )),
-            _ => Some(format!("the error {error:.1e} exceeds the tolerance {tolerance:.1e}")),
+            _ => Some(format!(
+                "the error {error:.1e} exceeds the tolerance {tolerance:.1e}"
+            )),
         }
     }
 

@@ -2,13 +2,13 @@
 
 use super::axis::Axis;
 use super::panel::{Panel, Point, Sample, Stroke};
-use super::style::{GUIDE, Mark};
+use super::style::{DIFFERS, GUIDE, INCONCLUSIVE, Mark};
 use crate::code::Code;
-use crate::study::MAX_TOLERANCE;
 use crate::study::yield_force::Judgement;
+use crate::study::{MAX_TOLERANCE, Verdict};
 
-/// Range of shown errors; those below are drawn at its lower end.
-const ERRORS: (f64, f64) = (1e-10, 3e-2);
+/// Range of shown errors; those below and above are drawn at its ends.
+const ERRORS: (f64, f64) = (1e-10, 1e-3);
 
 /// The axis of F + 3.
 pub(super) fn load_axis(range: (f64, f64)) -> Axis {
@@ -29,32 +29,51 @@ pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Jud
     });
 }
 
-/// A panel with |error| of every row and the largest tolerance.
-pub(super) fn error_panel(
+/// A panel with |error| of every row, a ring around each on which there is no agreement, and the largest tolerance.
+pub(super) fn error_panel<'a>(
     axis: Axis,
-    judgements: &[Judgement],
+    judgements: impl Iterator<Item = &'a Judgement>,
     x: impl Fn(&Judgement) -> f64,
 ) -> Panel {
     let label = "|F − F_{limit}|/(F_{limit} + 3)";
     let mut panel = Panel::new(axis, Axis::log(label, ERRORS));
     panel.level(GUIDE, MAX_TOLERANCE);
     panel.words_on("largest that agrees", MAX_TOLERANCE);
+    let judgements: Vec<Judgement> = judgements.cloned().collect();
     mark(
         &mut panel,
-        judgements,
+        &judgements,
         |mark| mark,
         |row| Some((x(row), row.error()?.abs())),
     );
     panel
 }
 
-/// Lists the codes of `judgements` in the key of `panel`.
-pub(super) fn key(panel: &mut Panel, judgements: &[Judgement], (right, down): Point) {
-    panel.key_at(right, down);
-    for code in present(judgements) {
-        name(panel, code);
-    }
+/// Writes what the errors of a panel have in common above them.
+pub(super) fn name_errors(panel: &mut Panel, words: &str) {
+    panel.key(Sample::Heading, words);
 }
+
+/// The marks of the codes of `judgements`, and the rings around their points.
+pub(super) fn key(judgements: &[Judgement]) -> Vec<(Sample, String)> {
+    let codes = present(judgements).into_iter();
+    let codes = codes.map(|code| (Mark::of(code), code.label()));
+    let rings = RINGS.into_iter().filter(|(verdict, ..)| {
+        let mut shown = judgements.iter().filter(|row| row.yield_force().is_some());
+        shown.any(|row| row.verdict() == *verdict)
+    });
+    let rings = rings.map(|(_, ring, words)| (ring, words.to_owned()));
+    let entries = codes.chain(rings);
+    entries
+        .map(|(mark, words)| (Sample::Mark(mark), words))
+        .collect()
+}
+
+/// The rings of verdicts.
+const RINGS: [(Verdict, Mark, &str); 2] = [
+    (Verdict::Inconclusive, INCONCLUSIVE, "inconclusive"),
+    (Verdict::Differs, DIFFERS, "differs"),
+];
 
 /// A sentence on the codes that [`loads`] leaves out, if there are any.
 pub(super) fn left_out(judgements: &[Judgement]) -> String {
@@ -84,7 +103,8 @@ pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: Code, points: &[(f64
     panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
 }
 
-fn mark(
+/// A mark at the `point` of every judgement, and a ring around it where there is no agreement.
+pub(super) fn mark(
     panel: &mut Panel,
     judgements: &[Judgement],
     size: impl Fn(Mark) -> Mark,
@@ -94,5 +114,10 @@ fn mark(
         let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
         panel.marks(size(Mark::of(code)), own.filter_map(&point));
+    }
+    for (verdict, ring, _) in RINGS {
+        let own = judgements.iter();
+        let own = own.filter(|row| row.verdict() == verdict);
+        panel.marks(ring, own.filter_map(&point));
     }
 }

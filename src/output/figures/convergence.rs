@@ -3,18 +3,20 @@
 use super::Figure;
 use super::axis::Axis;
 use super::codes;
-use super::panel::{Anchor, Panel, Point, Stroke};
-use super::style::{GUIDE, THIN, THIN_DASHED};
+use super::panel::{Anchor, Panel, Point, Sample};
+use super::sheet::Sheet;
+use super::style::{GUIDE, Mark, THIN, TOGETHER};
 use crate::code::Code;
 use crate::model::Power;
-use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL};
+use crate::paper::claims::number;
+use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL, convergence_stack};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
 
-const EXCESS: (f64, f64) = (1e-8, 1e2);
-const CHANGE: (f64, f64) = (1e-6, 1e1);
-
-/// Lower end of the key on the axis.
-const BELOW_KEY: f64 = 2e-3;
+/// The largest distance from the limit shown.
+const EXCESS: f64 = 3e1;
+const CHANGE: (f64, f64) = (1e-5, 3e-2);
+/// Distance of two marks that stand side by side for the same wall speed, as a part of the panel.
+const ABREAST: f64 = 0.022;
 
 /// A setting, and the force shown of the run with it.
 type Run = (f64, Option<f64>);
@@ -22,60 +24,89 @@ type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// Distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
 pub(super) fn convergence(study: &Convergence) -> Figure {
-    let mut peaks = steps(study, "F_{peak}", |point| point.peak_force);
-    let slips = steps(study, "F_{slip}", |point| point.slip_force);
+    let panels = [
+        speeds(study, "F_{peak}", 1e-4, ConvergencePoint::excess_of_peak),
+        speeds(study, "F_{slip}", 1e-8, ConvergencePoint::excess_of_slip),
+        steps(study, "F_{peak}", |point| point.peak_force),
+        steps(study, "F_{slip}", |point| point.slip_force),
+    ];
+    let stack = convergence_stack();
     let caption = format!(
-        "Supplement, figure on convergence: μ = 0.2, kₙ r/(m g) = 10⁴, κ = 2.5. (a) Distance of the largest wall \
-         force (F_peak, the paper's yield force; solid) and of the force at the onset of slip (F_slip; dashed) \
-         from the exact limit under each code's own convention, over the wall speed v at Δt = {:e} √(m/kₙ). \
-         (b) What the time step Δt changes of the peak and (c) of the slip onset at v = {FAST_WALL:e} r √(kₙ/m), \
-         relative to the same code at Δt = {:e} √(m/kₙ). Lines join the native runs; vertical: the paper's \
+        "Supplement, figure on convergence: $\\mu = {}$, $k_n r/(mg) = {}$, $\\kappa = {}$. Distance (a) of the largest wall \
+         force ($F_\\mathrm{{peak}}$, the paper's yield force) and (b) of the force at the onset of slip ($F_\\mathrm{{slip}}$) \
+         from the exact limit under each code's own convention, over the wall speed $v$ at $\\Delta t = {}\\sqrt{{m/k_n}}$; marks side by \
+         side on one band belong to the same wall speed, that in its middle. \
+         What the time step $\\Delta t$ changes (c) of the peak and (d) of the slip onset at $v = {}\\,r\\sqrt{{k_n/m}}$, \
+         relative to the same code at $\\Delta t = {}\\sqrt{{m/k_n}}$. Lines join the native runs; vertical: the paper's \
          settings.",
-        PAPER_TIME_STEP, PAPER_TIME_STEP
+        number(stack.floor_friction),
+        number(stack.stiffness),
+        number(stack.stiffness_ratio),
+        number(PAPER_TIME_STEP),
+        number(FAST_WALL),
+        number(PAPER_TIME_STEP)
     );
-    peaks.key_at(0.03, 0.02);
-    for code in Code::of_power(Power::Linear) {
-        if study.time_steps.iter().any(|point| point.code == code) {
-            codes::name(&mut peaks, code);
-        }
-    }
-    let panels = [speeds(study), peaks, slips];
-    Figure::of_thirds("convergence", caption, &panels)
+    let key = shown_codes(study).into_iter();
+    let key = key.map(|code| (Sample::Mark(Mark::of(code)), code.label()));
+    Figure::of_sheet(
+        "convergence",
+        caption,
+        &Sheet::of_halves(panels).with_key(key),
+    )
 }
 
-fn speeds(study: &Convergence) -> Panel {
+fn shown_codes(study: &Convergence) -> Vec<Code> {
+    let codes = Code::of_power(Power::Linear).into_iter();
+    let shown = |code: &Code| study.time_steps.iter().any(|point| point.code == *code);
+    codes.filter(shown).collect()
+}
+
+/// The distance of a force from the limit over the wall speed, the codes side by side: they would hide each other.
+fn speeds(study: &Convergence, symbol: &str, lowest: f64, excess: Force) -> Panel {
+    let range = (lowest, EXCESS);
     let mut panel = Panel::new(
-        Axis::log("wall speed v/(r √(kₙ/m))", (3e-8, 3e-3)),
-        Axis::log("|F − F_{limit}|/F_{limit}", EXCESS),
+        Axis::log("wall speed v/(r √(kₙ/m))", (2e-8, 5e-3)),
+        Axis::log(&format!("|{symbol} − F_{{limit}}|/F_{{limit}}"), range),
     );
-    setting(&mut panel, PAPER_WALL_SPEED, EXCESS);
-    let runs = |code: Code, force: Force| -> Vec<Run> {
+    let codes = shown_codes(study);
+    let mut speeds: Vec<f64> = study.wall_speeds.iter().map(|own| own.wall_speed).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    for speed in speeds {
+        panel.band(TOGETHER, speed, ABREAST * codes.len() as f64);
+    }
+    setting(&mut panel, PAPER_WALL_SPEED, range);
+    let middle = 0.5 * (codes.len() as f64 - 1.0);
+    for (index, code) in codes.into_iter().enumerate() {
         let own = study.wall_speeds.iter();
         let own = own.filter(|point| point.code == code);
-        own.map(|point| (point.wall_speed, force(point).map(f64::abs)))
-            .collect()
-    };
-    curve(&mut panel, THIN, |code| {
-        runs(code, ConvergencePoint::excess_of_peak)
-    });
-    curve(&mut panel, THIN_DASHED, |code| {
-        runs(code, ConvergencePoint::excess_of_slip)
-    });
-    panel.words("peak", (1.5e-5, 6e-1), Anchor::End);
-    panel.words("slip onset", (1.5e-5, 1e-6), Anchor::Start);
+        let aside = ABREAST * (index as f64 - middle);
+        let mut points: Vec<Run> = own
+            .map(|point| {
+                (
+                    panel.beside(point.wall_speed, aside),
+                    excess(point).map(f64::abs),
+                )
+            })
+            .collect();
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        codes::runs(&mut panel, THIN, code, &points);
+    }
     panel
 }
 
 fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
     let label = format!("|{symbol}(Δt)/{symbol}(10⁻³) − 1|");
     let mut panel = Panel::new(
-        Axis::log("time step Δt/√(m/kₙ)", (3e-5, 3e-1)),
+        Axis::log("time step Δt/√(m/kₙ)", (5e-5, 2e-1)),
         Axis::log(&label, CHANGE),
     );
-    setting(&mut panel, PAPER_TIME_STEP, (CHANGE.0, BELOW_KEY));
-    curve(&mut panel, THIN, |code| {
-        changes(&study.time_steps, code, force)
-    });
+    setting(&mut panel, PAPER_TIME_STEP, CHANGE);
+    for code in shown_codes(study) {
+        let mut points = changes(&study.time_steps, code, force);
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        codes::runs(&mut panel, THIN, code, &points);
+    }
     panel
 }
 
@@ -97,17 +128,12 @@ fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
         .collect()
 }
 
-/// The runs of every code.
-fn curve(panel: &mut Panel, stroke: Stroke, runs: impl Fn(Code) -> Vec<Run>) {
-    for code in Code::of_power(Power::Linear) {
-        let mut points = runs(code);
-        points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        codes::runs(panel, stroke, code, &points);
-    }
-}
-
 /// A setting of the paper, as a vertical line.
 fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
     panel.line(GUIDE, [(value, low), (value, high)]);
-    panel.words("paper", (1.15 * value, 2.0 * low), Anchor::Start);
+    panel.words(
+        "paper",
+        (panel.beside(value, 0.015), 1.25 * low),
+        Anchor::Start,
+    );
 }

@@ -3,8 +3,10 @@
 use super::Figure;
 use super::axis::Axis;
 use super::panel::{Anchor, Panel, Point, Sample};
+use super::sheet::Sheet;
 use super::style::{EXACT, GUIDE, ONSET, PEAK};
-use crate::paper::reproduction::ForceSeries;
+use crate::paper::claims::number;
+use crate::paper::reproduction::{ForceSeries, force_series_stack};
 
 /// Unit of printed times.
 const LONG: f64 = 1e4;
@@ -16,14 +18,18 @@ const ABOVE: f64 = 3.0;
 /// The wall force over time, as a whole and around its peak.
 pub(super) fn force_series(series: &ForceSeries) -> Figure {
     let panels = [whole(series), around_the_peak(series)];
+    let stack = force_series_stack();
     let caption = format!(
-        "Supplement, figure of f(t). (a) Force F = f/(m g) of the wall over the time t at μ = 0.2, \
-             kₙ r/(m g) = 10², κ = 2.5 and the paper's wall speed v = {:e} r √(kₙ/m) and time step {:e} \
-             √(m/kₙ): one native run. (b) The same around the peak, which the paper takes for the yield force; \
+        "Supplement, figure of f(t). (a) Force $F = f/(mg)$ of the wall over the time $t$ at $\\mu = {}$, \
+             $k_n r/(mg) = {}$, $\\kappa = {}$ and the paper's wall speed $v = {}\\,r\\sqrt{{k_n/m}}$ and time step ${}\\sqrt{{m/k_n}}$: one native run. (b) The same around the peak, which the paper takes for the yield force; \
              circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
-        series.wall_speed, series.time_step
+        number(stack.floor_friction),
+        number(stack.stiffness),
+        number(stack.stiffness_ratio),
+        number(series.wall_speed),
+        number(series.time_step)
     );
-    Figure::of_halves("force-series", caption, &panels)
+    Figure::of_sheet("force-series", caption, &Sheet::of_halves(panels))
 }
 
 fn whole(series: &ForceSeries) -> Panel {

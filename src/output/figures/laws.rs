@@ -5,6 +5,7 @@ use super::axis::{Axis, power_of_ten};
 use super::codes;
 use super::drawing::Stroke;
 use super::panel::{Anchor, Panel};
+use super::sheet::Sheet;
 use super::style::{GUIDE, Mark};
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention};
@@ -30,20 +31,15 @@ pub(crate) fn laws_figure(judgements: &[Judgement]) -> Figure {
         .first()
         .map_or(1.0, |row| row.study.stack.stiffness_ratio);
     let curves = law_curves(&codes, &STIFFNESSES, ratio);
-    let drawn = STIFFNESSES.map(|stiffness| panel(stiffness, judgements, &curves));
-    let mut panels = Vec::from(drawn);
-    // The names of all styles need a place of their own.
-    let bare = || Axis::bare((0.0, 1.0));
-    let mut names = Panel::new(bare(), bare());
-    codes::key(&mut names, judgements, (0.03, 0.05));
-    panels.push(names);
-    let caption = "Not in the paper: what a contact law does to the yield force. Load F + 3 = (f + 3 m g)/(m g) at which \
-                   the floor begins to slip, over the floor friction μ, for Hertz contacts of one material (ν = 0.3), \
-                   (a) at a stiffness K r√r/(m g) of 10², (b) at 10⁴. Lines: exact limits under the convention of each style, \
+    let panels = STIFFNESSES.map(|stiffness| panel(stiffness, judgements, &curves));
+    let caption = "Not in the paper: what a contact law does to the yield force. Load $F + 3 = (f + 3mg)/(mg)$ at which \
+                   the floor begins to slip, over the floor friction $\\mu$, for Hertz contacts of one material ($\\nu = 0.3$), \
+                   (a) at a stiffness $K r\\sqrt r/(mg)$ of $10^2$, (b) at $10^4$. Lines: exact limits under the convention of each style, \
                    solid the onset of slip, dashed the largest force where it is another one; marks: the codes, \
                    extrapolated to vanishing wall speed. Springs that are rescaled while a contact opens have the \
                    limit of those that are not, since every contact is loaded all the way.";
-    Figure::of_halves("laws", caption, &panels)
+    let sheet = Sheet::of_halves(panels).with_key(codes::key(judgements));
+    Figure::of_sheet("laws", caption, &sheet)
 }
 
 fn panel(stiffness: f64, judgements: &[Judgement], curves: &[LawCurve]) -> Panel {
@@ -74,10 +70,8 @@ fn panel(stiffness: f64, judgements: &[Judgement], curves: &[LawCurve]) -> Panel
         .filter(|row| row.stiffness() == stiffness)
         .cloned()
         .collect();
-    for code in codes::present(&own) {
-        let rows = own.iter().filter(|row| row.code == code);
-        let points = rows.filter_map(|row| Some((row.mu(), row.slip()?.force + 3.0)));
-        panel.marks(Mark::of(code).small(), points);
-    }
+    codes::mark(&mut panel, &own, Mark::small, |row| {
+        Some((row.mu(), row.slip()?.force + 3.0))
+    });
     panel
 }

@@ -13,6 +13,7 @@ mod performance;
 mod preparation;
 mod regimes;
 mod scaling;
+mod sheet;
 mod spheres;
 mod stack;
 mod style;
@@ -32,14 +33,9 @@ use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::Reproduction;
 use axis::Axis;
 use drawing::Drawing;
-use panel::{Panel, draw};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
-
-/// Size in pixels of a panel that shares the width of a page with another one.
-const HALF_PAGE: (f64, f64) = (350.0, 320.0);
-/// Size in pixels of a panel that shares the width of a page with two others.
-const THIRD_OF_PAGE: (f64, f64) = (262.0, 250.0);
+use sheet::Sheet;
 
 /// A figure with its caption.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,36 +45,40 @@ pub(crate) struct Figure {
     /// The content of the figure and its runs.
     pub caption: String,
     #[serde(skip)]
-    drawing: Drawing,
+    wide: Drawing,
+    #[serde(skip)]
+    narrow: Drawing,
 }
 
 impl Figure {
-    fn new(name: &'static str, caption: impl Into<String>, drawing: Drawing) -> Self {
+    /// A figure in its layouts for wide and for narrow pages.
+    fn new(name: &'static str, caption: impl Into<String>, [wide, narrow]: [Drawing; 2]) -> Self {
         Self {
             name,
             caption: caption.into(),
-            drawing,
+            wide,
+            narrow,
         }
     }
 
-    /// A figure of panels, two side by side.
-    fn of_halves(name: &'static str, caption: impl Into<String>, panels: &[Panel]) -> Self {
-        Self::new(name, caption, draw(panels, 2, HALF_PAGE))
-    }
-
-    /// A figure of panels, three side by side.
-    fn of_thirds(name: &'static str, caption: impl Into<String>, panels: &[Panel]) -> Self {
-        Self::new(name, caption, draw(panels, 3, THIRD_OF_PAGE))
+    fn of_sheet(name: &'static str, caption: impl Into<String>, sheet: &Sheet) -> Self {
+        Self::new(name, caption, [sheet.wide(), sheet.narrow()])
     }
 
     /// The figure as SVG.
     pub fn svg(&self) -> String {
-        self.drawing.svg()
+        self.wide.svg()
+    }
+
+    /// The same figure with one panel below the other, for screens on which the letters of [`Self::svg`] would be too
+    /// small: below some 600 pixels.
+    pub fn narrow_svg(&self) -> String {
+        self.narrow.svg()
     }
 
     /// The figure as a page of its own size, with its letters as outlines: the same bytes on every machine.
     pub fn pdf(&self) -> Vec<u8> {
-        self.drawing.pdf()
+        self.wide.pdf()
     }
 }
 
@@ -102,6 +102,11 @@ pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
 
 fn stiffness_axis() -> Axis {
     Axis::log("stiffness kₙ r/(m g)", (6e0, 2e6))
+}
+
+/// A stiffness in words, as a power of ten.
+fn stiffness_words(stiffness: f64) -> String {
+    format!("kₙ r/(m g) = {}", axis::power_of_ten(stiffness))
 }
 
 /// A floor friction in words; the critical one by its name.

@@ -4,9 +4,10 @@ use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::codes;
 use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
 use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
 use crate::code::Code;
-use crate::model::CRITICAL_FRICTION;
+use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
 use crate::paper::reproduction::{Curves, codes_by_arms};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
@@ -22,21 +23,23 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
         .map(|codes| arms_panel(codes, judgements, curves))
         .collect();
     let letters = ('a'..).zip(&groups).map(|(letter, codes)| {
-        let [pair, floor] = arms(codes[0]);
+        let [pair, floor] = arms(codes[0]).map(|arm| arm.replace('−', "-"));
         match pair == floor {
-            true => format!("({letter}) r₁ = {pair} between cylinders and at the floor"),
-            false => format!("({letter}) r₁ = {pair} between cylinders and {floor} at the floor"),
+            true => format!("({letter}) $r_1 = {pair}$ between cylinders and at the floor"),
+            false => {
+                format!("({letter}) $r_1 = {pair}$ between cylinders and ${floor}$ at the floor")
+            }
         }
     });
     let letters: Vec<String> = letters.collect();
     let caption = format!(
-        "Not in the paper: (F − F_paper)/(F_paper + 3), what the torque arms r + r₁·overlap of a code \
-         do to the yield force F = f/(m g), over the floor friction μ at three stiffnesses kₙ r/(m g) \
-         and κ = 2.5. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
-         wall speed. {}; the paper has r₁ = 0.",
+        "Not in the paper: $(F - F_\\mathrm{{paper}})/(F_\\mathrm{{paper}} + 3)$, what the torque arms $r + r_1\\cdot$overlap of a code \
+         do to the yield force $F = f/(mg)$, over the floor friction $\\mu$ at three stiffnesses $k_n r/(mg)$ \
+         and $\\kappa = {PAPER_STIFFNESS_RATIO}$. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
+         wall speed. {}; the paper has $r_1 = 0$.",
         letters.join(", ")
     );
-    Figure::of_halves("model-form", caption, &panels)
+    Figure::of_sheet("model-form", caption, &Sheet::of_halves(panels))
 }
 
 /// The arm coefficients of pair and floor in words.
@@ -44,7 +47,7 @@ fn arms(code: Code) -> [String; 2] {
     let arms = code.convention().arms;
     [arms.pair.torque, arms.floor.torque].map(|arm| {
         let text = if arm == -0.5 {
-            "−½".to_owned()
+            "-1/2".to_owned()
         } else {
             arm.to_string()
         };

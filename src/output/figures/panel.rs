@@ -3,8 +3,8 @@
 use super::axis::{Axis, Scale};
 use super::drawing::{Drawing, Paint, Place, Setting};
 use super::style::{
-    FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark, PADDING,
-    SPACING, Shape, TEXT_SIZE, TICK,
+    FRAME, HALF_LETTER, KEY_LINE, KEY_SAMPLE, KEY_SPACE, LABEL_SIZE, LETTER_SIZE, MARGINS, Mark,
+    PADDING, Shape, TEXT_SIZE, TICK,
 };
 
 pub(super) use super::drawing::{Anchor, Stroke};
@@ -20,7 +20,7 @@ pub(super) struct Panel {
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
     /// With their places in parts of the panel, from its upper left corner.
-    words: Vec<(String, Point, Anchor)>,
+    words: Vec<(String, Point, Anchor, Setting)>,
     key: Vec<(Sample, String)>,
     key_place: Point,
 }
@@ -90,6 +90,21 @@ impl Panel {
         self.line(stroke, [(x, from), (x, to)]);
     }
 
+    /// `x` moved to the right by a `part` of the panel.
+    pub fn beside(&self, x: f64, part: f64) -> f64 {
+        self.x.at(self.x.part(x) + part)
+    }
+
+    /// A band of a `part` of the panel's width from its lower to its upper edge, with its middle at `x`.
+    pub fn band(&mut self, colour: &'static str, x: f64, part: f64) {
+        let (low, high) = self.y.range;
+        let [left, right] = [-0.5, 0.5].map(|side| self.beside(x, side * part));
+        self.area(
+            colour,
+            [(left, low), (left, high), (right, high), (right, low)],
+        );
+    }
+
     /// A mark at each of `points`; those above or below the axis are drawn at its end.
     pub fn marks(&mut self, mark: Mark, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
@@ -100,8 +115,17 @@ impl Panel {
 
     /// Words at `place`, in units of the axes.
     pub fn words(&mut self, text: impl Into<String>, place: Point, anchor: Anchor) {
+        self.set(text, place, anchor, Setting::Normal);
+    }
+
+    /// Words set upwards, with their middle at `place` in units of the axes.
+    pub fn words_upwards(&mut self, text: impl Into<String>, place: Point) {
+        self.set(text, place, Anchor::Middle, Setting::Upwards);
+    }
+
+    fn set(&mut self, text: impl Into<String>, place: Point, anchor: Anchor, setting: Setting) {
         let place = (self.x.part(place.0), 1.0 - self.y.part(place.1));
-        self.words.push((text.into(), place, anchor));
+        self.words.push((text.into(), place, anchor, setting));
     }
 
     /// Sets the upper left corner of the key, in parts of the panel from the panel's upper left corner.
@@ -118,26 +142,31 @@ impl Panel {
 /// Draws a panel alone, without a letter, of the given size in pixels.
 pub(super) fn draw_alone(panel: &Panel, (width, height): (f64, f64)) -> Drawing {
     let mut drawing = Drawing::new(2.0 * PADDING + width, 2.0 * PADDING + height);
-    let view = View::new(panel, (PADDING, PADDING), (width, height));
-    view.draw(&mut drawing, None);
+    draw_panel(&mut drawing, panel, [PADDING; 2], (width, height), None);
     drawing
 }
 
-/// Draws panels row by row, each of the given size in pixels.
-pub(super) fn draw(panels: &[Panel], columns: usize, (width, height): (f64, f64)) -> Drawing {
-    let whole = |count: usize, size: f64| {
-        2.0 * PADDING + count as f64 * size + count.saturating_sub(1) as f64 * SPACING
-    };
-    let rows = panels.len().div_ceil(columns);
-    let mut drawing = Drawing::new(whole(columns, width), whole(rows, height));
-    for (index, panel) in panels.iter().enumerate() {
-        let (row, column) = (index / columns, index % columns);
-        let left = PADDING + column as f64 * (width + SPACING);
-        let top = PADDING + row as f64 * (height + SPACING);
-        let view = View::new(panel, (left, top), (width, height));
-        view.draw(&mut drawing, Some(char::from(b'a' + (index % 26) as u8)));
+/// Draws a panel with its margins at `corner`, of this `size` in pixels, with the letter that names it.
+pub(super) fn draw_panel(
+    drawing: &mut Drawing,
+    panel: &Panel,
+    corner: Place,
+    size: (f64, f64),
+    letter: Option<char>,
+) {
+    View::new(panel, corner, size).draw(drawing, letter);
+}
+
+/// Draws an entry of a key: the sample from `[x, y]` on, and the words beside it.
+pub(super) fn draw_entry(drawing: &mut Drawing, sample: Sample, words: &str, [x, y]: Place) {
+    let mut indent = KEY_SAMPLE + KEY_SPACE;
+    match sample {
+        Sample::Line(stroke) => drawing.line([[x, y], [x + KEY_SAMPLE, y]], stroke),
+        Sample::Mark(mark) => draw_mark(drawing, mark, [x + 0.5 * KEY_SAMPLE, y]),
+        Sample::Heading => indent = 0.0,
     }
-    drawing
+    let beside = [x + indent, y + HALF_LETTER];
+    drawing.text(words, beside, TEXT_SIZE, Anchor::Start);
 }
 
 /// A panel with the rectangle between its axes, in pixels.
@@ -151,11 +180,11 @@ struct View<'a> {
 
 impl<'a> View<'a> {
     /// The panel with its margins at `corner`, of this `size` in pixels.
-    fn new(panel: &'a Panel, corner: (f64, f64), size: (f64, f64)) -> Self {
+    fn new(panel: &'a Panel, corner: Place, size: (f64, f64)) -> Self {
         Self {
             panel,
-            left: corner.0 + MARGINS.0,
-            top: corner.1 + MARGINS.2,
+            left: corner[0] + MARGINS.0,
+            top: corner[1] + MARGINS.2,
             width: size.0 - MARGINS.0 - MARGINS.1,
             height: size.1 - MARGINS.2 - MARGINS.3,
         }
@@ -176,8 +205,13 @@ impl<'a> View<'a> {
         for &(mark, point) in &panel.marks {
             draw_mark(drawing, mark, self.place(point));
         }
-        for (words, place, anchor) in &panel.words {
-            drawing.text(words, self.at(*place), TEXT_SIZE, *anchor);
+        for (words, place, anchor, setting) in &panel.words {
+            let [x, y] = self.at(*place);
+            let base = match setting {
+                Setting::Upwards => [x + HALF_LETTER, y],
+                Setting::Normal | Setting::Bold => [x, y],
+            };
+            drawing.set(words, base, TEXT_SIZE, *anchor, *setting);
         }
         self.key(drawing);
     }
@@ -214,14 +248,7 @@ impl<'a> View<'a> {
         let [x, top] = self.at(self.panel.key_place);
         for (line, (sample, words)) in self.panel.key.iter().enumerate() {
             let y = top + KEY_LINE * (line as f64 + 0.5);
-            let mut indent = KEY_SAMPLE + 6.0;
-            match sample {
-                Sample::Line(stroke) => drawing.line([[x, y], [x + KEY_SAMPLE, y]], *stroke),
-                Sample::Mark(mark) => draw_mark(drawing, *mark, [x + 0.5 * KEY_SAMPLE, y]),
-                Sample::Heading => indent = 0.0,
-            }
-            let beside = [x + indent, y + HALF_LETTER];
-            drawing.text(words, beside, TEXT_SIZE, Anchor::Start);
+            draw_entry(drawing, *sample, words, [x, y]);
         }
     }
 

@@ -1,7 +1,8 @@
 //! The cost of a step, and the scaling of native lanes.
 
 use super::axis::Axis;
-use super::panel::{Anchor, Panel, draw};
+use super::panel::{Anchor, Panel};
+use super::sheet::Sheet;
 use super::style::{BAR, EXACT, GUIDE, POINT};
 use crate::output::bench::{beside_lanes, times_lanes};
 use crate::output::number::plain;
@@ -13,7 +14,7 @@ const ABOVE: f64 = 0.27;
 /// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
 pub(crate) fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
     let panels = [bars(costs), speedups(&scaling.cases)];
-    draw(&panels, 2, super::HALF_PAGE).svg()
+    Sheet::of_halves(panels).wide().svg()
 }
 
 fn bars(costs: &[StackCost]) -> Panel {

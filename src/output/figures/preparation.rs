@@ -3,8 +3,9 @@
 use super::Figure;
 use super::axis::Axis;
 use super::codes;
-use super::panel::{Anchor, Panel};
-use super::style::{EXACT, GUIDE, THIN};
+use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
+use super::style::{EXACT_AFTER_RAMP, GUIDE, THIN};
 use crate::code::Code;
 use crate::model::Power;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
@@ -25,10 +26,16 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
         }
         contact.words("A*", (place + 0.08, 0.37), Anchor::Start);
     }
-    if let Some(exact) = study.exact_force {
-        force.level(EXACT, exact);
-        force.words_on("gravity ramp, exact", exact);
+    for (limit, codes) in limits(study) {
+        force.level(EXACT_AFTER_RAMP, limit);
+        let names: Vec<String> = codes.into_iter().map(Code::label).collect();
+        force.words_on(&names.join("; "), limit);
     }
+    force.key(
+        Sample::Line(EXACT_AFTER_RAMP),
+        "exact limit after the gravity ramp",
+    );
+    force.key_at(0.04, 0.02);
     for code in Code::of_power(Power::Linear) {
         let rows = || study.rows_of(code, code).filter(|row| row.push.is_some());
         if rows().next().is_none() {
@@ -46,12 +53,29 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     }
     contact.key_at(0.6, 0.5);
     let caption = format!(
-        "The paper’s preparation between side walls (supplement, I.B), pushed in by A, at μ = {}, kₙ r/(m g) = {}, \
-         κ = {}. (a) Normal force c between the bottom cylinders when the compression begins. (b) Yield force, by \
-         slip onset extrapolated to vanishing wall speed, each code with its own torque arms; horizontal: exact \
-         limit after the gravity ramp with which all other runs begin. c vanishes up to A*, and F moves all the \
-         same. Lines join the native runs.",
+        "The paper’s preparation between side walls (supplement, I.B), pushed in by $A$, at $\\mu = {}$, $k_n r/(mg) = {}$, \
+         $\\kappa = {}$. (a) Normal force $c$ between the bottom cylinders when the compression begins. (b) Yield force, by \
+         slip onset extrapolated to vanishing wall speed, each code with its own torque arms; horizontal: the exact \
+         limit of each code, by the same arms, after the gravity ramp with which all other runs begin. The force $c$ vanishes up to \
+         $A^*$, and $F$ moves all the same. Lines join the native runs.",
         study.stack.floor_friction, study.stack.stiffness, study.stack.stiffness_ratio
     );
-    Figure::of_halves("preparation", caption, &[contact, force])
+    let sheet = Sheet::of_halves([contact, force]);
+    Figure::of_sheet("preparation", caption, &sheet)
+}
+
+/// The exact limits after a gravity ramp under the conventions of the codes, each with the codes that share it.
+fn limits(study: &PreparationStudy) -> Vec<(f64, Vec<Code>)> {
+    let mut limits: Vec<(f64, Vec<Code>)> = Vec::new();
+    for code in Code::of_power(Power::Linear) {
+        let mut ramp = study.rows_of(code, code).filter(|row| row.push.is_none());
+        let Some(limit) = ramp.next().and_then(|row| row.limit_force) else {
+            continue;
+        };
+        match limits.iter_mut().find(|(own, _)| *own == limit) {
+            Some((_, codes)) => codes.push(code),
+            None => limits.push((limit, vec![code])),
+        }
+    }
+    limits
 }

@@ -1,12 +1,12 @@
 //! The figure of the three regime maps: the end of a stack over floor friction and one more parameter.
 
 use super::axis::Axis as Ruler;
-use super::drawing::Drawing;
-use super::panel::{Anchor, Panel, Point, Stroke, draw};
+use super::panel::{Anchor, Panel, Point, Sample, Stroke};
+use super::sheet::Sheet;
 use super::style::{
     BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NOT_CONFIRMED, SATURATES, YIELDS,
 };
-use crate::model::Stack;
+use crate::model::{Stack, exact};
 use crate::study::Verdict;
 use crate::study::regimes::Survey;
 use crate::theory::{
@@ -16,8 +16,8 @@ use crate::theory::{
 
 /// Number of points on a curve between two lines that cut the axis.
 const SAMPLES: usize = 61;
-/// Size of a panel in pixels, axes and labels included.
-const PANEL: (f64, f64) = (350.0, 330.0);
+/// The largest part of the axis that is too narrow for the words of a region.
+const NARROW: f64 = 0.25;
 /// Overlap of a region with the next strip, as a factor on the axis.
 const OVERLAP: f64 = 1.004;
 /// Distance of two lines of text, in units of μ.
@@ -37,22 +37,60 @@ type Region = (Ending, bool);
 
 /// The maps with the verdicts of the native DEM.
 pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
-    let caption = "Not in the paper: how a stack ends, over the floor friction μ and (a) the stiffness kₙ r/(m g), \
-                   (b) the friction μ_d between cylinders, (c) the stiffness ratio κ = kₙ/kₜ; the others are 100, \
+    let caption = "Not in the paper: how a stack ends, over the floor friction $\\mu$ and (a) the stiffness $k_n r/(mg)$, \
+                   (b) the friction $\\mu_d$ between cylinders, (c) the stiffness ratio $\\kappa = k_n/k_t$; the others are 100, \
                    0.7 and 2.5. Regions and lines: the follower of equilibria; solid: another event comes first \
                    beyond it, dashed: the same event, another end. Dots: native runs on both sides agree with \
                    the boundary; crosses: they do not.";
-    super::Figure::new("regimes", caption, drawn(maps, survey))
+    super::Figure::of_sheet("regimes", caption, &sheet(maps, survey))
 }
 
 /// The figure as SVG.
 pub(crate) fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
-    drawn(maps, survey).svg()
+    sheet(maps, survey).wide().svg()
 }
 
-fn drawn(maps: &[RegimeMap], survey: &Survey) -> Drawing {
+fn sheet(maps: &[RegimeMap], survey: &Survey) -> Sheet {
     let panels: Vec<Panel> = maps.iter().map(|map| panel(map, survey)).collect();
-    draw(&panels, maps.len(), PANEL)
+    Sheet::of_halves(panels).with_key(key(maps))
+}
+
+/// What marks and lines mean, and the parameters that are the same in all of a map.
+fn key(maps: &[RegimeMap]) -> Vec<(Sample, String)> {
+    let entries = [
+        (
+            Sample::Line(BOUNDARY),
+            "beyond it another event comes first",
+        ),
+        (
+            Sample::Line(BOUNDARY_OF_ENDINGS),
+            "the same event first, another end",
+        ),
+        (Sample::Mark(CONFIRMED), "native runs on both sides agree"),
+        (Sample::Mark(NOT_CONFIRMED), "native runs do not agree"),
+        (
+            Sample::Heading,
+            "2–3 touch: the bottom cylinders meet before the end",
+        ),
+        (
+            Sample::Heading,
+            "saturated: the largest force, whatever μ is",
+        ),
+    ];
+    let entries = entries.map(|(sample, words)| (sample, words.to_owned()));
+    let fixed = ('a'..).zip(maps).map(|(letter, map)| {
+        let stack = &map.base;
+        let stiffness = format!("kₙ r/(m g) = {}", exact(stack.stiffness));
+        let friction = format!("μ_{{d}} = {}", exact(stack.cylinder_friction));
+        let ratio = format!("κ = {}", exact(stack.stiffness_ratio));
+        let [one, other] = match map.axis {
+            Axis::Stiffness => [friction, ratio],
+            Axis::CylinderFriction => [stiffness, ratio],
+            Axis::StiffnessRatio => [stiffness, friction],
+        };
+        (Sample::Heading, format!("({letter}) at {one}, {other}"))
+    });
+    entries.into_iter().chain(fixed).collect()
 }
 
 fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
@@ -236,6 +274,24 @@ fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
         let x = map.middle(span);
         if let Some(y) = height_at(strips, region, x) {
             name(panel, region, (x, y));
+        }
+    }
+    label_narrow(panel, map, strips);
+}
+
+/// Names upwards each region that fills a narrow strip from the lower to the upper edge: its name elsewhere does not
+/// tell what goes on there.
+fn label_narrow(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
+    let whole = map.width(map.range);
+    for strip in strips {
+        let span = (strip.values[0], strip.values[SAMPLES - 1]);
+        let [band] = strip.bands.as_slice() else {
+            continue;
+        };
+        if map.width(span) < NARROW * whole {
+            let (_, words) = look(band.region);
+            let middle = (map.middle(span), 0.5 * map.frictions.1);
+            panel.words_upwards(words.join(" "), middle);
         }
     }
 }

@@ -2,41 +2,57 @@
 
 use super::codes::{self, error_panel};
 use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
 use super::style::{EXACT, HERTZ, PERTURBATION};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::code::Code;
-use crate::model::Power;
-use crate::paper::reproduction::{Curves, Exponent, Laws, SCALING_FRICTIONS, TheoryPoint};
+use crate::model::{PAPER_STIFFNESS_RATIO, Power};
+use crate::paper::claims::{number, values};
+use crate::paper::reproduction::{
+    Curves, Exponent, FITTED_FROM, Laws, SCALING_FRICTIONS, TheoryPoint,
+};
 use crate::study::yield_force::Judgement;
 
-/// Yield force over the stiffness with the fitted exponents, and the errors of the codes.
+/// Yield force over the stiffness with the fitted exponents, and the errors of the codes, a panel for each friction.
 pub(super) fn scaling(
     judgements: &[Judgement],
     exponents: &[Exponent],
     curves: &Curves,
     laws: &Laws,
 ) -> Figure {
-    let mut errors = error_panel(stiffness_axis(), judgements, |row| row.stiffness());
-    codes::key(&mut errors, judgements, (0.05, 0.01));
-    let mut loads = forces(judgements, curves, laws);
-    fits(&mut loads, exponents.iter().chain(&laws.exponents));
-    let panels = [loads, errors];
+    let errors = SCALING_FRICTIONS.map(|mu| {
+        let own = judgements.iter();
+        let own = own.filter(|row| row.mu() == mu);
+        let mut panel = error_panel(stiffness_axis(), own, Judgement::stiffness);
+        codes::name_errors(&mut panel, &friction_words(mu));
+        panel
+    });
+    let loads = forces(judgements, curves, laws);
+    let panels: Vec<Panel> = [loads].into_iter().chain(errors).collect();
     let caption = format!(
-        "Fig. 2(b) of the paper. (a) Yield force F = f/(m g) over the stiffness kₙ r/(m g) for floor \
-                  frictions μ = 0.25, μ_c = 2 − √3 and 0.3 at κ = 2.5, and beside it at μ_c with Hertz contacts (dash-dotted, \
-                  stiffness K r√r/(m g), Poisson’s ratio 0.3; not in the paper), with the exponent β of F + 3 ∝ \
-                  (stiffness)^β, fitted from 10³ on to the native runs (in parentheses what the uncertainties \
+        "Fig. 2(b) of the paper. (a) Load at yield $F + 3$, with the yield force $F = f/(mg)$, over the stiffness \
+                  $k_n r/(mg)$ for floor \
+                  frictions {} with $\\mu_c = 2 - \\sqrt3$, at $\\kappa = {PAPER_STIFFNESS_RATIO}$, and beside it at $\\mu_c$ with Hertz contacts (dash-dotted, \
+                  stiffness $K r\\sqrt r/(mg)$, $\\kappa = 17/14$; not in the paper); in the table the exponent $\\beta$ with which $F + 3$ grows over the \
+                  stiffness, fitted from ${}$ on to the native runs (in parentheses what the uncertainties \
                   of the forces can do to the last digit) and to the exact limits at the same stiffnesses, and \
-                  its value for infinite stiffness. (b) Distance \
-                  of each code with linear springs from the exact limit under its own convention, relative to F + 3; errors below \
-                  10⁻¹⁰ stand at the lower edge.{}",
+                  its value for infinite stiffness. (b–d) Distance \
+                  of each code with linear springs from the exact limit under its own convention, relative to $F + 3$, a panel \
+                  for each friction; errors below $10^{{-10}}$ stand at the lower edge, those above $10^{{-3}}$ at the upper one. \
+                  Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}",
+        values("\\mu", &SCALING_FRICTIONS),
+        number(FITTED_FROM),
         codes::left_out(judgements)
     );
-    Figure::of_halves("scaling", caption, &panels)
+    let both: Vec<Judgement> = judgements.iter().chain(&laws.scaling).cloned().collect();
+    let sheet = Sheet::of_halves(panels)
+        .with_key(codes::key(&both))
+        .with_table(fits(exponents.iter().chain(&laws.exponents)));
+    Figure::of_sheet("scaling", caption, &sheet)
 }
 
 fn forces(judgements: &[Judgement], curves: &Curves, laws: &Laws) -> Panel {
-    let mut panel = Panel::new(stiffness_axis(), codes::load_axis((0.02, 3e6)));
+    let mut panel = Panel::new(stiffness_axis(), codes::load_axis((4.0, 6e5)));
     let load = |force: Option<f64>| force.map(|force| force + 3.0);
     for (mu, place) in SCALING_FRICTIONS.into_iter().zip(CURVE_ENDS) {
         let all = curves.over_stiffness.iter();
@@ -50,44 +66,40 @@ fn forces(judgements: &[Judgement], curves: &Curves, laws: &Laws) -> Panel {
     let hertz = laws.critical.iter();
     let hertz = hertz.map(|&(stiffness, force)| (stiffness, load(force)));
     panel.line(HERTZ, hertz);
-    panel.words("μ_{c}, Hertz", HERTZ_END, Anchor::End);
+    panel.words(HERTZ_WORDS, HERTZ_END, Anchor::End);
     codes::loads(&mut panel, &laws.scaling, |row| row.stiffness());
     codes::loads(&mut panel, judgements, |row| row.stiffness());
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
+    panel.key(Sample::Line(HERTZ), "exact limit, Hertz");
     panel
 }
 
 /// Places of the names of the curves, above their right ends.
-const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 50.0), (3e5, 2.2e3), (8e4, 5e4)];
+const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 42.0), (3e5, 2.2e3), (8e4, 5e4)];
 
-/// Place of the name of the curve with Hertz contacts.
-const HERTZ_END: (f64, f64) = (1.35e6, 1.45e2);
+/// Name of the curve with Hertz contacts, and its place.
+const HERTZ_WORDS: &str = "μ = μ_{c}, Hertz";
+const HERTZ_END: (f64, f64) = (1.35e6, 2.0e2);
 
-/// A table of the fitted exponents, below the curves.
-fn fits<'a>(panel: &mut Panel, exponents: impl Iterator<Item = &'a Exponent>) {
-    const COLUMNS: [f64; 4] = [2.6e1, 7e2, 2.6e4, 6e5];
-    const LINES: [f64; 5] = [2.4, 0.84, 0.3, 0.105, 0.037];
-    let heads = ["", "β, native", "β, exact limit", "ε → 0"];
-    for (x, head) in COLUMNS.into_iter().zip(heads) {
-        panel.words(head, (x, LINES[0]), Anchor::Middle);
-    }
+/// The table of the fitted exponents.
+fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {
+    let heads = ["", "β, native", "β, exact limit", "β, kₙ r/(m g) → ∞"];
     let own = exponents.filter(|own| own.code == Code::NATIVE);
-    for (fitted, y) in own.zip(&LINES[1..]) {
+    let rows = own.map(|fitted| {
         let decimals = decimals(fitted.uncertainty);
-        let cells = [
+        vec![
             match fitted.power {
                 Power::Linear => friction_words(fitted.mu),
-                _ => "μ_{c}, Hertz".to_owned(),
+                _ => HERTZ_WORDS.to_owned(),
             },
             with_uncertainty(fitted.exponent, fitted.uncertainty),
             format!("{:.decimals$}", fitted.exact),
             fitted.asymptotic.to_string(),
-        ];
-        for (x, cell) in COLUMNS.into_iter().zip(cells) {
-            panel.words(cell, (x, *y), Anchor::Middle);
-        }
-    }
+        ]
+    });
+    let heads = heads.map(str::to_owned).to_vec();
+    [heads].into_iter().chain(rows).collect()
 }
 
 /// The decimal place of the first digit of `uncertainty`.

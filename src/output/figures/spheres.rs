@@ -3,6 +3,7 @@
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
 use super::panel::{Anchor, Panel, Sample};
+use super::sheet::Sheet;
 use super::style::{
     BODIES_SLIP, BODIES_STROKES, GUIDE, INK, Mark, OWN_WEIGHT, RIGID, Stroke, WALL_REACHES,
 };
@@ -17,18 +18,18 @@ pub(crate) fn spheres_figure(spheres: &Spheres) -> Figure {
     name_curves(&mut panels[0], spheres);
     name_ends(&mut panels[1]);
     let caption = format!(
-        "Not in the paper: the paper’s two cylinders with one on top (n = 2) beside three to five spheres in a ring with one on \
-         top. Load (F + n + 1)/n that each bottom body puts on the floor at yield, in m g, over the floor friction in units of \
-         the rigid critical one, at a stiffness kₙ r/(m g) of (a) {}, (b) {}; κ = {PAPER_STIFFNESS_RATIO}, \
-         μ_d = {PAPER_CYLINDER_FRICTION}. Lines: exact quasi-static limit under the paper’s convention, where slip onset and \
-         peak are one force. In these units rigid stacks of every n have one curve, 1/(1 − μ/μ_c), \
+        "Not in the paper: the paper’s two cylinders with one on top ($n = 2$) beside three to five spheres in a ring with one on \
+         top. Load $(F + n + 1)/n$ that each bottom body puts on the floor at yield, in $mg$, over the floor friction in units of \
+         the rigid critical one, at a stiffness $k_n r/(mg)$ of (a) {}, (b) {}; $\\kappa = {PAPER_STIFFNESS_RATIO}$, \
+         $\\mu_d = {PAPER_CYLINDER_FRICTION}$. Lines: exact quasi-static limit under the paper’s convention, where slip onset and \
+         peak are one force. In these units rigid stacks of every $n$ have one curve, $1/(1 - \\mu/\\mu_c)$, \
          so that elasticity alone separates the lines. A curve begins where the \
-         stack just carries its own weight, at μ_c/(n + 1) if it is rigid, and ends where the floor is no longer the first \
+         stack just carries its own weight, at $\\mu_c/(n + 1)$ if it is rigid, and ends where the floor is no longer the first \
          to slip: the top wall reaches the bottom bodies, or the top one slips on them.",
         power_of_ten(soft),
         power_of_ten(stiff)
     );
-    Figure::of_halves("spheres", caption, &panels)
+    Figure::of_sheet("spheres", caption, &Sheet::of_halves(panels))
 }
 
 fn panel(spheres: &Spheres, stiffness: f64) -> Panel {

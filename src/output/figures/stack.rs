@@ -35,7 +35,7 @@ fn cylinders(code: &str, case: &Case, frames: &Frames, panels: &[StackPanel]) ->
             "{code} reports the forces of floor and wall alone; those between the cylinders are not drawn."
         ));
     }
-    plane::drawn(panels, stack.epsilon(), &caption)
+    plane::drawn(panels, panels.len(), stack.epsilon(), &caption)
 }
 
 fn spheres(code: &str, case: &Case, panels: &[StackPanel]) -> Drawing {
@@ -70,14 +70,12 @@ pub(super) fn stack(snapshots: &Snapshots) -> Figure {
     let stack = &snapshots.case.stack;
     let caption = format!(
         "Not in the paper: the stack at rest, at yield and in collapse, drawn to scale, with the contact forces \
-         on each cylinder as arrows (dark: normal, light: tangential; a and b between cylinders 1 and 2, d and \
-         e at the floor, f at the wall), at μ = {}, kₙ r/(m g) = {}, κ = {}: one native run. Ticks: orientation \
+         on each cylinder as arrows (dark: normal, light: tangential; $a$ and $b$ between cylinders 1 and 2, $d$ and \
+         $e$ at the floor, $f$ at the wall), at $\\mu = {}$, $k_n r/(mg) = {}$, $\\kappa = {}$: one native run. Ticks: orientation \
          now and (light) at the start.",
         stack.floor_friction, stack.stiffness, stack.stiffness_ratio
     );
-    Figure::new(
-        "stack",
-        caption,
-        plane::drawn(&panels, stack.epsilon(), &[]),
-    )
+    let layouts =
+        [panels.len(), 1].map(|columns| plane::drawn(&panels, columns, stack.epsilon(), &[]));
+    Figure::new("stack", caption, layouts)
 }

@@ -29,6 +29,10 @@ pub(super) const TICK: f64 = 5.0;
 pub(super) const KEY_LINE: f64 = 15.0;
 /// Length of a line in a key.
 pub(super) const KEY_SAMPLE: f64 = 26.0;
+/// Distance of a sample from its words.
+pub(super) const KEY_SPACE: f64 = 6.0;
+/// Distance of the columns of a key.
+pub(super) const KEY_COLUMNS: f64 = 18.0;
 
 /// Near-black for text and lines.
 pub(super) const INK: &str = "#1a1a1a";
@@ -41,17 +45,24 @@ const PURPLE: &str = "#9c4f86";
 const GREEN: &str = "#007d5c";
 const ORANGE: &str = "#c98500";
 
+/// For what is not as it should be.
+const RED: &str = "#c00000";
+/// Behind marks that stand side by side for the same value.
+pub(super) const TOGETHER: &str = "#f1f1ec";
+
 /// A guide to the eye.
 pub(super) const THIN: Stroke = Stroke::new(INK, 0.8, &[]);
-/// The same for the smaller of two quantities.
-pub(super) const THIN_DASHED: Stroke = Stroke::new(INK, 0.8, &[5.0, 3.0]);
 /// A level or a place.
 pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, &[3.0, 3.0]);
 /// The exact limit.
 pub(super) const EXACT: Stroke = Stroke::new(INK, 1.5, &[]);
+/// The exact limit of runs that begin otherwise than those beside it.
+pub(super) const EXACT_AFTER_RAMP: Stroke = Stroke::new(INK, 1.2, &[9.0, 3.0]);
 /// The same with Hertz contacts.
 pub(super) const HERTZ: Stroke = Stroke::new(INK, 1.2, &[6.0, 2.5, 1.5, 2.5]);
 /// The other theories.
+/// Wide and light, to be seen below the others.
+pub(super) const RIGID_BELOW: Stroke = Stroke::new("#e3bfd6", 6.0, &[]);
 pub(super) const RIGID: Stroke = Stroke::new(PURPLE, 1.8, &[2.0, 2.5]);
 pub(super) const PERTURBATION: Stroke = Stroke::new(VERMILION, 1.5, &[7.0, 3.5]);
 pub(super) const ELASTIC: Stroke = Stroke::new(BLUE, 1.5, &[8.0, 3.0, 1.5, 3.0]);
@@ -181,6 +192,9 @@ pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);
 pub(super) const OWN_WEIGHT: Mark = Mark::new(Shape::Dot, INK, 2.4);
 pub(super) const WALL_REACHES: Mark = Mark::new(Shape::Diamond, INK, 4.0);
 pub(super) const BODIES_SLIP: Mark = Mark::new(Shape::Cross, INK, 3.4);
+/// Rings around points on which a comparison has decided nothing, and around those that differ.
+pub(super) const INCONCLUSIVE: Mark = Mark::new(Shape::Circle, RED, 8.0);
+pub(super) const DIFFERS: Mark = Mark::new(Shape::Square, RED, 8.0);
 /// Points of a regime map at which native runs agree with theory, and at which they do not.
 pub(super) const CONFIRMED: Mark = Mark::new(Shape::Dot, INK, 2.2);
-pub(super) const NOT_CONFIRMED: Mark = Mark::new(Shape::Cross, "#c00000", 2.2);
+pub(super) const NOT_CONFIRMED: Mark = Mark::new(Shape::Cross, RED, 2.2);

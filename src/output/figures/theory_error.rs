@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, power_of_ten};
 use super::panel::{Anchor, Panel, Sample, Stroke};
+use super::sheet::Sheet;
 use super::style::{ELASTIC, GUIDE, NAIVE, PERTURBATION};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::model::CRITICAL_FRICTION;
@@ -35,11 +36,11 @@ pub(super) fn theory_error(curves: &Curves) -> Figure {
         panels[5].key(Sample::Line(stroke), name);
     }
     panels[5].key_at(0.05, 0.74);
-    let caption = "Not in the paper: |F_theory − F|/(F + 3), the distance of the paper's theories from the exact \
-                  quasi-static limit F = f/(m g) of its model, at κ = 2.5. (a–c) Over the floor friction μ for \
-                  three stiffnesses kₙ r/(m g); (d–f) over the stiffness below, at and above μ_c. Gaps: the \
+    let caption = "Not in the paper: $\\lvert F_\\mathrm{theory} - F\\rvert/(F + 3)$, the distance of the paper's theories from the exact \
+                  quasi-static limit $F = f/(mg)$ of its model, at $\\kappa = 2.5$. (a–c) Over the floor friction $\\mu$ for \
+                  three stiffnesses $k_n r/(mg)$; (d–f) over the stiffness below, at and above $\\mu_c$. Gaps: the \
                   theory gives no number there, or the floor does not slip first. Theory alone, no runs.";
-    Figure::of_thirds("theory-error", caption, &panels)
+    Figure::of_sheet("theory-error", caption, &Sheet::of_thirds(panels))
 }
 
 type Force = fn(&TheoryPoint) -> Option<f64>;

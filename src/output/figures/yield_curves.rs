@@ -1,33 +1,51 @@
 //! Fig. 2(a): the yield force over the floor friction.
 
-use super::Figure;
-use super::axis::{Axis, power_of_ten};
+use super::axis::Axis;
 use super::codes::{self, error_panel};
 use super::panel::{Anchor, Panel, Sample};
-use super::style::{EXACT, GUIDE, PERTURBATION, RIGID};
-use crate::model::CRITICAL_FRICTION;
+use super::sheet::Sheet;
+use super::style::{EXACT, GUIDE, PERTURBATION, RIGID_BELOW};
+use super::{Figure, stiffness_words};
+use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
+use crate::paper::claims::values;
 use crate::paper::reproduction::{Curves, TheoryPoint};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
-/// Yield force by every code and theory, and the errors of the codes.
+/// Lowest and highest load shown.
+const LOADS: (f64, f64) = (2.0, 4e4);
+/// The load F + 3 of a stack that yields under its own weight.
+const WITHOUT_FORCE: f64 = 3.0;
+/// Number of points on the curve of rigid cylinders.
+const RIGID_POINTS: usize = 61;
+
+/// Yield force by every code and theory, and the errors of the codes, a panel for each stiffness.
 pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let mut errors = error_panel(Axis::friction(), judgements, |row| row.mu());
-    codes::key(&mut errors, judgements, (0.05, 0.01));
-    let panels = [forces(judgements, curves), errors];
+    let errors = PAPER_STIFFNESSES.map(|stiffness| {
+        let own = judgements.iter();
+        let own = own.filter(|row| row.stiffness() == stiffness);
+        let mut panel = error_panel(Axis::friction(), own, Judgement::mu);
+        codes::name_errors(&mut panel, &stiffness_words(stiffness));
+        panel
+    });
+    let panels = [forces(judgements, curves)].into_iter().chain(errors);
     let caption = format!(
-        "Fig. 2(a) of the paper. (a) Yield force F = f/(m g) over the floor friction μ for stiffnesses \
-             kₙ r/(m g) = 10², 10³ and 10⁴ at κ = 2.5: exact quasi-static limit of the paper's model, the \
-             paper's perturbation result, the limit of rigid cylinders, and every code under its own contact \
-             convention, by slip onset extrapolated to vanishing wall speed (marks as in b). (b) Distance of \
-             each code from the exact limit under its own convention, relative to F + 3; errors below \
-             10⁻¹⁰ stand at the lower edge. Runs of the standard profile.{}",
+        "Fig. 2(a) of the paper. (a) Load at yield $F + 3$, with the yield force $F = f/(mg)$, over the floor friction $\\mu$ \
+             for stiffnesses {} at $\\kappa = {PAPER_STIFFNESS_RATIO}$: exact quasi-static limit of the paper's model, the \
+             paper's perturbation result, the limit of rigid cylinders (wide and light, the same for every stiffness), and \
+             every code under its own contact \
+             convention, by slip onset extrapolated to vanishing wall speed. (b–d) Distance of \
+             each code from the exact limit under its own convention, relative to $F + 3$, a panel for each stiffness; errors \
+             below $10^{{-10}}$ stand at the lower edge, those above $10^{{-3}}$ at the upper one. Runs of the standard profile.{}",
+        values("k_n r/(mg)", &PAPER_STIFFNESSES),
         codes::left_out(judgements)
     );
-    Figure::of_halves("yield-curves", caption, &panels)
+    let sheet = Sheet::of_halves(panels.collect::<Vec<Panel>>()).with_key(codes::key(judgements));
+    Figure::of_sheet("yield-curves", caption, &sheet)
 }
 
 fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
-    let mut panel = Panel::new(Axis::friction(), codes::load_axis((2.0, 4e4)));
+    let mut panel = Panel::new(Axis::friction(), codes::load_axis(LOADS));
+    panel.line(RIGID_BELOW, rigid());
     panel.upright(GUIDE, CRITICAL_FRICTION);
     panel.words("μ_{c}", (CRITICAL_FRICTION + 0.006, 2.5), Anchor::Start);
     let loads = |theory: &dyn Fn(&TheoryPoint) -> Option<f64>, stiffness: f64| -> Vec<_> {
@@ -39,14 +57,42 @@ fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
     for stiffness in PAPER_STIFFNESSES {
         panel.line(EXACT, loads(&|point| point.exact, stiffness));
         panel.line(PERTURBATION, loads(&|point| point.perturbation, stiffness));
-        let words = format!("kₙ r/(m g) = {}", power_of_ten(stiffness));
-        panel.words(words, (0.51, 1.45 * stiffness), Anchor::End);
+        let place = (0.51, 1.45 * stiffness);
+        panel.words(stiffness_words(stiffness), place, Anchor::End);
     }
-    let [softest, ..] = PAPER_STIFFNESSES;
-    panel.line(RIGID, loads(&|point| point.rigid, softest));
     codes::loads(&mut panel, judgements, |row| row.mu());
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
-    panel.key(Sample::Line(RIGID), "rigid");
+    panel.key(Sample::Line(RIGID_BELOW), "rigid cylinders");
     panel
+}
+
+/// Floor friction and load of rigid cylinders, for which F + 3 is 2/(1 − μ/μ_c), up to the highest load shown.
+fn rigid() -> impl Iterator<Item = (f64, f64)> {
+    (0..RIGID_POINTS).map(|index| {
+        let part = index as f64 / (RIGID_POINTS - 1) as f64;
+        let load = WITHOUT_FORCE * libm::pow(LOADS.1 / WITHOUT_FORCE, part);
+        (CRITICAL_FRICTION * (1.0 - 2.0 / load), load)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Stack;
+    use crate::theory::rigid_yield;
+
+    #[test]
+    fn the_curve_of_rigid_cylinders_is_that_of_theory_and_reaches_the_upper_edge() {
+        let points: Vec<(f64, f64)> = rigid().collect();
+        let (first, last) = (points[0], points[RIGID_POINTS - 1]);
+        assert_eq!(first.1, WITHOUT_FORCE);
+        assert!((last.1 / LOADS.1 - 1.0).abs() < 1e-12, "{last:?}");
+        for (mu, load) in points {
+            let force = rigid_yield(&Stack::paper(mu, 1e2)).yield_force;
+            let expected = force.expect("it is below the critical friction") + 3.0;
+            // A last bit of μ changes μ_c − μ by up to 1e-16/5e-5 of itself.
+            assert!((load / expected - 1.0).abs() < 1e-11, "{mu}: {load}");
+        }
+    }
 }

@@ -239,8 +239,13 @@ impl Document {
 
     /// All figures, in order.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.numbered_figures().map(|own| &own.figure)
+    }
+
+    /// All figures with their numbers, in order.
+    pub fn numbered_figures(&self) -> impl Iterator<Item = &NumberedFigure> {
         self.blocks().filter_map(|block| match block {
-            Block::Figure(own) => Some(&own.figure),
+            Block::Figure(own) => Some(own),
             _ => None,
         })
     }

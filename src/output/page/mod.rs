@@ -1,6 +1,7 @@
 //! The reproducibility report: a document, and the files made of it.
 
 mod document;
+mod gallery;
 mod html;
 mod junit;
 mod markdown;
@@ -47,6 +48,7 @@ pub(crate) fn report_files(
     let document = sections::document(reproduction, claims, origin);
     let mut files = vec![
         ReportFile::new("report.html", html::html(&document)),
+        ReportFile::new("gallery.html", gallery::gallery(&document)),
         ReportFile::new("report.md", markdown::markdown(&document)),
         ReportFile::new(
             "claims.json",

@@ -1,6 +1,6 @@
 //! DejaVu Sans, of which a PDF draws the outlines.
 
-use super::markup::Style;
+use super::markup::{Style, spans};
 use pdf_writer::Content;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
@@ -13,7 +13,7 @@ impl Font {
         let data = match (style, bold) {
             (_, true) => dejavu::sans::bold(),
             (Style::Italic, false) => dejavu::sans::oblique(),
-            (Style::Plain | Style::Subscript, false) => dejavu::sans::regular(),
+            (_, false) => dejavu::sans::regular(),
         };
         Self(Face::parse(data, 0).expect("the font is part of the program"))
     }
@@ -53,6 +53,16 @@ impl Font {
             content.transform([1.0, 0.0, 0.0, 1.0, step, 0.0]);
         }
     }
+}
+
+/// The width of a line of text of `size` in pixels, with its marks.
+pub(in crate::output::figures) fn text_width(text: &str, size: f64) -> f64 {
+    let parts = spans(text).into_iter();
+    let widths = parts.map(|(style, words)| {
+        let (scale, _) = style.size_and_drop();
+        scale * size * Font::new(style, false).width(&words)
+    });
+    widths.sum()
 }
 
 /// Traces an outline on a page.

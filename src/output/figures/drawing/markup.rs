@@ -1,4 +1,4 @@
-//! Text with italics and subscripts.
+//! Text with italics, subscripts and superscripts.
 
 /// The style of a part of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -6,15 +6,54 @@ pub(super) enum Style {
     Plain,
     Italic,
     Subscript,
+    Superscript,
 }
 
-/// Size of a subscript, relative to its text.
-pub(super) const SUBSCRIPT_SIZE: f64 = 0.75;
-/// Distance by which a subscript is lowered, in pixels.
-pub(super) const SUBSCRIPT_DROP: f64 = 3.0;
+impl Style {
+    /// Size, relative to the text, and distance by which it is lowered, in pixels.
+    pub fn size_and_drop(self) -> (f64, f64) {
+        match self {
+            Self::Plain | Self::Italic => (1.0, 0.0),
+            Self::Subscript => (0.75, 3.0),
+            Self::Superscript => (0.75, -4.0),
+        }
+    }
+}
 
-/// `text` in parts of one style each: `_x_` is one letter in italics, `_{…}` a subscript.
-pub(super) fn spans(text: &str) -> Vec<(Style, &str)> {
+/// `text` in parts of one style each: `_x_` is one letter in italics, `_{…}` a subscript. The small letters and digits
+/// of Unicode are set like all others, since fonts draw them in sizes of their own or not at all.
+pub(super) fn spans(text: &str) -> Vec<(Style, String)> {
+    let mut spans: Vec<(Style, String)> = Vec::new();
+    let marked = marked_spans(text).into_iter();
+    let letters = marked.flat_map(|(style, words)| words.chars().map(move |own| (style, own)));
+    for (style, letter) in letters {
+        let (style, letter) = small(letter).unwrap_or((style, letter));
+        match spans.last_mut() {
+            Some((last, words)) if *last == style => words.push(letter),
+            _ => spans.push((style, letter.to_string())),
+        }
+    }
+    spans
+}
+
+/// The style and the letter of a small letter of Unicode.
+fn small(letter: char) -> Option<(Style, char)> {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = |place: usize| char::from(b'0' + place as u8);
+    match letter {
+        'ₙ' => Some((Style::Subscript, 'n')),
+        'ₜ' => Some((Style::Subscript, 't')),
+        '₀'..='₉' => Some((Style::Subscript, digit(letter as usize - '₀' as usize))),
+        '⁻' => Some((Style::Superscript, '−')),
+        _ => {
+            let place = RAISED.iter().position(|&raised| raised == letter)?;
+            Some((Style::Superscript, digit(place)))
+        }
+    }
+}
+
+/// The parts of `text` by its marks alone.
+fn marked_spans(text: &str) -> Vec<(Style, &str)> {
     let mut spans = Vec::new();
     let (mut plain, mut from) = (text, 0);
     while let Some(place) = plain[from..].find('_').map(|place| from + place) {
@@ -46,10 +85,17 @@ fn marked(text: &str) -> Option<(Style, &str, &str)> {
 mod tests {
     use super::*;
 
+    fn owned(spans: &[(Style, String)]) -> Vec<(Style, &str)> {
+        let parts = spans.iter();
+        parts
+            .map(|(style, words)| (*style, words.as_str()))
+            .collect()
+    }
+
     #[test]
     fn letters_are_slanted_and_subscripts_lowered() {
         assert_eq!(
-            spans("|F_{limit}| = _m_ _μ__{d}"),
+            owned(&spans("|F_{limit}| = _m_ _μ__{d}")),
             [
                 (Style::Plain, "|F"),
                 (Style::Subscript, "limit"),
@@ -63,9 +109,28 @@ mod tests {
     }
 
     #[test]
+    fn small_letters_of_unicode_are_subscripts_and_superscripts_like_all_others() {
+        assert_eq!(
+            owned(&spans("kₙ/kₜ = 10⁻²³, r₁ F_{c}")),
+            [
+                (Style::Plain, "k"),
+                (Style::Subscript, "n"),
+                (Style::Plain, "/k"),
+                (Style::Subscript, "t"),
+                (Style::Plain, " = 10"),
+                (Style::Superscript, "−23"),
+                (Style::Plain, ", r"),
+                (Style::Subscript, "1"),
+                (Style::Plain, " F"),
+                (Style::Subscript, "c"),
+            ]
+        );
+    }
+
+    #[test]
     fn other_underscores_are_printed() {
         for text in ["my_own_code", "open_{", "_", "__"] {
-            assert_eq!(spans(text), [(Style::Plain, text)]);
+            assert_eq!(owned(&spans(text)), [(Style::Plain, text)]);
         }
     }
 }

@@ -5,6 +5,8 @@ mod markup;
 mod pdf;
 mod svg;
 
+pub(super) use font::text_width;
+
 /// A place in pixels, to the right of and below the upper left corner.
 pub(super) type Place = [f64; 2];
 

@@ -1,7 +1,7 @@
 //! A drawing as a PDF page of its size, with letters as outlines, so that every machine writes the same bytes.
 
 use super::font::Font;
-use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
+use super::markup::spans;
 use super::{Anchor, Drawing, Element, Paint, Place, Setting, Stroke, TINT, Text};
 use crate::output::figures::style::INK;
 use pdf_writer::writers::ExtGraphicsState;
@@ -87,10 +87,7 @@ fn draw_shape(content: &mut Content, paint: Paint, trace: impl Fn(&mut Content))
 fn draw_text(content: &mut Content, text: &Text) {
     let bold = text.setting == Setting::Bold;
     let words = spans(&text.words).into_iter().map(|(style, words)| {
-        let (scale, drop) = match style {
-            Style::Subscript => (SUBSCRIPT_SIZE, SUBSCRIPT_DROP),
-            Style::Plain | Style::Italic => (1.0, 0.0),
-        };
+        let (scale, drop) = style.size_and_drop();
         (
             Font::new(style, bold),
             scale * text.size,
@@ -108,7 +105,7 @@ fn draw_text(content: &mut Content, text: &Text) {
     content.transform(matrix(text, widths.sum()));
     for (font, size, drop, words) in words {
         content.transform([1.0, 0.0, 0.0, 1.0, 0.0, -drop]);
-        font.draw(content, words, size);
+        font.draw(content, &words, size);
         content.transform([1.0, 0.0, 0.0, 1.0, 0.0, drop]);
     }
     content.restore_state();

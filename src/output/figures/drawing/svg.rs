@@ -1,6 +1,6 @@
 //! A drawing as SVG, with numbers rounded to hundredths of a pixel.
 
-use super::markup::{SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, spans};
+use super::markup::{Style, spans};
 use super::{Anchor, Drawing, Element, Paint, Place, Setting, Text};
 use crate::output::figures::style::{FONT_FAMILY, INK};
 
@@ -75,24 +75,22 @@ fn text_element(text: &Text) -> String {
 }
 
 fn content(text: &str) -> String {
-    let mut lowered = false;
+    let mut lowered = 0.0;
     let mut content = String::new();
     for (style, words) in spans(text) {
+        let (size, drop) = style.size_and_drop();
         let mut attributes = String::new();
-        match (style == Style::Subscript, lowered) {
-            (true, false) => attributes += &format!(" dy=\"{SUBSCRIPT_DROP}\""),
-            (false, true) => attributes += &format!(" dy=\"-{SUBSCRIPT_DROP}\""),
-            _ => {}
+        if drop != lowered {
+            attributes += &format!(" dy=\"{}\"", drop - lowered);
         }
-        lowered = style == Style::Subscript;
-        match style {
-            Style::Plain => {}
-            Style::Italic => attributes += " font-style=\"italic\"",
-            Style::Subscript => {
-                attributes += &format!(" font-size=\"{}%\"", 100.0 * SUBSCRIPT_SIZE)
-            }
+        lowered = drop;
+        if style == Style::Italic {
+            attributes += " font-style=\"italic\"";
         }
-        let words = escaped(words);
+        if size != 1.0 {
+            attributes += &format!(" font-size=\"{}%\"", 100.0 * size);
+        }
+        let words = escaped(&words);
         content += &if attributes.is_empty() {
             words
         } else {

@@ -1,7 +1,7 @@
 //! What pictures of cylinders and of spheres share: arrows, numbers, a legend.
 
-use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke};
-use crate::output::figures::style::{NORMAL_FORCE, TANGENTIAL_FORCE};
+use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke, text_width};
+use crate::output::figures::style::{KEY_SPACE, NORMAL_FORCE, TANGENTIAL_FORCE};
 use crate::output::significant;
 use crate::series::{ContactPoint, Partner};
 
@@ -24,16 +24,45 @@ pub(super) fn largest_force<'a>(contacts: impl IntoIterator<Item = &'a ContactPo
     forces.fold(0.0, f64::max)
 }
 
-/// Samples of both kinds of arrows, on a body of this name.
-pub(super) fn legend(drawing: &mut Drawing, body: &str, y: f64) {
-    let middle = y - 3.5;
-    arrow(drawing, [[12.0, middle], [40.0, middle]], NORMAL_FORCE);
-    drawing.text("normal force", [46.0, y], SMALL, Anchor::Start);
-    let tangential = [[130.0, middle], [158.0, middle]];
-    arrow(drawing, tangential, TANGENTIAL_FORCE);
-    let words =
+/// The left edge of a legend, and the length of its arrows.
+const LEGEND: (f64, f64) = (12.0, 28.0);
+
+/// What the arrows are, on a body of this name, with the x of the first arrow of each entry on one line.
+fn legend_entries(body: &str) -> [(Stroke, String, f64); 2] {
+    let tangential =
         format!("tangential force on each {body}, from the contact inwards; numbers in _m_ _g_");
-    drawing.text(words, [164.0, y], SMALL, Anchor::Start);
+    [
+        (NORMAL_FORCE, "normal force".to_owned(), LEGEND.0),
+        (TANGENTIAL_FORCE, tangential, 130.0),
+    ]
+}
+
+/// The number of lines of a legend on a drawing of some width: its entries share one if there is room, else the words of
+/// the second are on two.
+pub(super) fn legend_lines(body: &str, width: f64) -> usize {
+    let [_, (_, words, left)] = legend_entries(body);
+    let end = left + LEGEND.1 + KEY_SPACE + text_width(&words, SMALL);
+    if end <= width { 1 } else { 3 }
+}
+
+/// Samples of both kinds of arrows, on a body of this name.
+pub(super) fn legend(drawing: &mut Drawing, body: &str, y: f64, width: f64) {
+    let one_line = legend_lines(body, width) == 1;
+    let mut line = y;
+    for (stroke, words, left) in legend_entries(body) {
+        let left = if one_line { left } else { LEGEND.0 };
+        let middle = line - 3.5;
+        arrow(drawing, [[left, middle], [left + LEGEND.1, middle]], stroke);
+        let beside = left + LEGEND.1 + KEY_SPACE;
+        let pieces: Vec<&str> = match one_line {
+            true => vec![words.as_str()],
+            false => words.split_inclusive(", ").collect(),
+        };
+        for piece in pieces {
+            drawing.text(piece, [beside, line], SMALL, Anchor::Start);
+            line += if one_line { 0.0 } else { CAPTION_LINE };
+        }
+    }
 }
 
 /// An arrow with a filled head for a normal force, an open one for a tangential force. That of a short arrow shrinks

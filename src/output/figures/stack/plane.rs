@@ -3,7 +3,7 @@
 use super::moments::StackPanel;
 use super::parts::{
     CAPTION_LINE, FOOT_HEIGHT, LARGE, LONGEST_ARROW, MEDIUM, SMALL, SMALLEST_SHARE, TITLE_HEIGHT,
-    arrow, largest_force, legend, letters, number, round_below, shifted,
+    arrow, largest_force, legend, legend_lines, letters, number, round_below, shifted,
 };
 use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke};
 use crate::output::figures::style::{
@@ -27,32 +27,42 @@ const WIDEST: f64 = 20.0;
 const ABOVE_WALL: f64 = 0.3;
 const BELOW_FLOOR: f64 = 0.3;
 
-/// `panels` side by side with forces in m g, above lines of caption. `epsilon` is m g in k_n r.
+/// `panels` with forces in m g, so many side by side, above lines of caption. `epsilon` is m g in k_n r.
 ///
 /// The forces are those on each cylinder, from the contact inwards; where two cylinders touch, each has its
 /// own arrows.
-pub(super) fn drawn(panels: &[StackPanel], epsilon: f64, caption: &[String]) -> Drawing {
+pub(super) fn drawn(
+    panels: &[StackPanel],
+    columns: usize,
+    epsilon: f64,
+    caption: &[String],
+) -> Drawing {
     let widths = panels.iter().map(|panel| reach(panel.frame) + 0.25);
     let half_width = widths.fold(NARROWEST, f64::max).min(WIDEST);
     let heights = panels.iter().map(|panel| top(panel.frame));
     let highest = heights.fold(2.0, f64::max).min(2.0 * WIDEST);
     let panel_width = 2.0 * half_width * SCALE;
     let floor = TITLE_HEIGHT + (highest + ABOVE_WALL) * SCALE;
-    let below = floor + BELOW_FLOOR * SCALE;
-    let height = below + FOOT_HEIGHT + CAPTION_LINE * (caption.len() as f64 + 1.0) + 8.0;
-    let mut drawing = Drawing::new(panel_width * panels.len() as f64, height);
+    let panel_height = floor + BELOW_FLOOR * SCALE + FOOT_HEIGHT;
+    let below = panel_height * panels.len().div_ceil(columns) as f64;
+    let width = panel_width * columns as f64;
+    let legend_lines = legend_lines("cylinder", width) as f64;
+    let height = below + CAPTION_LINE * (caption.len() as f64 + legend_lines) + 8.0;
+    let mut drawing = Drawing::new(width, height);
     for (index, panel) in panels.iter().enumerate() {
         let view = View {
-            middle: panel_width * (index as f64 + 0.5),
-            floor,
+            middle: panel_width * ((index % columns) as f64 + 0.5),
+            top: panel_height * (index / columns) as f64,
+            floor: floor + panel_height * (index / columns) as f64,
             half_width,
             epsilon,
             largest: largest_force(&panel.frame.contacts),
         };
         view.draw(&mut drawing, panel, char::from(b'a' + (index % 26) as u8));
     }
-    let mut line = below + FOOT_HEIGHT + 6.0;
-    legend(&mut drawing, "cylinder", line);
+    let mut line = below + 6.0;
+    legend(&mut drawing, "cylinder", line, width);
+    line += CAPTION_LINE * (legend_lines - 1.0);
     for text in caption {
         line += CAPTION_LINE;
         drawing.text(text, [12.0, line], SMALL, Anchor::Start);
@@ -76,6 +86,7 @@ fn top(frame: &Frame) -> f64 {
 /// The place of a panel on the drawing.
 struct View {
     middle: f64,
+    top: f64,
     floor: f64,
     half_width: f64,
     epsilon: f64,
@@ -92,9 +103,9 @@ impl View {
         let frame = panel.frame;
         let force = frame.wall_force / self.epsilon;
         let title = format!("({letter}) {}", panel.title);
-        self.centred(drawing, title, 18.0, LARGE);
+        self.centred(drawing, title, self.top + 18.0, LARGE);
         let wall = format!("_f_ = {} _m_ _g_", number(force));
-        self.centred(drawing, wall, 36.0, MEDIUM);
+        self.centred(drawing, wall, self.top + 36.0, MEDIUM);
         self.planes(drawing, frame);
         for (index, cylinder) in frame.bodies.iter().enumerate() {
             self.cylinder(drawing, index, cylinder);

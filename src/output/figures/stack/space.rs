@@ -3,7 +3,7 @@
 use super::moments::StackPanel;
 use super::parts::{
     CAPTION_LINE, FOOT_HEIGHT, LARGE, MEDIUM, SMALL, SMALLEST_SHARE, TITLE_HEIGHT, arrow,
-    largest_force, legend, letters, number, round_below, shifted,
+    largest_force, legend, legend_lines, letters, number, round_below, shifted,
 };
 use crate::model::Stack;
 use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke};
@@ -59,8 +59,10 @@ pub(super) fn drawn(panels: &[StackPanel], stack: &Stack, caption: &[String]) ->
     let panel_width = 2.0 * (half_width + 0.1) * SCALE;
     let floor = TITLE_HEIGHT + (above + 0.15) * SCALE;
     let foot = floor + (below + 0.1) * SCALE;
-    let height = foot + FOOT_HEIGHT + CAPTION_LINE * (caption.len() as f64 + 1.0) + 8.0;
-    let mut drawing = Drawing::new(panel_width * panels.len() as f64, height);
+    let width = panel_width * panels.len() as f64;
+    let legend_lines = legend_lines("sphere", width) as f64;
+    let height = foot + FOOT_HEIGHT + CAPTION_LINE * (caption.len() as f64 + legend_lines) + 8.0;
+    let mut drawing = Drawing::new(width, height);
     for (index, panel) in panels.iter().enumerate() {
         let view = View {
             camera,
@@ -74,7 +76,8 @@ pub(super) fn drawn(panels: &[StackPanel], stack: &Stack, caption: &[String]) ->
         view.draw(&mut drawing, panel, char::from(b'a' + (index % 26) as u8));
     }
     let mut line = foot + FOOT_HEIGHT + 6.0;
-    legend(&mut drawing, "sphere", line);
+    legend(&mut drawing, "sphere", line, width);
+    line += CAPTION_LINE * (legend_lines - 1.0);
     for text in caption {
         line += CAPTION_LINE;
         drawing.text(text, [12.0, line], SMALL, Anchor::Start);

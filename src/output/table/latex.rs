@@ -83,7 +83,7 @@ enum Kind {
     /// Text in one line.
     Line { width: f64, is_right: bool },
     /// Text in several lines; its mean width.
-    Lines { mean: f64 },
+    Lines { mean: f64, has_formulas: bool },
 }
 
 impl Kind {
@@ -112,6 +112,7 @@ impl Kind {
         let mean = widths.iter().sum::<f64>() / widths.len().max(1) as f64;
         Self::Lines {
             mean: mean.max(LEAST),
+            has_formulas: column.cells.iter().any(|cell| cell.contains('$')),
         }
     }
 
@@ -131,7 +132,18 @@ impl Kind {
     /// What share of the text columns' width it needs, by the square root of the length of its texts.
     fn weight(&self) -> f64 {
         match self {
-            Self::Lines { mean } => mean.sqrt(),
+            Self::Lines { mean, .. } => mean.sqrt(),
+            _ => 0.0,
+        }
+    }
+
+    /// The width beyond its least with which it reads well: formulas do not break where words do.
+    fn comfort(&self) -> f64 {
+        match self {
+            Self::Lines {
+                has_formulas: true, ..
+            } => 20.0,
+            Self::Lines { .. } => 8.0,
             _ => 0.0,
         }
     }
@@ -182,10 +194,39 @@ impl Kind {
                 format!("{digits}\\times10^{{{}}}", exponent.trim_start_matches('+'))
             }
             (Self::Aligned { .. }, None) => cell.to_owned(),
-            (Self::Lines { .. }, _) => breakable(&latex_text(cell)),
+            (Self::Lines { .. }, _) => breakable(&open_brackets(&latex_text(cell))),
             _ => latex_text(cell),
         }
     }
+}
+
+/// `text` with brackets of one size: TeX breaks no line between those that fit what they enclose.
+fn open_brackets(text: &str) -> String {
+    let mut opened = String::new();
+    let mut rest = text;
+    while let Some(at) = rest
+        .find("\\left")
+        .into_iter()
+        .chain(rest.find("\\right"))
+        .min()
+    {
+        let (before, found) = rest.split_at(at);
+        let name = if found.starts_with("\\left") {
+            "\\left"
+        } else {
+            "\\right"
+        };
+        let after = &found[name.len()..];
+        let is_bracket = !after.starts_with(|next: char| next.is_ascii_alphabetic());
+        opened += before;
+        opened += match (is_bracket, name) {
+            (true, "\\left") => "\\bigl",
+            (true, _) => "\\bigr",
+            (false, name) => name,
+        };
+        rest = after;
+    }
+    opened + rest
 }
 
 /// `text` whose long words, such as versions, may be broken after signs.
@@ -285,8 +326,7 @@ impl Page {
     /// The largest letters with which the columns have their least width.
     fn of(kinds: &[Kind]) -> Self {
         let least: f64 = kinds.iter().map(|kind| kind.least() + GAP).sum();
-        let texts = kinds.iter().filter(|kind| kind.weight() > 0.0).count();
-        let comfort = least + 8.0 * texts as f64;
+        let comfort = least + kinds.iter().map(Kind::comfort).sum::<f64>();
         let upright = SIZES
             .iter()
             .map(|&(size, letters, _)| (size, letters, false));
@@ -371,5 +411,7 @@ mod tests {
         let lines = heading_lines("F at $\\mu_c / 2$ of all codes", 8.0);
         assert_eq!(lines, ["F at", "$\\mu_c / 2$", "of all", "codes"]);
         assert_eq!(width("$\\mu_c$"), 2.0);
+        let opened = open_brackets("$\\left(a \\to b\\right) \\leftarrow c$");
+        assert_eq!(opened, "$\\bigl(a \\to b\\bigr) \\leftarrow c$");
     }
 }

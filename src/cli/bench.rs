@@ -3,6 +3,7 @@
 use super::convention::settle;
 use super::options::{CodeParser, Format, RunOptions, selected_codes};
 use super::out::Out;
+use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
 use crate::files::{FileError, Layout, Scratch};
@@ -71,7 +72,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 /// The named codes with native, or else the installed ones.
 fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
-        return Ok(installed_codes());
+        return Ok(during("locating the programs of all codes", installed_codes));
     }
     let mut names = vec![Code::NATIVE];
     names.extend(named);
@@ -89,12 +90,13 @@ fn time_stack(
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
     let repeats = arguments.repeats.map(usize::from);
-    let costs = measure_stack(codes, arguments.bodies, repeats, context)?;
+    let timed = || measure_stack(codes, arguments.bodies, repeats, context);
+    let costs = during(&format!("timing a step of {} codes", codes.len()), timed)?;
     let rows = || crate::output::bench(&costs);
     if !arguments.scaling && arguments.out.is_none() {
         return Ok(print(arguments.format, rows(), command, ""));
     }
-    let measured = measure_scaling(repeats, context)?;
+    let measured = during("timing native lanes", || measure_scaling(repeats, context))?;
     let printed = print(arguments.format, rows(), command, &scaling_text(&measured));
     let written = out.write(|| {
         let all = measured.cases.iter().chain(&measured.cores);
@@ -134,7 +136,7 @@ fn time_pyramids(
         repeats: arguments.repeats.map_or(default.repeats, usize::from),
         ..default
     };
-    let costs = bench.measure(context)?;
+    let costs = during("timing pyramids", || bench.measure(context))?;
     Ok(print(arguments.format, pyramids(&costs), command, ""))
 }
 

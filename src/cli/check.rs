@@ -2,12 +2,15 @@
 
 use super::code_names::code_in_folder;
 use super::options::{Format, time_limit};
+use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::RunContext;
 use crate::files::FileError;
+use crate::model::shown;
 use crate::output::{check, check_text};
 use crate::study::check::{Grade, Report, check as check_code};
 use clap::Args;
+use std::path::Path;
 
 /// Check the folder of a code before anything is judged, and explain what is wrong
 ///
@@ -40,7 +43,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
                 time_limit: limit,
                 ..RunContext::new(&place, &INTERRUPT)
             };
-            let report = check_code(code, folder, &context);
+            let phase = format!("checking {}", shown(Path::new(folder)));
+            let report = during(&phase, || check_code(code, folder, &context));
             report.map_err(FileError::writing(&place))?
         }
         Err(error) => Report::of_manifest(&error.to_string(), folder),

@@ -7,7 +7,7 @@ use super::options::{
     CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
@@ -79,7 +79,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     settle(&codes, &arguments.run)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let mut measurements = arguments.stacks.measurements(&names, arguments.law)?;
+    let planned = || arguments.stacks.measurements(&names, arguments.law);
+    let mut measurements = during("planning", planned)?;
     if arguments.shortcuts {
         let shortened = measurements.into_iter().map(Measurement::shortened);
         measurements = shortened.collect();

@@ -2,13 +2,12 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{Friction, RunOptions, StackOptions, as_flag, friction};
+use super::options::{Friction, RunOptions, StackOptions, as_flag, find_all, friction};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
 use crate::model::{Power, Stack};
 use crate::output::explanation;
-use crate::runs::SelectedCode;
 use crate::study::Campaign;
 use crate::study::yield_force::{measure_with_twin, plan};
 
@@ -60,7 +59,7 @@ pub(super) fn explain(
     let stack = others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
-    let codes = [SelectedCode::find(row.code)];
+    let codes = find_all(&[row.code]);
     settle(&codes, options)?;
     let measurement = plan(row.code, &stack, row.code.convention_of_power(power));
     let measurements = vec![match shortcuts {

@@ -2,7 +2,7 @@
 
 use super::options::{Format, RunOptions, as_flag};
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
 
 /// Examines every boundary, prints and writes the result.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let maps = checked_maps(arguments)?;
+    let maps = during("mapping the first events", || checked_maps(arguments))?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();

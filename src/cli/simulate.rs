@@ -6,6 +6,7 @@ use super::options::{
     time_limit,
 };
 use super::out::{Out, write};
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
 use crate::code::{
     Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
@@ -21,6 +22,7 @@ use crate::output::{
     vtk_series,
 };
 use crate::series::Frames;
+use crate::runs::Progress;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{
     NoYield, max_touch_speed, no_yield, planned_protocol, protocol_at_speed,
@@ -28,6 +30,7 @@ use crate::study::yield_force::{
 use crate::theory::{Limit, quasistatic_limit};
 use clap::{ArgGroup, Args, Id, ValueEnum};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Default wall speed, in units of the predicted displacement z at yield.
@@ -180,8 +183,19 @@ fn execute(
     limit: Option<Duration>,
     directory: &Path,
 ) -> Result<Run, Box<Failure>> {
+    let reporter = Reporter::new();
+    let name = code.name();
+    reporter.begins(&format!("compression by {name}"));
+    let seconds = |steps: u64| steps as f64 * name.seconds_per_step();
+    reporter.planned("run", 0, 0, seconds(case.total_steps()));
+    let done = AtomicU64::new(0);
+    let advanced = |_, steps| {
+        let before = done.fetch_max(steps, Ordering::Relaxed);
+        reporter.advanced(seconds(steps.saturating_sub(before)));
+    };
     let context = RunContext {
         time_limit: limit,
+        advanced: &advanced,
         ..RunContext::new(directory, &INTERRUPT)
     };
     let mut outcome = None;

@@ -4,7 +4,7 @@ use super::convention::settle;
 use super::interrupt::interrupted_after;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let names = codes.iter().map(|selected| selected.name);
-    let plans = plans(names, arguments.bodies);
+    let plans = during("planning", || plans(names, arguments.bodies));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();

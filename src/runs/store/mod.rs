@@ -83,6 +83,18 @@ impl Kind {
             Self::Impact => "impact",
         }
     }
+
+    /// The name of the phase in which such results of so many codes are made or read.
+    pub(crate) fn phase(self, codes: usize) -> String {
+        let phase = match self {
+            Self::Run => "compressions",
+            Self::Probe if codes != 1 => return format!("probing {codes} codes"),
+            Self::Probe => "probing 1 code",
+            Self::Observation => "runs to the first event",
+            Self::Impact => "impacts",
+        };
+        phase.to_owned()
+    }
 }
 
 /// The finished runs of a user.

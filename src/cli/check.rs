@@ -1,7 +1,7 @@
 //! `tristack check`.
 
 use super::code_names::code_in_folder;
-use super::options::{Format, time_limit};
+use super::options::{Format, seconds, time_limit};
 use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::RunContext;
@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "FOLDER")]
     folder: String,
     /// Longest time without a finished task, in seconds [default: 30 s plus 100 us per step]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
     /// Format of the items
     #[arg(long, value_enum, default_value_t = Format::Table)]

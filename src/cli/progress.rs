@@ -152,7 +152,8 @@ impl Progress for Reporter {
             let template = "{prefix}: {bar:20} {percent} %, {left}  {wide_msg}";
             self.bar.set_style(style(template));
             let known = self.bar.length().unwrap_or(0);
-            self.bar.set_length(known.saturating_add((1e9 * seconds) as u64));
+            self.bar
+                .set_length(known.saturating_add((1e9 * seconds) as u64));
         }
     }
 

@@ -61,7 +61,10 @@ pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
         // This one is part of the program.
         [] | [Code::NATIVE] => find(),
         [one] => during(&format!("locating the program of {one}"), find),
-        _ => during(&format!("locating the programs of {} codes", names.len()), find),
+        _ => during(
+            &format!("locating the programs of {} codes", names.len()),
+            find,
+        ),
     }
 }
 

@@ -4,6 +4,7 @@ mod columns;
 mod data;
 mod escape;
 mod shown;
+mod units;
 mod value;
 
 pub(crate) use columns::Columns;

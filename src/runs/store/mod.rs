@@ -32,7 +32,10 @@ const CHECKPOINTS: &str = "checkpoints";
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    #[error(transparent)]
+    #[error(
+        "the store cannot be used: {}; accepted is a directory that you may write to: choose another one with --store",
+        shown(Path::new(&.0.to_string()))
+    )]
     Files(#[from] FileError),
     #[error(
         "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store",

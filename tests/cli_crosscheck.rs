@@ -353,3 +353,46 @@ fn a_page_names_the_command_that_explains_its_own_rows() {
     );
     assert_ne!(text, standard_output(&mut bench.tristack(explain)));
 }
+
+#[test]
+fn off_a_terminal_progress_is_a_line_for_each_phase() {
+    let bench = Bench::without_codes();
+    let line = "crosscheck --codes native --mu 0.2,0.3 --stiffness 100";
+    let message = standard_error(&mut bench.tristack(line));
+    let phases = message
+        .lines()
+        .take_while(|line| !line.contains("rows agree"));
+    let phases: Vec<&str> = phases.collect();
+    for (said, expected) in phases.iter().zip([
+        "planning",
+        "probing 1 code",
+        "probing 1 code: 1 of 1 made in ",
+        "compressions",
+        "compressions: 10 of 10 made in ",
+    ]) {
+        assert!(said.starts_with(expected), "{message}");
+    }
+    assert_eq!(phases.len(), 5, "{message}");
+}
+
+#[test]
+fn the_explanation_of_a_row_is_json_too() {
+    let bench = Bench::without_codes();
+    let line = "crosscheck --explain native/0.3/100 --format json";
+    let found = common::json(&standard_output(&mut bench.tristack(line)));
+    let tables = found["tables"].as_array().expect("a list of tables");
+    let rows = |name: &str| {
+        let schema = format!("tristack/{name}/1");
+        let table = tables.iter().find(|table| table["schema"] == *schema);
+        table.expect(name)["rows"].as_array().expect("rows").clone()
+    };
+    assert_eq!(rows("crosscheck")[0]["verdict"], "agrees");
+    assert_eq!(rows("budget").len(), 1);
+    let runs = rows("explained_runs");
+    assert_eq!(runs.len(), 5);
+    for run in &runs {
+        let share = run["force_balance"].as_f64().expect("native is tested");
+        assert!(share < 1.0, "{run}");
+    }
+    assert_eq!(rows("explanation")[0]["arms"], "measured");
+}

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::Bench;
+use common::{Bench, standard_error};
 use insta::assert_snapshot;
 use std::fs;
 use std::path::Path;
@@ -379,4 +379,19 @@ fn vtk_series_of_spheres_is_in_space() {
     }
     let collection = &files[6].content;
     assert!(collection.contains("those between spheres are not reported"));
+}
+
+#[test]
+fn a_picture_is_a_pdf_where_its_name_says_so_and_no_other_format() {
+    let bench = Bench::without_codes();
+    run(&bench, "--svg stack.pdf");
+    let picture = fs::read(bench.path("stack.pdf")).expect("a picture");
+    assert!(picture.starts_with(b"%PDF-"));
+    let line = "simulate --code native --mu 0.3 --stiffness 100 --svg stack.png";
+    let message = standard_error(&mut bench.tristack(line));
+    bench.tristack(line).assert().code(1);
+    for part in ["--svg", "stack.png", ".svg or .pdf"] {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+    assert!(!bench.path("stack.png").exists());
 }

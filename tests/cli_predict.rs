@@ -100,7 +100,7 @@ fn wooden_cylinders_of_the_movies() {
 fn what_does_not_yield_says_what_happens_instead() {
     let bench = Bench::without_codes();
     for (mu, what) in [
-        ("0.05", "under its own weight"),
+        ("0.05", "under its own weight; it carries no load;"),
         ("0.9", "the top wall reaches"),
     ] {
         let words = [
@@ -112,6 +112,12 @@ fn what_does_not_yield_says_what_happens_instead() {
             text.contains("no yield force") && text.contains(what),
             "{text}"
         );
+        // Between a third of mu_c and the friction at which the wall reaches the bottom cylinders first.
+        assert!(
+            text.contains("it yields where mu is between 0.089"),
+            "{text}"
+        );
+        assert!(!text.contains("0 to 0 N"), "{text}");
     }
 }
 

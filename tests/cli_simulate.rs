@@ -36,7 +36,12 @@ fn out_holds_case_series_and_summary() {
         .success();
     assert_only(
         &bench.path("run"),
-        &["case.json", "series.csv", "summary.json"],
+        &[
+            "case.json",
+            "series.csv",
+            "series.csv-metadata.json",
+            "summary.json",
+        ],
     );
     let series = fs::read_to_string(bench.path("run/series.csv")).expect("a series");
     assert_snapshot!(series.lines().next().expect("a header"));
@@ -127,4 +132,65 @@ fn codes_lists_what_is_not_installed_with_a_remedy() {
     insta::with_settings!({filters => hashes.to_vec()}, {
         assert_snapshot!(external.join("\n"));
     });
+}
+
+#[test]
+fn a_file_beside_the_series_has_the_unit_and_the_meaning_of_every_column() {
+    let bench = Bench::without_codes();
+    bench
+        .tristack(&format!("{RUN} --out run"))
+        .assert()
+        .success();
+    let text = |name: &str| fs::read_to_string(bench.path("run").join(name)).expect("a file");
+    let described = common::json(&text("series.csv-metadata.json"));
+    assert_eq!(described["url"], "series.csv");
+    let columns = described["tableSchema"]["columns"].as_array();
+    let columns = columns.expect("a list of columns");
+    let word =
+        |column: &serde_json::Value, key: &str| column[key].as_str().unwrap_or("").to_owned();
+    let names: Vec<String> = columns.iter().map(|own| word(own, "name")).collect();
+    assert_eq!(text("series.csv").lines().next(), Some(&*names.join(",")));
+    for column in columns {
+        assert!(!word(column, "schema:unitText").is_empty(), "{column}");
+        assert!(!word(column, "dc:description").is_empty(), "{column}");
+    }
+}
+
+#[test]
+fn the_exact_limit_stands_beside_the_result_of_a_run() {
+    let bench = Bench::without_codes();
+    let run = &json_rows(&standard_output(
+        &mut bench.tristack(&format!("{RUN} --format json")),
+    ))[0];
+    let number = |name: &str| run[name].as_f64().expect("a number");
+    let (onset, reference) = (number("slip_force"), number("reference_onset"));
+    let error = (onset - reference) / (reference + 3.0);
+    assert!((number("error") - error).abs() < 1e-15, "{error}");
+    // A wall of finite speed is a little late.
+    assert!((0.0..1e-2).contains(&error), "{error}");
+}
+
+#[test]
+fn a_run_that_stops_before_the_yield_says_how_far_the_wall_must_move() {
+    let bench = Bench::without_codes();
+    let case = "[stack]\nfloor_friction = 0.3\nstiffness = 100.0\n[protocol]\nwall_travel = 0.4\n\
+                sampling = { coarse_interval = 50.0, fine_from_travel = 0.4, fine_interval = 2.0 }\n";
+    fs::write(bench.path("case.toml"), case).expect("a case file");
+    let message = standard_error(&mut bench.tristack("simulate --code native --case case.toml"));
+    for part in [
+        "ends before the floor slips",
+        "the wall moves 0.4000 r",
+        "`protocol.wall_travel`",
+    ] {
+        assert!(message.contains(part), "{message} lacks {part}");
+    }
+    let words: Vec<&str> = message.split_whitespace().collect();
+    let needed = words
+        .windows(4)
+        .find(|four| four[0] == "be" && four[2] == "or");
+    let needed = needed.expect("a travel that suffices")[1];
+    let longer = case.replace("wall_travel = 0.4\n", &format!("wall_travel = {needed}\n"));
+    fs::write(bench.path("case.toml"), longer).expect("a case file");
+    let message = standard_error(&mut bench.tristack("simulate --code native --case case.toml"));
+    assert!(!message.contains("ends before"), "{message}");
 }

@@ -264,7 +264,7 @@ fn what_is_wrong_with_files_and_options_is_said() {
         ),
         (
             with(&speeds, "--speeds 4e-4,2e-4,-1"),
-            &["`--speeds` is -1", "numbers above 0"],
+            &["'-1' for '--speeds", "a number above 0"],
         ),
         (
             format!("{all} --dt 0.2"),

@@ -1,8 +1,9 @@
 //! `tristack bench`.
 
 use super::convention::settle;
-use super::options::{CodeParser, Format, RunOptions, selected_codes};
+use super::options::{CodeParser, Format, RunOptions, selected_codes, whole};
 use super::out::Out;
+use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::{Code, RunContext};
 use crate::files::{FileError, Layout, Scratch};
@@ -12,7 +13,6 @@ use crate::output::{
 };
 use crate::study::cost::{PyramidBench, Scaling, installed_codes, measure_scaling, measure_stack};
 use clap::Args;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Measure the cost of a time step and of a yield force
@@ -27,10 +27,10 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Number of measurements, whose medians are printed
-    #[arg(long, value_name = "N")]
-    repeats: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = whole::<usize>(1..=1000))]
+    repeats: Option<usize>,
     /// Bodies on the floor of the stack: 2 cylinders, or 3 to 5 spheres
-    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, conflicts_with = "pyramids", value_parser = clap::value_parser!(u8).range(2..=5))]
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, conflicts_with = "pyramids", value_parser = whole::<u8>(2..=5))]
     bodies: u8,
     /// Time pyramids of a thousand to ten thousand cylinders instead of the stack
     #[arg(long)]
@@ -71,7 +71,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 /// The named codes with native, or else the installed ones.
 fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     if named.is_empty() {
-        return Ok(installed_codes());
+        return Ok(during(
+            "locating the programs of all codes",
+            installed_codes,
+        ));
     }
     let mut names = vec![Code::NATIVE];
     names.extend(named);
@@ -88,13 +91,14 @@ fn time_stack(
     out: &Out,
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
-    let repeats = arguments.repeats.map(usize::from);
-    let costs = measure_stack(codes, arguments.bodies, repeats, context)?;
+    let repeats = arguments.repeats;
+    let timed = || measure_stack(codes, arguments.bodies, repeats, context);
+    let costs = during(&format!("timing a step of {} codes", codes.len()), timed)?;
     let rows = || crate::output::bench(&costs);
     if !arguments.scaling && arguments.out.is_none() {
         return Ok(print(arguments.format, rows(), command, ""));
     }
-    let measured = measure_scaling(repeats, context)?;
+    let measured = during("timing native lanes", || measure_scaling(repeats, context))?;
     let printed = print(arguments.format, rows(), command, &scaling_text(&measured));
     let written = out.write(|| {
         let all = measured.cases.iter().chain(&measured.cores);
@@ -131,10 +135,10 @@ fn time_pyramids(
     let default = PyramidBench::default();
     let bench = PyramidBench {
         codes,
-        repeats: arguments.repeats.map_or(default.repeats, usize::from),
+        repeats: arguments.repeats.unwrap_or(default.repeats),
         ..default
     };
-    let costs = bench.measure(context)?;
+    let costs = during("timing pyramids", || bench.measure(context))?;
     Ok(print(arguments.format, pyramids(&costs), command, ""))
 }
 

@@ -1,13 +1,16 @@
 //! `tristack check`.
 
 use super::code_names::code_in_folder;
-use super::options::{Format, time_limit};
+use super::options::{Format, seconds, time_limit};
+use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::RunContext;
 use crate::files::FileError;
+use crate::model::shown;
 use crate::output::{check, check_text};
 use crate::study::check::{Grade, Report, check as check_code};
 use clap::Args;
+use std::path::Path;
 
 /// Check the folder of a code before anything is judged, and explain what is wrong
 ///
@@ -22,7 +25,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "FOLDER")]
     folder: String,
     /// Longest time without a finished task, in seconds [default: 30 s plus 100 us per step]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
     /// Format of the items
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -40,7 +43,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
                 time_limit: limit,
                 ..RunContext::new(&place, &INTERRUPT)
             };
-            let report = check_code(code, folder, &context);
+            let phase = format!("checking {}", shown(Path::new(folder)));
+            let report = during(&phase, || check_code(code, folder, &context));
             report.map_err(FileError::writing(&place))?
         }
         Err(error) => Report::of_manifest(&error.to_string(), folder),

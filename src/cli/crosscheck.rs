@@ -7,7 +7,7 @@ use super::options::{
     CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "format", "profile", "mu"])]
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "profile", "mu"])]
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
@@ -55,7 +55,7 @@ pub(super) struct Arguments {
     shortcuts: bool,
     #[command(flatten)]
     run: RunOptions,
-    /// Format of the rows
+    /// Format of the rows, or of the explanation of one
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -69,6 +69,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             arguments.law,
             arguments.shortcuts,
             &arguments.run,
+            (arguments.format, command),
         );
     }
     let named = arguments.codes.of_power(arguments.law)?;
@@ -79,7 +80,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     settle(&codes, &arguments.run)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let mut measurements = arguments.stacks.measurements(&names, arguments.law)?;
+    let planned = || arguments.stacks.measurements(&names, arguments.law);
+    let mut measurements = during("planning", planned)?;
     if arguments.shortcuts {
         let shortened = measurements.into_iter().map(Measurement::shortened);
         measurements = shortened.collect();

@@ -2,13 +2,12 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{Friction, RunOptions, StackOptions, as_flag, friction};
+use super::options::{Format, Friction, RunOptions, StackOptions, as_flag, find_all, friction};
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, print};
+use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::model::{Power, Stack};
-use crate::output::explanation;
-use crate::runs::SelectedCode;
+use crate::output::{explained, explanation};
 use crate::study::Campaign;
 use crate::study::yield_force::{measure_with_twin, plan};
 
@@ -52,6 +51,7 @@ pub(super) fn explain(
     power: Power,
     shortcuts: bool,
     options: &RunOptions,
+    (format, command): (Format, &str),
 ) -> Result<ExitStatus, CliError> {
     let power = match row.code.accepts_any_convention() {
         true => power,
@@ -60,7 +60,7 @@ pub(super) fn explain(
     let stack = others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
-    let codes = [SelectedCode::find(row.code)];
+    let codes = find_all(&[row.code]);
     settle(&codes, options)?;
     let measurement = plan(row.code, &stack, row.code.convention_of_power(power));
     let measurements = vec![match shortcuts {
@@ -75,7 +75,9 @@ pub(super) fn explain(
     let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
     let coverage = codes[0].code.as_ref().map(|code| code.coverage());
-    let printed = print(&explanation(judgement, twin.as_ref(), coverage.as_deref()));
+    let (twin, coverage) = (twin.as_ref(), coverage.as_deref());
+    let people = || explanation(judgement, twin, coverage);
+    let printed = format.print(&explained(judgement, twin, coverage), command, people);
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

@@ -1,6 +1,6 @@
 //! `tristack judge --series`.
 
-use super::options::{ConventionOptions, Format, OneStackOptions, options_of};
+use super::options::{ConventionOptions, Format, OneStackOptions, options_of, positive};
 use super::out::Out;
 use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
@@ -32,7 +32,7 @@ pub(super) struct SeriesArguments {
         value_name = "V1,V2,V3",
         value_delimiter = ',',
         requires = "series",
-        allow_negative_numbers = true
+        value_parser = positive
     )]
     speeds: Vec<f64>,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(super) struct SeriesArguments {
         long,
         value_name = "DT",
         requires = "series",
-        allow_negative_numbers = true
+        value_parser = positive
     )]
     dt: Option<f64>,
     /// The series of a run at the middle one of the three slowest speeds with twice the time step

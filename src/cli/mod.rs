@@ -19,6 +19,7 @@ mod options;
 mod out;
 mod passport;
 mod passport_files;
+mod pictures;
 mod plan;
 mod predict;
 mod probe;
@@ -90,12 +91,27 @@ enum Command {
 pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::Error> {
     thread_local! {
         // Building the grammar takes much longer than parsing one line.
-        static GRAMMAR: RefCell<clap::Command> = RefCell::new(Cli::command());
+        static GRAMMAR: RefCell<clap::Command> = RefCell::new(grammar());
     }
-    GRAMMAR.with_borrow_mut(|grammar| {
-        let matches = grammar.try_get_matches_from_mut(arguments)?;
-        Cli::from_arg_matches(&matches).map(drop)
-    })
+    GRAMMAR.with_borrow_mut(|grammar| parsed(grammar, arguments).map(drop))
+}
+
+/// The grammar of the command line. What follows an option that takes a value may be a negative number, so that the
+/// option itself says what it accepts.
+fn grammar() -> clap::Command {
+    let takes_numbers = |option: clap::Arg| {
+        let takes_values = option.get_action().takes_values();
+        option.allow_negative_numbers(takes_values)
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(takes_numbers))
+}
+
+fn parsed(
+    grammar: &mut clap::Command,
+    arguments: impl IntoIterator<Item = OsString>,
+) -> Result<Cli, clap::Error> {
+    let matches = grammar.try_get_matches_from_mut(arguments)?;
+    Cli::from_arg_matches(&matches).map_err(|error| error.format(grammar))
 }
 
 /// Runs the command line `arguments`, the first of which is the program.
@@ -104,7 +120,7 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::
 /// If the input is wrong, or a code is missing or fails.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, CliError> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let cli = match Cli::try_parse_from(&arguments) {
+    let cli = match parsed(&mut grammar(), arguments.iter().cloned()) {
         Ok(cli) => cli,
         Err(error) => {
             let helped = error.print().is_ok() && !error.use_stderr();

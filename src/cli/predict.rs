@@ -1,6 +1,6 @@
 //! `tristack predict`.
 
-use super::options::{Format, Friction, StackOptions, as_flag, friction};
+use super::options::{Format, Friction, StackOptions, as_flag, friction, number};
 use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
@@ -30,29 +30,29 @@ use clap::{ArgGroup, Args};
 )]
 pub(super) struct Arguments {
     /// Young's modulus with unit, such as "1 MPa"; for wood, across the grain
-    #[arg(long, value_name = "E", value_parser = modulus, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", value_parser = modulus, allow_hyphen_values = true)]
     youngs: f64,
     /// Density with unit, such as "1000 kg/m3" or "1 g/cm3"
-    #[arg(long, value_name = "RHO", value_parser = density, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RHO", value_parser = density, allow_hyphen_values = true)]
     density: Option<f64>,
     /// Mass of a cylinder with unit, such as "21.9 g", instead of its density
-    #[arg(long, value_name = "M", value_parser = mass, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = mass, allow_hyphen_values = true)]
     mass: Option<f64>,
     /// Radius with unit, such as "1 cm"
-    #[arg(long, value_name = "R", value_parser = length, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = length, allow_hyphen_values = true)]
     radius: f64,
     /// Length along the axis with unit, such as "40 mm"
-    #[arg(long, value_name = "L", value_parser = length, allow_negative_numbers = true)]
+    #[arg(long, value_name = "L", value_parser = length, allow_hyphen_values = true)]
     length: f64,
     /// Floor friction; a number or the word `critical`
-    #[arg(long, value_parser = friction, allow_negative_numbers = true)]
+    #[arg(long, value_parser = friction)]
     mu: Friction,
     /// Uncertainty of the floor friction, as ±
     #[arg(
         long,
         value_name = "U",
         default_value_t = 0.0,
-        allow_negative_numbers = true
+        value_parser = number
     )]
     mu_uncertainty: f64,
     /// Poisson's ratio: 0.5 for rubber, about 0.3 for wood and metals; paper-scaling does not use it
@@ -60,7 +60,7 @@ pub(super) struct Arguments {
         long,
         value_name = "NU",
         default_value_t = 0.5,
-        allow_negative_numbers = true
+        value_parser = number
     )]
     poisson: f64,
     /// Estimate of the contact stiffness to conclude from

@@ -1,38 +1,75 @@
-//! Progress on standard error: a bar on a terminal, plain lines elsewhere.
+//! Progress on standard error: a bar on a terminal, a line for each phase elsewhere.
 
 use super::tell;
 use crate::code::{Code, Failure};
 use crate::runs::Progress;
-use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
-use std::fmt::Display;
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use std::fmt::{Display, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two lines of progress, where there is no bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
+/// Time between two pictures of the bar while nothing advances.
+const BETWEEN_PICTURES: Duration = Duration::from_millis(120);
+/// Share of the work, and time, after which the time left can be estimated.
+const ENOUGH_TO_ESTIMATE: (f64, Duration) = (0.02, Duration::from_secs(3));
+
+/// Does some `work` of which nothing can be counted, and shows the name of the `phase` meanwhile.
+pub(super) fn during<T>(phase: &str, work: impl FnOnce() -> T) -> T {
+    let reporter = Reporter::new();
+    reporter.begins(phase);
+    work()
+}
 
 /// Reports progress on standard error, and removes the bar in the end.
 pub(super) struct Reporter {
     /// In nanoseconds of expected work; hidden where there is no terminal.
     bar: ProgressBar,
-    counts: Mutex<Counts>,
+    phase: Mutex<Phase>,
 }
 
-struct Counts {
-    finished: usize,
-    open: usize,
+/// What is being done.
+struct Phase {
+    name: String,
+    begun: Instant,
     last_line: Instant,
+    /// Results to make, those that are made, and those of them that failed.
+    open: usize,
+    finished: usize,
+    failed: usize,
+}
+
+impl Phase {
+    fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            begun: Instant::now(),
+            last_line: Instant::now(),
+            open: 0,
+            finished: 0,
+            failed: 0,
+        }
+    }
+
+    /// The line that ends a phase in which something was made.
+    fn summary(&self) -> Option<String> {
+        let made = self.finished - self.failed;
+        let failed = match self.failed {
+            0 => String::new(),
+            failed => format!(", {failed} failed or interrupted"),
+        };
+        let took = duration(self.begun.elapsed());
+        let Self { name, open, .. } = self;
+        (*open > 0).then(|| format!("{name}: {made} of {open} made in {took}{failed}"))
+    }
 }
 
 impl Reporter {
     pub fn new() -> Self {
         Self {
-            bar: ProgressBar::new(0).with_style(style()),
-            counts: Mutex::new(Counts {
-                finished: 0,
-                open: 0,
-                last_line: Instant::now(),
-            }),
+            bar: ProgressBar::no_length(),
+            phase: Mutex::new(Phase::new("")),
         }
     }
 
@@ -43,51 +80,107 @@ impl Reporter {
         }
     }
 
-    /// The counts, which stay valid even if a thread panicked while it held them.
-    fn counts(&self) -> MutexGuard<'_, Counts> {
-        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
+    /// The phase, which stays valid even if a thread panicked while it held it.
+    fn phase(&self) -> MutexGuard<'_, Phase> {
+        self.phase.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Says what the phase has come to, where there is no bar.
+    fn end(&self, phase: &Phase) {
+        if let Some(summary) = phase.summary().filter(|_| self.bar.is_hidden()) {
+            tell!("{summary}");
+        }
     }
 }
 
-fn style() -> ProgressStyle {
-    ProgressStyle::with_template("{bar:40} {percent} %, {elapsed} elapsed, {eta} left  {msg}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
+fn style(template: &str) -> ProgressStyle {
+    let style = ProgressStyle::with_template(template);
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    style.with_key("left", |state: &ProgressState, text: &mut dyn Write| {
+        let left = time_left(f64::from(state.fraction()), state.elapsed());
+        let _ = text.write_str(&left);
+    })
+}
+
+/// The time that is left when this share of the work took `elapsed`.
+fn time_left(done: f64, elapsed: Duration) -> String {
+    let (share, time) = ENOUGH_TO_ESTIMATE;
+    if done < share || elapsed < time {
+        return "time left not known yet".to_owned();
+    }
+    let left = elapsed.as_secs_f64() * (1.0 / done - 1.0).max(0.0);
+    format!("about {} left", duration(Duration::from_secs_f64(left)))
+}
+
+/// A duration as people say it.
+fn duration(duration: Duration) -> String {
+    match duration.as_secs_f64() {
+        seconds if seconds < 10.0 => format!("{seconds:.1} s"),
+        seconds if seconds < 120.0 => format!("{seconds:.0} s"),
+        _ => HumanDuration(duration).to_string(),
+    }
 }
 
 impl Progress for Reporter {
+    fn begins(&self, name: &str) {
+        let mut phase = self.phase();
+        if phase.name == name {
+            return;
+        }
+        self.end(&phase);
+        *phase = Phase::new(name);
+        self.bar.unset_length();
+        self.bar.reset();
+        if self.bar.is_hidden() {
+            tell!("{name}");
+            return;
+        }
+        self.bar
+            .set_style(style("{spinner} {prefix}, {elapsed} elapsed"));
+        self.bar.set_prefix(name.to_owned());
+        self.bar.set_message("");
+        self.bar.enable_steady_tick(BETWEEN_PICTURES);
+    }
+
     fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64) {
-        self.counts().open += total - reused;
-        self.bar.inc_length((1e9 * seconds) as u64);
         if reused > 0 {
             self.say(&format!("{reused} of {total} {name}s are there already"));
+        }
+        let mut phase = self.phase();
+        phase.open += total - reused;
+        if seconds > 0.0 {
+            let template = "{prefix}: {bar:20} {percent} %, {left}  {wide_msg}";
+            self.bar.set_style(style(template));
+            let known = self.bar.length().unwrap_or(0);
+            self.bar
+                .set_length(known.saturating_add((1e9 * seconds) as u64));
         }
     }
 
     fn advanced(&self, seconds: f64) {
         self.bar.inc((1e9 * seconds) as u64);
-        let mut counts = self.counts();
-        if self.bar.is_hidden() && counts.last_line.elapsed() > BETWEEN_LINES {
-            counts.last_line = Instant::now();
+        let mut phase = self.phase();
+        if self.bar.is_hidden() && phase.last_line.elapsed() > BETWEEN_LINES {
+            phase.last_line = Instant::now();
             let done = self.bar.position() as f64 / self.bar.length().unwrap_or(0).max(1) as f64;
-            let left = HumanDuration(self.bar.eta());
-            tell!("{:.0} % done, {left} left", 100.0 * done);
+            let left = time_left(done, phase.begun.elapsed());
+            let Phase { name, .. } = &*phase;
+            tell!("{name}: {:.0} % done, {left}", 100.0 * done);
         }
     }
 
     fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
         let (finished, open) = {
-            let mut counts = self.counts();
-            counts.finished += 1;
-            (counts.finished, counts.open)
+            let mut phase = self.phase();
+            phase.finished += 1;
+            phase.failed += usize::from(result.is_err());
+            (phase.finished, phase.open)
         };
-        let subject = format!("[{finished}/{open}] {code}: {task}");
         match result {
             Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
-            Ok(seconds) if self.bar.is_hidden() => {
-                let seconds = seconds.map(|seconds| format!(": {seconds:.2} s"));
-                tell!("{subject}{}", seconds.unwrap_or_default());
-            }
-            _ => self.bar.set_message(subject),
+            _ => self
+                .bar
+                .set_message(format!("[{finished}/{open}] {code}: {task}")),
         }
     }
 
@@ -98,6 +191,33 @@ impl Progress for Reporter {
 
 impl Drop for Reporter {
     fn drop(&mut self) {
+        self.end(&self.phase());
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_said_once_it_can_be_estimated() {
+        let seconds = Duration::from_secs;
+        for (done, elapsed) in [(0.0, seconds(60)), (0.01, seconds(60)), (0.5, seconds(1))] {
+            assert_eq!(time_left(done, elapsed), "time left not known yet");
+        }
+        assert_eq!(time_left(0.25, seconds(10)), "about 30 s left");
+        assert_eq!(time_left(0.1, seconds(60)), "about 9 minutes left");
+        assert_eq!(time_left(1.0, seconds(60)), "about 0.0 s left");
+    }
+
+    #[test]
+    fn a_phase_in_which_nothing_was_made_ends_without_a_line() {
+        let mut phase = Phase::new("compressions");
+        assert_eq!(phase.summary(), None);
+        (phase.open, phase.finished, phase.failed) = (90, 12, 2);
+        let summary = phase.summary().expect("something was made");
+        assert!(summary.starts_with("compressions: 10 of 90 made in "));
+        assert!(summary.ends_with(", 2 failed or interrupted"), "{summary}");
     }
 }

@@ -1,8 +1,8 @@
 //! `tristack regimes`.
 
-use super::options::{Format, RunOptions, as_flag};
+use super::options::{Format, RunOptions, as_flag, number, whole};
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
@@ -15,12 +15,12 @@ use crate::study::regimes::{Survey, SurveyPlan, THREE_DIGITS, examined_stacks, s
 use crate::study::{Campaign, Verdict};
 use crate::theory::{BoundaryPoint, CLOSING_STIFFNESS_RATIO, RegimeMap};
 use clap::Args;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// Numbers of values on the axis and of floor frictions in regimes.csv.
 const GRID: (usize, usize) = (25, 40);
-const FEWEST_POINTS: usize = 2;
-const MOST_POINTS: usize = 1000;
+const POINTS: RangeInclusive<u16> = 2..=1000;
 
 /// Map which event comes first under load, and what it does
 ///
@@ -31,10 +31,10 @@ const MOST_POINTS: usize = 1000;
 #[command(after_help = "Example: tristack regimes --out regimes")]
 pub(super) struct Arguments {
     /// Stiffness ratio k_n/k_t in the maps over other parameters
-    #[arg(long, value_name = "K", allow_negative_numbers = true, default_value_t = PAPER_STIFFNESS_RATIO)]
+    #[arg(long, value_name = "K", value_parser = number, default_value_t = PAPER_STIFFNESS_RATIO)]
     kappa: f64,
     /// Number of points tested on each boundary
-    #[arg(long, value_name = "N", default_value_t = 13)]
+    #[arg(long, value_name = "N", default_value_t = 13, value_parser = whole::<usize>(POINTS))]
     points: usize,
     /// Directory for regimes.csv, boundaries.csv, largest_forces.csv, regimes.md and regimes.svg
     #[arg(long, value_name = "DIR")]
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
 
 /// Examines every boundary, prints and writes the result.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let maps = checked_maps(arguments)?;
+    let maps = during("mapping the first events", || checked_maps(arguments))?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
     let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
@@ -104,14 +104,6 @@ fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
              all of the map would be a boundary"
         );
         return Err(InvalidValue::new("--kappa", arguments.kappa, accepted));
-    }
-    if !(FEWEST_POINTS..=MOST_POINTS).contains(&arguments.points) {
-        let accepted = format!("a whole number from {FEWEST_POINTS} to {MOST_POINTS}");
-        return Err(InvalidValue {
-            key: "--points".to_owned(),
-            value: arguments.points.to_string(),
-            accepted,
-        });
     }
     Ok(maps)
 }

@@ -2,25 +2,21 @@
 
 use super::convention::settle_one;
 use super::options::{
-    CodeParser, ConventionOptions, Format, OneStackOptions, RunOptions, as_flag, options_of,
-    time_limit,
+    CodeParser, ConventionOptions, Format, OneStackOptions, RunOptions, as_flag, number,
+    options_of, seconds, time_limit,
 };
-use super::out::{Out, write};
+use super::out::Out;
+use super::pictures::Pictures;
+use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print, tell};
-use crate::code::{
-    Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
-};
-use crate::dem::compress_stack_into_frames;
+use crate::code::{Code, Failure, HOME, InstalledCode, Run, RunContext, keep_evidence};
 use crate::files::{FileError, Layout, remove_older, write_atomically};
 use crate::model::{
     Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Protocol, Shortcuts,
     SideWalls, Stack, shown,
 };
-use crate::output::{
-    VTK_COLLECTION, commented_case, is_vtk_collection, is_vtk_row, json, run_svg, simulations,
-    vtk_series,
-};
-use crate::series::Frames;
+use crate::output::{commented_case, json, series_columns, simulations, unfinished};
+use crate::runs::Progress;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{
     NoYield, max_touch_speed, no_yield, planned_protocol, protocol_at_speed,
@@ -28,6 +24,7 @@ use crate::study::yield_force::{
 use crate::theory::{Limit, quasistatic_limit};
 use clap::{ArgGroup, Args, Id, ValueEnum};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Default wall speed, in units of the predicted displacement z at yield.
@@ -71,28 +68,24 @@ pub(super) struct Arguments {
     #[arg(long, value_enum, default_value_t = PreparationKind::GravityRamp)]
     preparation: PreparationKind,
     /// Distance A by which each side wall is pushed in, in r [default: 0]
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = number)]
     push: Option<f64>,
     /// Wall speed in r sqrt(k_n/m) [default: 1e-3 of the predicted displacement at yield]
-    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    #[arg(long, value_name = "V", value_parser = number)]
     speed: Option<f64>,
     /// Time step in sqrt(m/k_n)
-    #[arg(long, default_value_t = DEFAULT_TIME_STEP, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = DEFAULT_TIME_STEP, value_parser = number)]
     dt: f64,
     /// Approach the predicted yield up to ten times faster and stop after it; only native supports shortcuts
     #[arg(long)]
     shortcuts: bool,
-    /// Directory for case, series, summary, deck and captured output
+    /// Directory for case, series with the units of its columns, summary, deck and captured output
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Picture of the stack with its contact forces, at rest, at yield and in collapse
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
-    /// Directory for a time series that ParaView opens (stack.pvd): bodies and contact forces, at most some 500 rows
-    #[arg(long, value_name = "DIR")]
-    vtk: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: Pictures,
     /// Time limit in seconds [default: 30 s plus 100 us per step for external codes, none for native]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -121,7 +114,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let code = arguments.code().find();
     let code = code.ok_or(CliError::MissingCode(arguments.code()))?;
     let out = Out::claim(arguments.out.as_deref(), &run_layout(arguments, &case))?;
-    Out::claim(arguments.vtk_outside(), &vtk_layout())?;
+    arguments.pictures.claim(arguments.out.as_deref())?;
     let begun = begin(arguments.out.as_deref(), &case)?;
     let run = match arguments.out.as_deref() {
         Some(directory) if begun == ExitStatus::Success => {
@@ -135,6 +128,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let results = || {
         vec![
             (SERIES, run.series.to_csv()),
+            (
+                SERIES_COLUMNS,
+                series_columns(SERIES, &run.series).into_bytes(),
+            ),
             (SUMMARY, json(&tables, command).into_bytes()),
         ]
     };
@@ -143,7 +140,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         ExitStatus::Success => out.write(results),
         failed => failed,
     };
-    let drawn = draw(arguments, &run)?;
+    let drawn = arguments.pictures.draw(arguments.code(), &run)?;
+    if let Some(problem) = unfinished(&run) {
+        tell!("{problem}");
+    }
     Ok(printed.max(written).max(drawn))
 }
 
@@ -180,8 +180,19 @@ fn execute(
     limit: Option<Duration>,
     directory: &Path,
 ) -> Result<Run, Box<Failure>> {
+    let reporter = Reporter::new();
+    let name = code.name();
+    reporter.begins(&format!("compression by {name}"));
+    let seconds = |steps: u64| steps as f64 * name.seconds_per_step();
+    reporter.planned("run", 0, 0, seconds(case.total_steps()));
+    let done = AtomicU64::new(0);
+    let advanced = |_, steps| {
+        let before = done.fetch_max(steps, Ordering::Relaxed);
+        reporter.advanced(seconds(steps.saturating_sub(before)));
+    };
     let context = RunContext {
         time_limit: limit,
+        advanced: &advanced,
         ..RunContext::new(directory, &INTERRUPT)
     };
     let mut outcome = None;
@@ -190,56 +201,6 @@ fn execute(
     outcome
         .expect("a code reports every case")
         .map_err(Box::new)
-}
-
-/// Writes the picture and the files for ParaView, if asked for.
-fn draw(arguments: &Arguments, run: &Run) -> Result<ExitStatus, CliError> {
-    let mut status = ExitStatus::Success;
-    if arguments.svg.is_none() && arguments.vtk.is_none() {
-        return Ok(status);
-    }
-    let frames = frames(arguments.code(), run)?;
-    if let Some(file) = &arguments.svg {
-        let name = &run.provenance.identity.code;
-        status = write(file, run_svg(name, &run.case, &frames).as_bytes());
-    }
-    if let Some(directory) = &arguments.vtk {
-        remove_vtk_rows(directory)?;
-        let files = vtk_series(&frames, &run.case.stack).into_iter();
-        let files = || files.map(|file| (file.name, file.content)).collect();
-        let written = Out::claimed(directory, VTK_COLLECTION).write(files);
-        status = status.max(written);
-    }
-    Ok(status)
-}
-
-/// Removes the rows of an earlier series, which may have been longer.
-fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
-    let entries = std::fs::read_dir(directory).map_err(FileError::writing(directory))?;
-    for entry in entries.flatten() {
-        if is_vtk_row(&entry.file_name().to_string_lossy()) {
-            let path = entry.path();
-            remove_older(&path).map_err(FileError::writing(&path))?;
-        }
-    }
-    Ok(())
-}
-
-/// Every sampled moment of the run. The native DEM runs again, with bitwise the same result, because its series
-/// leaves out the forces between the cylinders.
-fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
-    if code != Code::NATIVE {
-        return Ok(Frames::of_series(&run.series, &run.case)?);
-    }
-    let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
-    let (_, frames) = repeated.map_err(|error| {
-        let kind = match INTERRUPT.requested() {
-            true => FailureKind::Interrupted,
-            false => error.into(),
-        };
-        Box::new(Failure::new(code, &run.case, kind))
-    })?;
-    Ok(frames)
 }
 
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
@@ -351,7 +312,10 @@ fn prepared(
 
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
+const SERIES_COLUMNS: &str = "series.csv-metadata.json";
 const SUMMARY: &str = "summary.json";
+/// What is written after the run.
+const RESULTS: [&str; 3] = [SERIES, SERIES_COLUMNS, SUMMARY];
 
 /// Removes the results of an earlier run from the directory, if one is given, because they must not stand beside the deck
 /// of this run, and writes the case. A disk that is full is told, and no reason not to run.
@@ -359,7 +323,7 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
     let Some(directory) = directory else {
         return Ok(ExitStatus::Success);
     };
-    for path in [SERIES, SUMMARY].map(|name| directory.join(name)) {
+    for path in RESULTS.map(|name| directory.join(name)) {
         remove_older(&path).map_err(FileError::writing(&path))?;
     }
     match write_atomically(&directory.join(CASE), case.to_json().as_bytes()) {
@@ -374,16 +338,8 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
 /// The files of a run in the directory of `--out`, with pictures that are asked for in the same place.
 fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
     let mut files = arguments.code().run_files(case);
-    files.extend([SERIES, SUMMARY].map(str::to_owned));
-    files.extend(arguments.in_out(arguments.svg.as_deref()));
-    if let Some(vtk) = arguments.in_out(arguments.vtk.as_deref()) {
-        let names = vtk_layout().files.into_iter();
-        let names = names.chain([VTK_COLLECTION.to_owned()]);
-        files.extend(names.map(|name| match vtk.as_str() {
-            "" => name,
-            folder => format!("{folder}/{name}"),
-        }));
-    }
+    files.extend(RESULTS.map(str::to_owned));
+    files.extend(arguments.pictures.files_in(arguments.out.as_deref()));
     Layout {
         witness: CASE,
         is_ours: |content| Case::parse(content, Path::new(CASE)).is_ok(),
@@ -393,39 +349,9 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
     }
 }
 
-/// The files for ParaView.
-fn vtk_layout() -> Layout {
-    Layout {
-        witness: VTK_COLLECTION,
-        is_ours: is_vtk_collection,
-        files: ["cylinders_*.vtp", "spheres_*.vtp", "contacts_*.vtp"]
-            .map(str::to_owned)
-            .to_vec(),
-        shared: false,
-        scratch: None,
-    }
-}
-
 impl Arguments {
     /// The code, which is not asked for an example.
     fn code(&self) -> Code {
         self.code.unwrap_or(Code::NATIVE)
-    }
-
-    /// The path of `place` in the directory of `--out`, if it lies there.
-    fn in_out(&self, place: Option<&Path>) -> Option<String> {
-        let [out, place] =
-            [self.out.as_deref()?, place?].map(|path| std::path::absolute(path).ok());
-        let inside = place?.strip_prefix(out?).ok()?.to_str()?.to_owned();
-        Some(inside)
-    }
-
-    /// The directory of `--vtk`, unless it is that of `--out`.
-    fn vtk_outside(&self) -> Option<&Path> {
-        let vtk = self.vtk.as_deref();
-        vtk.filter(|&vtk| {
-            self.in_out(Some(vtk))
-                .is_none_or(|inside| !inside.is_empty())
-        })
     }
 }

@@ -2,9 +2,9 @@
 
 use super::convention::settle;
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins};
+use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, whole};
 use super::out::Out;
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::Code;
 use crate::files::Layout;
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     codes: CodeOptions,
     /// Bodies on the floor: 2 cylinders, or 3 to 5 spheres, of which one is displaced by 1e-3 r so that no symmetry is left;
     /// their trajectories are compared up to the peak
-    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, value_parser = clap::value_parser!(u8).range(2..=5))]
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, value_parser = whole::<u8>(2..=5))]
     bodies: u8,
     /// Directory for trajectories.csv, trajectories.json and trajectories.md
     #[arg(long, value_name = "DIR")]
@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let names = codes.iter().map(|selected| selected.name);
-    let plans = plans(names, arguments.bodies);
+    let plans = during("planning", || plans(names, arguments.bodies));
     codes.push(SelectedCode::find(Code::NATIVE));
     let settings = arguments.run.settings()?;
     let planned = plans.len();

@@ -121,7 +121,8 @@ fn evidence() -> String {
 
 /// The codes and the rows for a terminal.
 pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
-    codes(judgements).shown().terminal() + &crosscheck(judgements).shown().terminal()
+    let rows = crosscheck(judgements);
+    codes(judgements).shown().terminal() + &rows.shown().terminal() + &rows.units()
 }
 
 /// A page with the rows, their meaning, and the notes on rows that do not agree.

@@ -33,6 +33,15 @@ pub(crate) fn explanation(
     text
 }
 
+/// Where the arms come from under which the reference of `row` was computed.
+pub(super) fn origin_of_arms(row: &Judgement) -> &'static str {
+    match row.arms_are_measured {
+        _ if row.study.convention_uncertainty.is_some() => "measured, not declared",
+        true => "measured",
+        false => "declared",
+    }
+}
+
 fn reference(row: &Judgement) -> String {
     let arms = row.study.convention.arms;
     let limit = &row.study.limit;
@@ -50,12 +59,9 @@ fn reference(row: &Judgement) -> String {
         exact(row.study.stack.cylinder_friction),
         arms.pair,
         arms.floor,
-        if row.study.convention_uncertainty.is_some() {
-            "measured, not declared: tristack probe"
-        } else if row.arms_are_measured {
-            "measured: tristack probe"
-        } else {
-            "declared"
+        match origin_of_arms(row) {
+            "declared" => "declared".to_owned(),
+            measured => format!("{measured}: tristack probe"),
         },
         optional(row.judged_reference(), digits::<12>),
         optional(row.model_form(), relative),

@@ -3,7 +3,9 @@
 use super::number::{digits, friction, rounded, significant};
 use super::table::{Columns, DataTable};
 use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
-use crate::model::exact;
+use crate::model::{ContactConvention, Stack, exact};
+use crate::study::yield_force::no_yield;
+use crate::theory::quasistatic_limit;
 
 type Row<'a> = (&'a Forecast, &'a Forecasted);
 
@@ -177,9 +179,8 @@ fn plus_minus(uncertainty: f64) -> String {
 fn conclusion(forecast: &Forecast) -> String {
     let mut estimates = forecast.estimates.iter();
     let chosen = estimates.find(|estimate| estimate.contact == forecast.contact);
-    let reason = chosen.and_then(|estimate| estimate.reason.as_deref());
-    let said = match (forecast.yield_force, reason) {
-        (Some(force), _) => {
+    let said = match forecast.yield_force {
+        Some(force) => {
             let onset = chosen.and_then(|estimate| estimate.slip_onset);
             let onset = onset.filter(|onset| onset.newton < force.newton);
             let slips = onset.map_or_else(String::new, |onset| {
@@ -188,22 +189,57 @@ fn conclusion(forecast: &Forecast) -> String {
             });
             format!("yield force {} N{slips}", significant(force.newton, 4))
         }
-        (None, Some(reason)) => format!("no yield force: {reason}"),
-        (None, None) => "no yield force".to_owned(),
+        None => return chosen.map_or_else(String::new, |chosen| no_yield_force(forecast, chosen)),
     };
+    let over = over(forecast);
+    let range = forces_between(&forecast.range);
+    format!("{said} by {}; {over}, {range}\n", forecast.contact)
+}
+
+/// Why there is no yield by the `chosen` estimate, what the stack carries instead, and at which frictions it yields.
+fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
+    let experiment = &forecast.experiment;
+    let stack = Stack {
+        cylinder_friction: experiment.mu_d,
+        stiffness_ratio: experiment.kappa,
+        ..Stack::paper(experiment.mu, chosen.stiffness)
+    };
+    let convention = ContactConvention::PAPER;
+    let refused = no_yield(&stack, &convention, &quasistatic_limit(&stack, &convention));
+    let carries = match forecast.range.highest {
+        Some(0.0) => "it carries no load".to_owned(),
+        _ => format!("{}, {}", over(forecast), forces_between(&forecast.range)),
+    };
+    let yields = refused.range.map_or_else(String::new, |(lowest, highest)| {
+        format!(
+            "; by {} it yields where mu is between {lowest:.4} and {highest:.4}",
+            chosen.contact
+        )
+    });
+    format!(
+        "no yield force at mu = {}: {}; {carries}{yields}\n",
+        friction(experiment.mu),
+        refused.reason
+    )
+}
+
+/// What the range of forces is over.
+fn over(forecast: &Forecast) -> String {
     let uncertainty = forecast.experiment.mu_uncertainty;
-    let over = if uncertainty > 0.0 {
+    if uncertainty > 0.0 {
         format!("over the estimates and mu +- {uncertainty}")
     } else {
         "over the estimates".to_owned()
-    };
-    let range = forces_between(&forecast.range);
-    format!("{said} by {}; {over}, {range}\n", forecast.contact)
+    }
 }
 
 fn forces_between(range: &ForceRange) -> String {
     let newton = |force: f64| significant(force, 3);
     match (range.lowest, range.highest) {
+        (Some(0.0), Some(highest)) => format!(
+            "the largest force is at most {} N, and none where the stack slides under its own weight",
+            newton(highest)
+        ),
         (Some(lowest), Some(highest)) => format!(
             "the largest force is {} to {} N",
             newton(lowest),

@@ -3,10 +3,10 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, forecasts, impacts,
-    inventory, judged_series, largest_forces, measured_convention, passport_changes,
-    passport_forces, planned_runs, probe, pyramids, regimes, scaling, simulations, theory,
-    trajectories,
+    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, declared_explanations,
+    forecasts, impacts, inventory, judged_series, largest_forces, measured_convention,
+    passport_changes, passport_forces, planned_runs, probe, pyramids, regimes, scaling,
+    simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -92,6 +92,7 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         inventory(&[]),
         planned_runs(&[], &[]),
     ];
+    tables.extend(declared_explanations());
     tables.extend(judged_series(None));
     tables.extend(declared_tables());
     tables
@@ -104,7 +105,8 @@ pub(super) fn result_files() -> [DataTable<'static>; 4] {
             "series",
             "A row is one moment of a compression. Positions and angles are those of its step, and forces those at these \
              positions; where they depend on velocities, on those that the code has then, half a step before in most.",
-            "`tristack simulate` (series.csv), and the result of the tasks `stack` and `side-walls`",
+            "`tristack simulate` (series.csv, and its units in series.csv-metadata.json beside it, after W3C's \"CSV on the Web\"), \
+             and the result of the tasks `stack` and `side-walls`",
             Sample::columns(PAPER_BODIES),
         ),
         file(
@@ -118,7 +120,7 @@ pub(super) fn result_files() -> [DataTable<'static>; 4] {
             "spheres-series",
             "A row is one moment of a compression of spheres in space, y upwards. Of a stack of fewer spheres the columns of the \
              others are left out.",
-            "`tristack simulate --bodies` (series.csv), and the result of the task `spheres`",
+            "`tristack simulate --bodies` (series.csv, and its units in series.csv-metadata.json), and the result of the task `spheres`",
             Sample::columns(5),
         ),
         file(

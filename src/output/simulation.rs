@@ -1,34 +1,85 @@
 //! The result of one compression run.
 
-use super::number::digits;
+use super::number::{digits, relative, significant};
 use super::table::{Columns, DataTable};
 use crate::code::Run;
-use crate::model::{ContactConvention, Preparation, Protocol};
+use crate::model::{Case, ContactConvention, Preparation, Protocol};
 use crate::series::YieldEstimates;
+use crate::theory::{Limit, quasistatic_limit};
 
-/// A run, and its yield force by both estimators.
-type Row<'a> = (&'a Run, YieldEstimates);
+/// A run, its yield force by both estimators, and the exact limit of both.
+type Row<'a> = (&'a Run, YieldEstimates, Limit);
+
+/// A wall that moves less than so many times as far as to the exact yield may stop before it; planned ones move 1.05 times
+/// as far.
+const LEAST_TRAVEL: f64 = 1.04;
+/// A wall that moves so many times as far goes beyond the yield, whatever its speed adds.
+const TRAVEL_BEYOND: f64 = 1.1;
 
 /// One row per run.
 pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
     let rows = runs.iter().map(|run| {
         let estimates = YieldEstimates::read(&run.series, &run.case);
-        (run, estimates)
+        (run, estimates, exact_limit(&run.case))
     });
     protocol(convention(subject()))
-        .number("peak_force", "m g", |(_, found)| Some(found.peak?.force))
+        .number("peak_force", "m g", |(_, found, _)| Some(found.peak?.force))
         .means("largest wall force; absent if the force still rises at the end")
         .shown_as("peak", digits::<9>)
-        .number("slip_force", "m g", |(_, found)| Some(found.slip?.force))
+        .number("slip_force", "m g", |(_, found, _)| Some(found.slip?.force))
         .means("wall force when the floor first slips; absent if it does not")
         .shown_as("slip onset", digits::<9>)
-        .number("steps", "1", |(run, _)| run.provenance.steps)
+        .number("reference_force", "m g", |(.., limit)| limit.yield_force)
+        .means("exact limit of the peak at vanishing wall speed, under the convention of this run")
+        .shown_as("exact limit of the peak", digits::<9>)
+        .number("reference_onset", "m g", |(.., limit)| limit.slip_onset)
+        .means("exact limit of the slip onset; below reference_force where contact 2–3 is closed then")
+        .shown_as("exact limit of the onset", digits::<9>)
+        .number("error", "1", error)
+        .means("(slip_onset − reference_onset)/(reference_onset + n + 1): that of one run at a finite wall speed")
+        .shown_as("error of the onset", relative)
+        .number("steps", "1", |(run, ..)| run.provenance.steps)
         .means("steps in all")
         .shown("steps")
-        .number("seconds", "s", |(run, _)| run.provenance.seconds)
+        .number("seconds", "s", |(run, ..)| run.provenance.seconds)
         .means("wall time")
         .shown_as("wall time", |seconds| format!("{seconds:.2}"))
         .rows(rows)
+}
+
+fn exact_limit(case: &Case) -> Limit {
+    quasistatic_limit(&case.stack, &case.convention)
+}
+
+fn error((run, found, limit): &Row) -> Option<f64> {
+    let (onset, reference) = (found.slip?.force, limit.slip_onset?);
+    Some((onset - reference) / run.case.stack.floor_load(reference))
+}
+
+/// Why a run shows no yield, and what to change; `None` for one that does.
+pub(crate) fn unfinished(run: &Run) -> Option<String> {
+    let found = YieldEstimates::read(&run.series, &run.case);
+    let what = match (found.slip, found.peak) {
+        (Some(_), Some(_)) => return None,
+        (Some(_), None) => "the floor slips, but the force still rises at the end of the run",
+        (None, _) => "the run ends before the floor slips, so that there is no yield force",
+    };
+    let (case, limit) = (&run.case, exact_limit(&run.case));
+    let moved = case.protocol.wall_travel;
+    let travels = limit.wall_travel.into_iter().chain(limit.peak_travel);
+    let needed = travels.reduce(f64::max)?;
+    let moved_so_far = format!("{what}: the wall moves {} r", significant(moved, 4));
+    let comes = format!("the exact limit yields at {} r", significant(needed, 4));
+    Some(match moved < LEAST_TRAVEL * needed {
+        true => format!(
+            "{moved_so_far}, and {comes}; let `protocol.wall_travel` be {} or more in the case file",
+            significant(TRAVEL_BEYOND * needed, 4)
+        ),
+        false => format!(
+            "{moved_so_far}, although {comes}; look at the series (--out), and try a slower wall (`protocol.wall_speed`, \
+             --speed) or a smaller time step (`protocol.time_step`, --dt)"
+        ),
+    })
 }
 
 /// The code, the stack and the arms.
@@ -36,18 +87,18 @@ fn subject<'a>() -> Columns<'a, Row<'a>> {
     let table = "A row is one compression run and what was read off it. The case file beside it (case.json) holds \
                  what is left out here.";
     Columns::<Row>::new("simulation", table, "`tristack simulate` (summary.json)")
-        .text("code", |(run, _)| run.provenance.identity.code.clone())
+        .text("code", |(run, ..)| run.provenance.identity.code.clone())
         .means("the code that ran")
         .shown("code")
-        .version(|(run, _)| &run.provenance.identity.version)
+        .version(|(run, ..)| &run.provenance.identity.version)
         .shown("version")
-        .stack(|(run, _)| run.case.stack)
-        .convention(|(run, _)| run.case.convention)
+        .stack(|(run, ..)| run.case.stack)
+        .convention(|(run, ..)| run.case.convention)
 }
 
 /// The contact convention beyond the arms.
 fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
-    let own = |(run, _): &Row| -> ContactConvention { run.case.convention };
+    let own = |(run, ..): &Row| -> ContactConvention { run.case.convention };
     columns
         .number("restitution", "1", move |row| own(row).restitution)
         .means("restitution coefficient")
@@ -69,7 +120,7 @@ fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
 /// Preparation, compression and sampling.
 fn protocol<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let time = "√(m/k_n)";
-    let own = |(run, _): &Row| -> Protocol { run.case.protocol };
+    let own = |(run, ..): &Row| -> Protocol { run.case.protocol };
     let sampling = move |row: &Row| own(row).sampling;
     columns
         .text("preparation", move |row| own(row).preparation.as_str())

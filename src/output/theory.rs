@@ -101,7 +101,7 @@ pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
         );
         heading + &one_case(case).terminal()
     });
-    tables.collect::<Vec<_>>().join("\n")
+    tables.collect::<Vec<_>>().join("\n") + "forces in m g\n"
 }
 
 /// One theory of one stack: its name, its yield force, and a remark.

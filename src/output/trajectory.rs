@@ -90,7 +90,8 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
 
 /// The codes and the comparisons for a terminal.
 pub(crate) fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
-    codes(judgements).shown().terminal() + &comparisons(judgements).shown().terminal()
+    let rows = comparisons(judgements);
+    codes(judgements).shown().terminal() + &rows.shown().terminal() + &rows.units()
 }
 
 /// A page with the comparisons, their meaning, the reasons for their orders, and their limits.

@@ -146,7 +146,7 @@ impl Series {
         &self.absent
     }
 
-    fn present(&self) -> impl Iterator<Item = &'static Column<Sample>> + '_ {
+    pub(crate) fn present(&self) -> impl Iterator<Item = &'static Column<Sample>> + '_ {
         let columns = self.columns.iter();
         columns.filter(|column| !self.absent.contains(&column.name))
     }

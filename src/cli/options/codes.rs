@@ -1,6 +1,7 @@
 //! The codes that a command runs.
 
 use crate::cli::code_names::CodeParser;
+use crate::cli::progress::during;
 use crate::cli::{CliError, tell};
 use crate::code::Code;
 use crate::model::{InvalidValue, Power};
@@ -55,7 +56,16 @@ pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>
 
 /// The codes `names` as they are installed here, looked up at the same time.
 pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
-    in_parallel(names, names.len(), |name| SelectedCode::find(*name))
+    let find = || in_parallel(names, names.len(), |name| SelectedCode::find(*name));
+    match names {
+        // This one is part of the program.
+        [] | [Code::NATIVE] => find(),
+        [one] => during(&format!("locating the program of {one}"), find),
+        _ => during(
+            &format!("locating the programs of {} codes", names.len()),
+            find,
+        ),
+    }
 }
 
 /// Reports the codes that are not installed, and whether recorded runs stand in for them.

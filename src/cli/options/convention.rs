@@ -1,6 +1,7 @@
 //! The contact convention: arms and law in place of those of a code.
 
 use super::flag::as_flag;
+use super::numbers::number;
 use crate::code::Code;
 use crate::model::{
     Arms, ContactArms, ContactConvention, InvalidValue, Law, Power, TangentialHistory,
@@ -13,16 +14,16 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct ConventionOptions {
     /// Arm coefficient r1 of cylinder-cylinder contacts, in R = r + r1 overlap [default: that of the code]
-    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R1", value_parser = number)]
     pub pair_arm: Option<f64>,
     /// Arm coefficient r1 of the surface velocity at these contacts [default: as --pair-arm]
-    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R1", value_parser = number)]
     pub pair_kinematic_arm: Option<f64>,
     /// Arm coefficient r1 of floor contacts [default: that of the code]
-    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R1", value_parser = number)]
     pub floor_arm: Option<f64>,
     /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
-    #[arg(long, value_name = "R1", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R1", value_parser = number)]
     pub floor_kinematic_arm: Option<f64>,
     #[command(flatten)]
     pub law: LawOptions,
@@ -39,10 +40,10 @@ pub(in crate::cli) struct LawOptions {
     #[arg(long, value_parser = history(), value_name = "WHAT")]
     history: Option<TangentialHistory>,
     /// K of the floor and other walls over K of cylinders [default: root of 2 for Hertz, else 1]
-    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W", value_parser = number)]
     floor_ratio: Option<f64>,
     /// Stiffness ratio k_n/k_t of the floor [default: as --kappa]
-    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", value_parser = number)]
     floor_kappa: Option<f64>,
     /// Multiply the tangential stiffness of these contacts by 2/(2 - overlap); every contact, if none are named
     #[arg(long, value_parser = stiffening(), value_name = "CONTACTS", num_args = 0..=1, require_equals = true,

@@ -4,6 +4,7 @@ mod codes;
 mod convention;
 mod flag;
 mod format;
+mod numbers;
 mod runs;
 mod stack;
 
@@ -12,6 +13,7 @@ pub(super) use codes::{CodeOptions, find_all, selected_codes, tell_stand_ins};
 pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;
+pub(super) use numbers::{number, positive, seconds, whole};
 pub(super) use runs::{RunOptions, recording_directory, time_limit};
 pub(super) use stack::{Friction, OneStackOptions, StackListOptions, StackOptions, friction};
 

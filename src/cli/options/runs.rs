@@ -1,15 +1,17 @@
 //! How runs are carried out, and where they are kept.
 
+use super::numbers::{seconds, whole};
 use crate::cli::{CliError, INTERRUPT};
 use crate::model::InvalidValue;
 use crate::runs::{Recorded, Settings, Sharing, Store};
 use clap::Args;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The environment variable with the directory of recorded runs.
 const REFERENCE: &str = "TRISTACK_REFERENCE";
+/// More runs at the same time than any machine has cores.
+const MOST_JOBS: u16 = 4096;
 
 /// The store of runs, and how runs are carried out.
 #[derive(Debug, Clone, Default, Args)]
@@ -24,11 +26,11 @@ pub(in crate::cli) struct RunOptions {
     #[arg(long)]
     pub fresh: bool,
     /// Number of runs at the same time [default: the number of cores]
-    #[arg(long, value_name = "N")]
-    pub jobs: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = whole::<usize>(1..=MOST_JOBS))]
+    pub jobs: Option<usize>,
     /// Longest time without a finished run, in seconds [default: 30 s plus 100 us per step for external
     /// codes, none for native]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_limit: Option<f64>,
 }
 
@@ -39,12 +41,12 @@ impl RunOptions {
             true => Sharing::Shared,
             false => Sharing::Private,
         };
-        let jobs = self.jobs.or(std::thread::available_parallelism().ok());
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Ok(Settings {
             store: Store::open_as(&self.store_directory()?, sharing)?,
             recorded: recorded(),
             fresh: self.fresh,
-            threads: jobs.map_or(1, usize::from),
+            threads: self.jobs.unwrap_or_else(cores),
             time_limit: time_limit(self.time_limit)?,
             interrupt: &INTERRUPT,
         })

@@ -1,6 +1,7 @@
 //! The stack: friction, stiffness, stiffness ratio, or the material that they follow from.
 
 use super::flag::as_flag;
+use super::numbers::number;
 use crate::model::{InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack};
 use clap::Args;
 
@@ -11,14 +12,20 @@ const MOST_STACKS: usize = 1_000_000;
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct StackOptions {
     /// Stiffness ratio k_n/k_t [default: 2.5; of laws that are not linear 17/14, that of Poisson's ratio 0.3]
-    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", value_parser = number)]
     kappa: Option<f64>,
     /// Friction between cylinders
-    #[arg(long, value_name = "D", allow_negative_numbers = true, default_value_t = PAPER_CYLINDER_FRICTION)]
+    #[arg(long, value_name = "D", value_parser = number, default_value_t = PAPER_CYLINDER_FRICTION)]
     pub mu_d: f64,
     /// Bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring with one on top
-    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES)]
+    #[arg(long, value_name = "N", default_value_t = PAPER_BODIES, value_parser = bodies)]
     pub bodies: u8,
+}
+
+/// Reads `--bodies`; the stack says why there are not more.
+fn bodies(text: &str) -> Result<u8, String> {
+    let number = text.parse();
+    number.map_err(|_| "accepted is a whole number from 2 to 5".to_owned())
 }
 
 impl StackOptions {
@@ -61,7 +68,8 @@ pub(in crate::cli) struct MaterialOptions {
         group = "hardness",
         requires = "poisson",
         conflicts_with = "stiffness",
-        allow_negative_numbers = true
+        value_parser = number,
+        allow_hyphen_values = true
     )]
     youngs: Option<f64>,
     /// Their Poisson's ratio, from 0 to 0.5, in place of --kappa
@@ -69,7 +77,7 @@ pub(in crate::cli) struct MaterialOptions {
         long,
         value_name = "NU",
         conflicts_with = "kappa",
-        allow_negative_numbers = true
+        value_parser = number
     )]
     poisson: Option<f64>,
 }

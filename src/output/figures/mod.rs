@@ -27,7 +27,7 @@ pub(crate) use laws::{laws_figure, laws_svg};
 pub(crate) use performance::performance_svg;
 pub(crate) use regimes::regimes_svg;
 pub(crate) use spheres::spheres_figure;
-pub use stack::{StackPanel, representative_panels, run_svg};
+pub use stack::{StackPanel, representative_panels, run_pdf, run_svg};
 
 use crate::model::CRITICAL_FRICTION;
 use crate::paper::reproduction::Reproduction;

@@ -16,12 +16,20 @@ use crate::series::Frames;
 
 /// The picture of one run as SVG: its [`representative_panels`] with a caption on code and stack.
 pub fn run_svg(code: &str, case: &Case, frames: &Frames) -> String {
+    drawn(code, case, frames).svg()
+}
+
+/// The same picture as PDF.
+pub fn run_pdf(code: &str, case: &Case, frames: &Frames) -> Vec<u8> {
+    drawn(code, case, frames).pdf()
+}
+
+fn drawn(code: &str, case: &Case, frames: &Frames) -> Drawing {
     let panels = representative_panels(frames);
     match case.stack.bodies {
         PAPER_BODIES => cylinders(code, case, frames, &panels),
         _ => spheres(code, case, &panels),
     }
-    .svg()
 }
 
 fn cylinders(code: &str, case: &Case, frames: &Frames, panels: &[StackPanel]) -> Drawing {

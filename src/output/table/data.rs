@@ -42,7 +42,7 @@ impl DataTable<'_> {
     }
 
     /// The columns for people with their headings.
-    fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> {
+    pub(super) fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> {
         let all = self.columns.iter();
         all.filter_map(|column| Some((column.heading?, column)))
     }

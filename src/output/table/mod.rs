@@ -4,6 +4,7 @@ mod columns;
 mod data;
 mod latex;
 mod shown;
+mod units;
 mod value;
 
 pub(crate) use columns::Columns;

@@ -76,6 +76,7 @@ impl<'a, R: Reading> Executor<'a, R> {
 
     /// Fills the slots of results that exist, and packs the other requests into jobs.
     fn jobs(&self, codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
+        self.progress.begins(&R::Task::KIND.phase(codes.len()));
         let mut open = Vec::new();
         let mut total = 0;
         for selected in codes {

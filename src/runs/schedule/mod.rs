@@ -91,6 +91,8 @@ impl From<RecordedError> for RunError {
 
 /// Receives progress.
 pub trait Progress: Sync {
+    /// What comes now is the phase of this name, such as "probing 6 codes"; a phase of another name has ended.
+    fn begins(&self, _phase: &str) {}
     /// `total` results of the kind `name` are needed, `reused` of which exist; the others will take about `seconds`
     /// of all cores together.
     fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64);

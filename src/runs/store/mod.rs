@@ -32,7 +32,10 @@ const CHECKPOINTS: &str = "checkpoints";
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    #[error(transparent)]
+    #[error(
+        "the store cannot be used: {}; accepted is a directory that you may write to: choose another one with --store",
+        shown(Path::new(&.0.to_string()))
+    )]
     Files(#[from] FileError),
     #[error(
         "{}: {found}; accepted is a store with `{accepted}`: choose another directory with --store",
@@ -82,6 +85,18 @@ impl Kind {
             Self::Observation => "observation",
             Self::Impact => "impact",
         }
+    }
+
+    /// The name of the phase in which such results of so many codes are made or read.
+    pub(crate) fn phase(self, codes: usize) -> String {
+        let phase = match self {
+            Self::Run => "compressions",
+            Self::Probe if codes != 1 => return format!("probing {codes} codes"),
+            Self::Probe => "probing 1 code",
+            Self::Observation => "runs to the first event",
+            Self::Impact => "impacts",
+        };
+        phase.to_owned()
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{Friction, RunOptions, StackOptions, as_flag, friction};
+use super::options::{Friction, RunOptions, StackOptions, Stiffness, as_flag, single};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, print};
 use crate::code::Code;
 use crate::model::{Power, Stack};
-use crate::output::explanation;
+use crate::output::{explanation, wrapped_to_screen};
 use crate::runs::SelectedCode;
 use crate::study::Campaign;
 use crate::study::yield_force::{measure_with_twin, plan};
@@ -30,10 +30,9 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     let code = code_named(code)
         .ok_or_else(|| unknown(code))?
         .map_err(|error| error.to_string())?;
-    let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
-    let stiffness: f64 = stiffness
-        .parse()
-        .map_err(|_| format!("STIFFNESS is `{stiffness}`; accepted is a number"))?;
+    let mu: Friction = single(mu).map_err(|trouble| format!("MU is `{mu}`: {trouble}"))?;
+    let Stiffness(stiffness) =
+        single(stiffness).map_err(|trouble| format!("STIFFNESS is `{stiffness}`: {trouble}"))?;
     let stack = Stack::paper(mu.of_cylinders(), stiffness);
     stack
         .validate()
@@ -75,7 +74,8 @@ pub(super) fn explain(
     let twin = measure_with_twin(&judgement.study, &settings, &Reporter::new());
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
     let coverage = codes[0].code.as_ref().map(|code| code.coverage());
-    let printed = print(&explanation(judgement, twin.as_ref(), coverage.as_deref()));
+    let explained = explanation(judgement, twin.as_ref(), coverage.as_deref());
+    let printed = print(&wrapped_to_screen(explained));
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);
     }

@@ -1,6 +1,7 @@
 //! Progress on standard error: a bar on a terminal, plain lines elsewhere.
 
-use super::tell;
+use super::streams::is_quiet;
+use super::{complain, tell};
 use crate::code::{Code, Failure};
 use crate::runs::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
@@ -27,7 +28,10 @@ struct Counts {
 impl Reporter {
     pub fn new() -> Self {
         Self {
-            bar: ProgressBar::new(0).with_style(style()),
+            bar: match is_quiet() {
+                true => ProgressBar::hidden(),
+                false => ProgressBar::new(0).with_style(style()),
+            },
             counts: Mutex::new(Counts {
                 finished: 0,
                 open: 0,
@@ -39,6 +43,14 @@ impl Reporter {
     fn say(&self, line: &str) {
         match self.bar.is_hidden() {
             true => tell!("{line}"),
+            false => self.bar.println(line),
+        }
+    }
+
+    /// Says a line that --quiet does not silence.
+    fn complain(&self, line: &str) {
+        match self.bar.is_hidden() {
+            true => complain!("{line}"),
             false => self.bar.println(line),
         }
     }
@@ -82,7 +94,9 @@ impl Progress for Reporter {
         };
         let subject = format!("[{finished}/{open}] {code}: {task}");
         match result {
-            Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
+            Err(failure) if !failure.is_interrupted() => {
+                self.complain(&format!("failed: {failure}"))
+            }
             Ok(seconds) if self.bar.is_hidden() => {
                 let seconds = seconds.map(|seconds| format!(": {seconds:.2} s"));
                 tell!("{subject}{}", seconds.unwrap_or_default());
@@ -92,7 +106,7 @@ impl Progress for Reporter {
     }
 
     fn warn(&self, message: &str) {
-        self.say(&format!("warning: {message}"));
+        self.complain(&format!("warning: {message}"));
     }
 }
 

@@ -6,7 +6,7 @@ use super::options::{
     time_limit,
 };
 use super::out::{Out, write};
-use super::{CliError, ExitStatus, INTERRUPT, print, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, print, tell};
 use crate::code::{
     Code, Failure, FailureKind, HOME, InstalledCode, Run, RunContext, keep_evidence,
 };
@@ -364,7 +364,7 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
     }
     match write_atomically(&directory.join(CASE), case.to_json().as_bytes()) {
         Err(error) if error.is_full() => {
-            tell!("error: {}", shown(Path::new(&error.to_string())));
+            complain!("error: {}", shown(Path::new(&error.to_string())));
             Ok(ExitStatus::NotWritten)
         }
         written => written.map(|()| ExitStatus::Success),

@@ -1,6 +1,7 @@
 //! Declared columns with rows, in every format.
 
 use super::columns::{Column, Columns, Schema};
+use super::terminal::TerminalLook;
 use super::{Table, Value};
 use serde::{Serialize, Serializer};
 use serde_json::json;
@@ -41,7 +42,7 @@ impl DataTable<'_> {
     }
 
     /// The columns for people with their headings.
-    fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> {
+    fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> + Clone {
         let all = self.columns.iter();
         all.filter_map(|column| Some((column.heading?, column)))
     }
@@ -69,7 +70,12 @@ impl DataTable<'_> {
         for row in 0..self.rows {
             table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
         }
-        table
+        let columns = self.headed().map(|(_, column)| column);
+        table.on_terminals(TerminalLook {
+            dispensable: columns.clone().map(|column| column.dispensable).collect(),
+            with_verdicts: columns.map(|column| column.has_verdicts).collect(),
+            in_files: !self.schema.name.is_empty(),
+        })
     }
 
     /// The columns for people as lines with their units, and the rows as columns with the given names.

@@ -3,12 +3,15 @@
 mod columns;
 mod data;
 mod escape;
+mod screen;
 mod shown;
+mod terminal;
 mod value;
 
 pub(crate) use columns::Columns;
 pub use data::DataTable;
 pub(crate) use data::json;
 pub(crate) use escape::{html_text, markdown_code, markdown_text};
+pub(crate) use screen::wrapped_to_screen;
 pub use shown::Table;
 pub(crate) use value::Value;

@@ -1,15 +1,17 @@
 //! A table of text cells for people, in every format.
 
-use super::escape::{html_text, latex_text, markdown_cell, terminal_cell};
-use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
+use super::escape::{html_text, latex_text, markdown_cell};
+use super::terminal::TerminalLook;
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, TableStyle, presets};
 
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
-    headings: Vec<String>,
+    pub(super) headings: Vec<String>,
     /// Whether a column holds numbers, aligned to the right.
-    numeric: Vec<bool>,
-    rows: Vec<Vec<String>>,
+    pub(super) numeric: Vec<bool>,
+    pub(super) rows: Vec<Vec<String>>,
+    pub(super) look: TerminalLook,
 }
 
 impl Table {
@@ -20,7 +22,13 @@ impl Table {
             headings,
             numeric,
             rows: Vec::new(),
+            look: TerminalLook::default(),
         }
+    }
+
+    /// The table with this look on terminals.
+    pub(super) fn on_terminals(self, look: TerminalLook) -> Self {
+        Self { look, ..self }
     }
 
     /// Adds a row of as many cells as there are columns.
@@ -33,17 +41,18 @@ impl Table {
         self.rows.len()
     }
 
-    /// The table for a terminal.
-    pub fn terminal(&self) -> String {
-        self.drawn(presets::UTF8_FULL_CONDENSED, terminal_cell)
-    }
-
     /// The table in Markdown.
     pub(crate) fn markdown(&self) -> String {
-        self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
+        self.drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
     }
 
-    fn drawn(&self, style: TableStyle, escaped: fn(&str) -> String) -> String {
+    /// The table in this style; a `width`, if there is one, is kept by breaking the lines of texts.
+    pub(super) fn drawn(
+        &self,
+        style: TableStyle,
+        escaped: fn(&str) -> String,
+        width: Option<usize>,
+    ) -> String {
         let cells = |cells: &[String]| -> Vec<String> {
             let cells = cells.iter().map(|cell| escaped(cell));
             cells.collect()
@@ -57,7 +66,12 @@ impl Table {
         for (column, numeric) in table.column_iter_mut().zip(&self.numeric) {
             if *numeric {
                 column.set_cell_alignment(CellAlignment::Right);
+                column.set_constraint(ColumnConstraint::ContentWidth);
             }
+        }
+        if let Some(width) = width {
+            table.set_content_arrangement(ContentArrangement::Dynamic);
+            table.set_width(width.try_into().unwrap_or(u16::MAX));
         }
         let lines: Vec<String> = table
             .lines()

@@ -1,7 +1,7 @@
 //! Declared columns with rows, in every format.
 
 use super::columns::{Column, Columns, Schema};
-use super::terminal::TerminalLook;
+use super::look::TerminalLook;
 use super::{Table, Value};
 use serde::{Serialize, Serializer};
 use serde_json::json;

@@ -3,6 +3,7 @@
 mod columns;
 mod data;
 mod escape;
+mod look;
 mod screen;
 mod shown;
 mod terminal;

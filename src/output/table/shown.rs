@@ -1,8 +1,13 @@
 //! A table of text cells for people, in every format.
 
 use super::escape::{html_text, latex_text, markdown_cell};
-use super::terminal::TerminalLook;
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, TableStyle, presets};
+use super::look::{Limits, TerminalLook};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, TableStyle, Width, presets,
+};
+
+/// Blanks on both sides of the content of a cell.
+const PADDING: usize = 2;
 
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,12 +51,12 @@ impl Table {
         self.drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
     }
 
-    /// The table in this style; a `width`, if there is one, is kept by breaking the lines of texts.
+    /// The table in this style, within `limits` if there are any.
     pub(super) fn drawn(
         &self,
         style: TableStyle,
         escaped: fn(&str) -> String,
-        width: Option<usize>,
+        limits: Option<&Limits>,
     ) -> String {
         let cells = |cells: &[String]| -> Vec<String> {
             let cells = cells.iter().map(|cell| escaped(cell));
@@ -66,12 +71,16 @@ impl Table {
         for (column, numeric) in table.column_iter_mut().zip(&self.numeric) {
             if *numeric {
                 column.set_cell_alignment(CellAlignment::Right);
-                column.set_constraint(ColumnConstraint::ContentWidth);
             }
         }
-        if let Some(width) = width {
+        if let Some(limits) = limits {
+            let columns = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
             table.set_content_arrangement(ContentArrangement::Dynamic);
-            table.set_width(width.try_into().unwrap_or(u16::MAX));
+            table.set_width(columns(limits.width));
+            for (column, least) in table.column_iter_mut().zip(&limits.least) {
+                let padded = columns(least + PADDING);
+                column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(padded)));
+            }
         }
         let lines: Vec<String> = table
             .lines()

@@ -2,6 +2,7 @@
 
 use super::Table;
 use super::escape::terminal_cell;
+use super::look::{Limits, TerminalLook};
 use super::screen::{Screen, coloured, wrapped};
 use comfy_table::presets;
 use console::measure_text_width;
@@ -13,21 +14,51 @@ const BESIDE_CONTENT: usize = 3;
 /// The borders between cells.
 const BORDERS: [char; 2] = ['│', '┆'];
 
-/// The look of a table on terminals. Each list has an element a column; no elements stand for `None` and `false`.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct TerminalLook {
-    /// The place of a column among those that a narrow terminal leaves out.
-    pub dispensable: Vec<Option<u8>>,
-    /// Whether verdicts in the cells of a column are coloured.
-    pub with_verdicts: Vec<bool>,
-    /// Whether CSV and JSON have the columns that are left out.
-    pub in_files: bool,
+/// The widths of the contents of a column.
+struct Content {
+    heading: usize,
+    longest_word_of_heading: usize,
+    cells: usize,
+    is_text: bool,
 }
 
-impl TerminalLook {
-    fn has_verdicts(&self, column: usize) -> bool {
-        self.with_verdicts.get(column).copied().unwrap_or(false)
+impl Content {
+    fn of(table: &Table, column: usize) -> Self {
+        let width = |text: &str| {
+            let lines = terminal_cell(text);
+            let lines = lines.lines().map(measure_text_width);
+            lines.max().unwrap_or(0)
+        };
+        let heading = &table.headings[column];
+        let words = heading.split_whitespace().map(measure_text_width);
+        let cells = table.rows.iter().map(|row| width(&row[column]));
+        Self {
+            heading: width(heading),
+            longest_word_of_heading: words.max().unwrap_or(0),
+            cells: cells.max().unwrap_or(0),
+            is_text: !table.numeric[column],
+        }
     }
+
+    /// Where nothing is broken.
+    fn whole(&self) -> usize {
+        self.heading.max(self.cells)
+    }
+
+    /// Where headings are broken between words, and texts into lines of this width.
+    fn least(&self, texts: usize) -> usize {
+        let cells = match self.is_text {
+            true => self.cells.min(texts),
+            false => self.cells,
+        };
+        cells.max(self.longest_word_of_heading)
+    }
+}
+
+/// The width of a table with contents of these widths.
+fn needed(contents: impl Iterator<Item = usize>) -> usize {
+    let cells = contents.map(|content| content + BESIDE_CONTENT);
+    1 + cells.sum::<usize>()
 }
 
 impl Table {
@@ -44,69 +75,57 @@ impl Table {
         }
     }
 
-    /// The table in frames; a `width` is kept by breaking the lines of texts.
-    fn framed(&self, width: Option<usize>, has_colours: bool) -> String {
-        let text = self.drawn(presets::UTF8_FULL_CONDENSED, terminal_cell, width);
+    /// The table in frames, within `limits` if there are any.
+    fn framed(&self, limits: Option<&Limits>, has_colours: bool) -> String {
+        let text = self.drawn(presets::UTF8_FULL_CONDENSED, terminal_cell, limits);
         match has_colours {
             true => self.with_coloured_verdicts(&text),
             false => text,
         }
     }
 
-    /// The table at most `width` wide: without dispensable columns, or with broken texts, or row by row.
+    /// The table at most `width` wide: with broken headings and without dispensable columns, then with broken texts as
+    /// well, or else row by row.
     fn fitted(&self, width: usize, has_colours: bool) -> String {
-        let widths = self.widths();
-        let needed = |kept: &[usize], most: &dyn Fn(usize) -> usize| -> usize {
-            let cells = kept.iter().map(|&column| most(column) + BESIDE_CONTENT);
-            1 + cells.sum::<usize>()
-        };
-        let natural = |column: usize| widths[column];
-        let broken = |column: usize| match self.numeric[column] {
-            true => widths[column],
-            false => widths[column].min(NARROWEST_TEXT),
-        };
-        let mut kept: Vec<usize> = (0..self.headings.len()).collect();
-        let whole = needed(&kept, &natural);
-        for column in self.in_order_of_leaving() {
-            if needed(&kept, &natural) <= width {
-                break;
-            }
-            kept.retain(|&other| other != column);
-        }
-        if needed(&kept, &natural) <= width {
-            let table = self.with_columns(&kept).framed(None, has_colours);
-            table + &self.left_out(&kept, width, whole)
-        } else if needed(&kept, &broken) <= width {
-            let table = self.with_columns(&kept).framed(Some(width), has_colours);
-            table + &self.left_out(&kept, width, whole)
-        } else {
-            self.stacked(width, has_colours)
-        }
-    }
-
-    /// The width of the content of each column.
-    fn widths(&self) -> Vec<usize> {
-        let width = |text: &str| {
-            let lines = terminal_cell(text);
-            let lines = lines.lines().map(measure_text_width);
-            lines.max().unwrap_or(0)
-        };
-        let columns = 0..self.headings.len();
-        let of_column = |column: usize| {
-            let cells = self.rows.iter().map(|row| &row[column]);
-            let all = cells.chain([&self.headings[column]]);
-            all.map(|cell| width(cell)).max().unwrap_or(0)
-        };
-        columns.map(of_column).collect()
-    }
-
-    fn in_order_of_leaving(&self) -> Vec<usize> {
-        let places = self.look.dispensable.iter().enumerate();
-        let mut leaving: Vec<(u8, usize)> = places
-            .filter_map(|(column, place)| Some(((*place)?, column)))
+        let contents: Vec<Content> = (0..self.headings.len())
+            .map(|column| Content::of(self, column))
             .collect();
-        leaving.sort_unstable();
-        leaving.into_iter().map(|(_, column)| column).collect()
+        let whole = needed(contents.iter().map(Content::whole));
+        if whole <= width {
+            return self.framed(None, has_colours);
+        }
+        let kept = self.kept(&contents, width);
+        for texts in [usize::MAX, NARROWEST_TEXT] {
+            let least = kept.iter().map(|&column| contents[column].least(texts));
+            if needed(least.clone()) <= width {
+                let limits = Limits {
+                    width,
+                    least: least.collect(),
+                };
+                let table = self.with_columns(&kept).framed(Some(&limits), has_colours);
+                return table + &self.left_out(&kept, width, whole);
+            }
+        }
+        self.stacked(width, has_colours)
+    }
+
+    /// The columns that stay: those that are not dispensable, and of the others as many as there is room for, from the
+    /// last to leave to the first.
+    fn kept(&self, contents: &[Content], width: usize) -> Vec<usize> {
+        let place = |column: &usize| self.look.dispensable.get(*column).copied().flatten();
+        let all = 0..self.headings.len();
+        let mut kept: Vec<usize> = all.clone().filter(|own| place(own).is_none()).collect();
+        let mut others: Vec<usize> = all.filter(|own| place(own).is_some()).collect();
+        others.sort_by_key(|column| std::cmp::Reverse(place(column)));
+        for column in others {
+            let with_it = kept.iter().chain([&column]);
+            let least = with_it.map(|&column| contents[column].least(usize::MAX));
+            if needed(least) <= width {
+                kept.push(column);
+            }
+        }
+        kept.sort_unstable();
+        kept
     }
 
     /// The table with these of its columns.
@@ -148,6 +167,10 @@ impl Table {
 
     /// A frame for each row, with a line for each column.
     fn stacked(&self, width: usize, has_colours: bool) -> String {
+        let limits = Limits {
+            width,
+            least: Vec::new(),
+        };
         let frames = self.rows.iter().map(|row| {
             let mut frame = Self::new([(String::new(), false), (String::new(), false)]);
             for (heading, cell) in self.headings.iter().zip(row) {
@@ -155,7 +178,7 @@ impl Table {
             }
             frame.headings.clear();
             frame.look.with_verdicts = vec![false, self.look.with_verdicts.contains(&true)];
-            frame.framed(Some(width), has_colours)
+            frame.framed(Some(&limits), has_colours)
         });
         frames.collect()
     }
@@ -231,6 +254,7 @@ mod tests {
             narrower.contains("left out here: where it comes from; shown in"),
             "{narrower}"
         );
+        assert!(narrower.contains("┆   1.5 ┆"), "{narrower}");
         let narrow = on(&table, 20);
         assert!(narrow.contains("name ┆ verdict"), "{narrow}");
         assert!(widest(&narrow) <= 20, "{narrow}");

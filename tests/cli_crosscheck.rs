@@ -395,4 +395,103 @@ fn the_explanation_of_a_row_is_json_too() {
         assert!(share < 1.0, "{run}");
     }
     assert_eq!(rows("explanation")[0]["arms"], "measured");
+fn places(rows: &[serde_json::Value]) -> Vec<(f64, f64)> {
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64().expect("a number");
+    let places = rows
+        .iter()
+        .map(|row| (number(row, "mu"), number(row, "stiffness")));
+    places.collect()
+}
+
+#[test]
+fn mu_and_stiffness_choose_rows_of_the_profile_or_make_stacks_of_their_own() {
+    let bench = Bench::without_codes();
+    let of = |options: &str| {
+        let line = format!("crosscheck --codes native {options} --format json");
+        places(&json_rows(&standard_output(&mut bench.tristack(&line))))
+    };
+    assert_eq!(of("--mu 0.3"), [(0.3, 1e2), (0.3, 1e3), (0.3, 1e4)]);
+    assert_eq!(of("--stiffness 1e2").len(), 6);
+    let critical = of("--mu critical,0.2 --stiffness 1e2 --profile quick");
+    assert_eq!((critical.len(), critical[0]), (2, (0.2, 1e2)));
+    assert_eq!(
+        of("--mu 0.26795 --profile quick --stiffness 1e2"),
+        critical[1..]
+    );
+    let own = of("--mu 0.31 --stiffness 2e2");
+    assert_eq!(own, [(0.31, 2e2)]);
+}
+
+#[test]
+fn a_value_that_chooses_no_row_is_refused_with_those_of_the_profile() {
+    let bench = Bench::without_codes();
+    for (options, parts) in [
+        (
+            "--mu 0.35",
+            ["`--mu` is 0.35", "0.12, 0.2, 0.25, mu_c, 0.3, 0.4;"],
+        ),
+        (
+            "--profile standard --mu 0.3 --stiffness 1e2,5e3",
+            ["`--stiffness` is 5000", "100, 1000, 10000;"],
+        ),
+    ] {
+        let line = format!("crosscheck --codes native {options}");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        for part in parts {
+            assert!(message.contains(part), "{line}: {part} in {message}");
+        }
+    }
+}
+
+#[test]
+fn failures_a_summary_and_junit_show_the_same_rows() {
+    let bench = Bench::without_codes();
+    save_recording(
+        &bench.path("reference"),
+        Code::named("yade").expect("it is built in"),
+        |_| (),
+    );
+    let run = |options: &str| {
+        let mut command = bench.tristack(&format!("crosscheck --mu 0.3 {options}"));
+        command.env("TRISTACK_REFERENCE", bench.path("reference"));
+        let output = command.output().expect("it runs");
+        assert_eq!(output.status.code(), Some(3));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let line = "--only-failures --junit tests.xml --out results --format json";
+    let text = run(line);
+    let failures = json_rows(&text);
+    assert_eq!(
+        common::json(&text)["command"],
+        "tristack crosscheck --mu 0.3"
+    );
+    assert_eq!(failures.len(), 12);
+    assert!(failures.iter().all(|row| row["verdict"] == "missing"));
+    let kept = fs::read_to_string(bench.path("results/crosscheck.csv")).expect("a table");
+    assert_eq!(kept.lines().count(), 19, "files have all rows");
+    let tests = fs::read_to_string(bench.path("tests.xml")).expect("the tests");
+    assert_eq!(tests.matches("<testcase ").count(), 18, "{tests}");
+    assert_eq!(tests.matches("<skipped ").count(), 12, "{tests}");
+    assert!(
+        tests.contains("<testcase name=\"native at mu = 0.3, stiffness = 100\""),
+        "{tests}"
+    );
+    let summary = json_rows(&run("--summary --format json"));
+    assert_eq!(summary.len(), 6);
+    for row in summary {
+        let here = ["native", "yade"].contains(&row["code"].as_str().expect("a name"));
+        let (agrees, missing) = if here { (3, 0) } else { (0, 3) };
+        assert_eq!(row["rows"], 3);
+        assert_eq!(row["agrees"], agrees, "{row}");
+        assert_eq!(row["missing"], missing, "{row}");
+        assert_eq!(row["largest_error"].is_null(), !here, "{row}");
+    }
+    let table = run("--summary");
+    assert!(
+        table.contains("│ code ") && table.contains("┆ missing ┆"),
+        "{table}"
+    );
+    assert!(!table.contains("differs"), "{table}");
 }

@@ -268,3 +268,64 @@ fn what_is_about_cylinders_refuses_spheres_and_rings_have_two_to_five_bodies() {
     assert!(!case(2).contains("bodies"));
     assert!(case(3).contains("\"bodies\": 3"));
 }
+
+#[test]
+fn lists_and_ranges_give_a_row_for_every_pair_of_their_values() {
+    let bench = Bench::without_codes();
+    let line = "theory --mu 0.1:0.3:0.1,mu_c --stiffness 1e2:1e4:x10,5e5 --format json";
+    let rows = json_rows(&standard_output(&mut bench.tristack(line)));
+    let numbers = |key: &str, rows: &[serde_json::Value]| -> Vec<f64> {
+        let numbers = rows.iter().map(|row| row[key].as_f64().expect("a number"));
+        numbers.collect()
+    };
+    assert_eq!(rows.len(), 16);
+    let critical = 2.0 - 3f64.sqrt();
+    let frictions = numbers("mu", &rows[..4]);
+    assert_eq!(frictions[..3], [0.1, 0.2, 0.3]);
+    assert!((frictions[3] - critical).abs() < 1e-15);
+    let every_fourth: Vec<_> = rows.iter().step_by(4).cloned().collect();
+    assert_eq!(numbers("stiffness", &every_fourth), [1e2, 1e3, 1e4, 5e5]);
+}
+
+#[test]
+fn a_wrong_value_is_refused_with_flag_value_and_what_is_accepted() {
+    let bench = Bench::without_codes();
+    let predict = "predict --youngs 1MPa --mass 1g --radius 1cm --length 1cm";
+    for (line, parts) in [
+        (
+            "theory --mu 0.3 --stiffness high".to_owned(),
+            ["--stiffness", "'high'", "A:B:xFACTOR"],
+        ),
+        (
+            "sweep --code native --mu 0.1,,0.3 --stiffness 1e2".to_owned(),
+            ["--mu", "a value is missing", "A:B:STEP"],
+        ),
+        (
+            "crosscheck --mu 0.3:0.1:0.1 --stiffness 1e2".to_owned(),
+            ["--mu", "0.3 is above 0.1", "`critical` (also `mu_c`)"],
+        ),
+        (
+            "simulate --code native --mu 0.2,0.3 --stiffness 1e2".to_owned(),
+            ["--mu", "'0.2,0.3'", "takes one value"],
+        ),
+        (
+            "simulate --code native --mu 0.2 --stiffness 1e2:1e3:x10".to_owned(),
+            ["--stiffness", "'1e2:1e3:x10'", "takes one value"],
+        ),
+        (
+            format!("{predict} --mu 0.1:0.2:0.1"),
+            ["--mu", "'0.1:0.2:0.1'", "takes one value"],
+        ),
+        (
+            "crosscheck --explain native/0.1,0.2/100".to_owned(),
+            ["--explain", "MU is `0.1,0.2`", "takes one value"],
+        ),
+    ] {
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{line}: {message}");
+        for part in parts {
+            assert!(message.contains(part), "{line}: {part} in {message}");
+        }
+    }
+}

@@ -93,8 +93,11 @@ fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
     assert!(error.abs() < 1e-7, "{error}");
     assert_eq!(tables[1].len(), 5);
 
-    let (status, tables, message) = judged(&bench, &format!("{THREE} {speeds} {STACK}"));
+    let line = format!("{THREE} {speeds} {STACK} --junit tests.xml");
+    let (status, tables, message) = judged(&bench, &line);
     assert_eq!(status, Some(4), "{message}");
+    let tests = fs::read_to_string(bench.path("tests.xml")).expect("the tests");
+    assert!(tests.contains("<skipped type=\"inconclusive\""), "{tests}");
     let row = &tables[0][0];
     assert_eq!(row["verdict"], "inconclusive");
     assert_eq!(row["not_known"], "time_step, preparation");

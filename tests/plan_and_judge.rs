@@ -587,3 +587,14 @@ fn what_is_wrong_with_a_command_is_said() {
         );
     }
 }
+
+#[test]
+fn rows_that_wait_for_results_are_skipped_tests() {
+    let bench = bench();
+    plan(&bench, ONE_STACK);
+    let summary = standard_output(&mut bench.tristack("judge away --junit tests.xml --summary"));
+    assert!(summary.contains("│ standin ┆"), "{summary}");
+    let tests = fs::read_to_string(bench.path("tests.xml")).expect("the tests");
+    assert_eq!(tests.matches("<testcase ").count(), 1, "{tests}");
+    assert!(tests.contains("<skipped "), "{tests}");
+}

@@ -2,7 +2,7 @@
 
 use super::code_names::read_user_folders;
 use super::options::{Format, find_all};
-use super::{CliError, ExitStatus, tell};
+use super::{CliError, ExitStatus, complain};
 use crate::code::Code;
 use crate::output::inventory;
 use clap::Args;
@@ -32,10 +32,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     });
     let broken: Vec<(Code, &str)> = broken.collect();
     for (name, reason) in &broken {
-        tell!("{name} failed: {reason}");
+        complain!("{name} failed: {reason}");
     }
     for error in &unreadable {
-        tell!("{error}");
+        complain!("{error}");
     }
     Ok(match broken.is_empty() && unreadable.is_empty() {
         true => printed,

@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Options that change no number: output files, formats, and how runs are carried out.
-const LEFT_OUT: [&str; 7] = [
+const LEFT_OUT: [&str; 8] = [
     "--out",
     "--format",
     "--store",
@@ -13,8 +13,15 @@ const LEFT_OUT: [&str; 7] = [
     "--time-limit",
     "--svg",
     "--vtk",
+    "--junit",
 ];
-const LEFT_OUT_FLAGS: [&str; 2] = ["--fresh", "--shared-store"];
+const LEFT_OUT_FLAGS: [&str; 5] = [
+    "--fresh",
+    "--shared-store",
+    "--summary",
+    "--only-failures",
+    "--quiet",
+];
 
 /// `tristack` with those of its `arguments`, the first of which is the program, on which the results depend.
 pub(super) fn command_line(arguments: &[OsString]) -> String {

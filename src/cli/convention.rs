@@ -2,7 +2,7 @@
 
 use super::options::RunOptions;
 use super::progress::Reporter;
-use super::{CliError, INTERRUPT, tell};
+use super::{CliError, INTERRUPT, complain, tell};
 use crate::code::Code;
 use crate::runs::{Progress, SelectedCode, Settings};
 use crate::study::convention;
@@ -26,7 +26,9 @@ pub(super) fn settle_with(codes: &[SelectedCode], settings: &Settings, progress:
         match probed {
             Ok(_) => tell_settled(code),
             Err(_) if INTERRUPT.requested() => {}
-            Err(error) => tell!("{code}: its contact convention could not be measured: {error}"),
+            Err(error) => {
+                complain!("{code}: its contact convention could not be measured: {error}")
+            }
         }
     }
 }

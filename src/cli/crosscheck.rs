@@ -4,7 +4,7 @@ use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
+    CodeOptions, Format, RowOptions, RunOptions, find_all, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
@@ -14,8 +14,7 @@ use crate::code::Code;
 use crate::files::Layout;
 use crate::model::Power;
 use crate::output::{
-    budget, crosscheck, crosscheck_markdown, crosscheck_text, friction, json, laws_markdown,
-    laws_svg,
+    budget, crosscheck, crosscheck_markdown, friction, json, laws_markdown, laws_svg,
 };
 use crate::runs::SelectedCode;
 use crate::study::yield_force::{Judgement, Measurement};
@@ -32,7 +31,8 @@ use std::path::PathBuf;
 #[command(
     after_help = "Examples: tristack crosscheck --codes native,liggghts --out results\n          \
     tristack crosscheck --explain yade/0.3/100\n          \
-    tristack crosscheck --mu 0.2,0.3 --stiffness 1e2 --kappa 0.6"
+    tristack crosscheck --mu 0.3 --profile standard --only-failures --junit junit.xml\n          \
+    tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --kappa 0.6 --summary"
 )]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -47,12 +47,14 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "profile", "mu"])]
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "profile", "mu", "stiffness", "only_failures", "summary", "junit"])]
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
     #[arg(long)]
     shortcuts: bool,
+    #[command(flatten)]
+    rows: RowOptions,
     #[command(flatten)]
     run: RunOptions,
     /// Format of the rows, or of the explanation of one
@@ -89,7 +91,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let settings = arguments.run.settings()?;
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
-    let written = publish(&judgements, &out, arguments.format, command);
+    let rows = &arguments.rows;
+    let written = publish(&judgements, rows, &out, arguments.format, command);
     let found = conclude(&judgements, planned, &codes);
     Ok(found.max(written))
 }
@@ -113,14 +116,15 @@ const LAWS_FIGURE: &str = "laws.svg";
 /// Prints the rows, and writes them if there is a directory.
 pub(super) fn publish(
     judgements: &[Judgement],
+    rows: &RowOptions,
     out: &Out,
     format: Format,
     command: &str,
 ) -> ExitStatus {
-    let tables = [crosscheck(judgements)];
-    let people = || crosscheck_text(judgements);
-    let printed = format.print(&tables, command, people);
+    let printed = rows.print(judgements, format, command);
+    let tested = rows.write_junit(judgements);
     let written = out.write(|| {
+        let tables = [crosscheck(judgements)];
         let mut files = vec![
             ("crosscheck.csv", tables[0].csv()),
             ("budget.csv", budget(judgements).csv()),
@@ -134,7 +138,7 @@ pub(super) fn publish(
         }
         files
     });
-    printed.max(written)
+    printed.max(tested).max(written)
 }
 
 /// Summarizes the rows on standard error, and returns the exit status.

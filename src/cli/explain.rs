@@ -2,12 +2,14 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{Format, Friction, RunOptions, StackOptions, as_flag, find_all, friction};
+use super::options::{
+    Format, Friction, RunOptions, StackOptions, Stiffness, as_flag, find_all, single,
+};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::model::{Power, Stack};
-use crate::output::{explained, explanation};
+use crate::output::{explained, explanation, wrapped_to_screen};
 use crate::study::Campaign;
 use crate::study::yield_force::{measure_with_twin, plan};
 
@@ -29,10 +31,9 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     let code = code_named(code)
         .ok_or_else(|| unknown(code))?
         .map_err(|error| error.to_string())?;
-    let mu = friction(mu).map_err(|accepted| format!("MU is `{mu}`; {accepted}"))?;
-    let stiffness: f64 = stiffness
-        .parse()
-        .map_err(|_| format!("STIFFNESS is `{stiffness}`; accepted is a number"))?;
+    let mu: Friction = single(mu).map_err(|trouble| format!("MU is `{mu}`: {trouble}"))?;
+    let Stiffness(stiffness) =
+        single(stiffness).map_err(|trouble| format!("STIFFNESS is `{stiffness}`: {trouble}"))?;
     let stack = Stack::paper(mu.of_cylinders(), stiffness);
     stack
         .validate()
@@ -76,7 +77,7 @@ pub(super) fn explain(
     let twin = twin.map(|result| result.map_err(|error| error.to_string()));
     let coverage = codes[0].code.as_ref().map(|code| code.coverage());
     let (twin, coverage) = (twin.as_ref(), coverage.as_deref());
-    let people = || explanation(judgement, twin, coverage);
+    let people = || wrapped_to_screen(explanation(judgement, twin, coverage));
     let printed = format.print(&explained(judgement, twin, coverage), command, people);
     if INTERRUPT.requested() {
         return Ok(ExitStatus::Interrupted);

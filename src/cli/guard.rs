@@ -1,6 +1,6 @@
 //! `tristack guard`: the wrapper in which tristack starts external codes; hidden from users.
 
-use super::tell;
+use super::complain;
 use crate::code::{end_like, guard};
 use clap::Args;
 use std::ffi::OsString;
@@ -25,7 +25,7 @@ pub(super) fn run(arguments: &Arguments) -> ! {
         Ok(status) => end_like(status),
         Err(error) => {
             let program = arguments.command[0].display();
-            tell!("cannot start {program}: {error}");
+            complain!("cannot start {program}: {error}");
             CANNOT_START
         }
     };

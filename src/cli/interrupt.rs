@@ -1,6 +1,6 @@
 //! Interrupts by the user: Ctrl-C, `kill`, closing the terminal.
 
-use super::{ExitStatus, tell};
+use super::{ExitStatus, complain};
 use crate::code::{Interrupt, let_interrupt_questions};
 use crate::files::system_text;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -17,13 +17,13 @@ pub(super) fn listen() {
         Ok(mut signals) => {
             std::thread::spawn(move || signals.forever().for_each(|_| interrupt()));
         }
-        Err(error) => tell!("warning: interrupts will end the program at once: {error}"),
+        Err(error) => complain!("warning: interrupts will end the program at once: {error}"),
     }
 }
 
 /// Reports that a command ended with `done` of `planned` `subjects` complete.
 pub(super) fn interrupted_after(done: usize, planned: usize, subjects: &str) -> ExitStatus {
-    tell!(
+    complain!(
         "interrupted with {done} of {planned} {subjects} complete; every finished run is kept, and the same \
          command goes on from here"
     );
@@ -36,7 +36,9 @@ fn interrupt() {
     }
     // From a thread of its own: writing may block, and a second interrupt must not wait for that.
     std::thread::spawn(|| {
-        tell!("interrupted: finished runs are kept; a second interrupt ends everything at once");
+        complain!(
+            "interrupted: finished runs are kept; a second interrupt ends everything at once"
+        );
     });
 }
 

@@ -3,9 +3,9 @@
 use super::convention::settle_with;
 use super::crosscheck::{conclude, layout, publish};
 use super::judge_series::{self, SeriesArguments};
-use super::options::{CodeParser, Format, options_of};
+use super::options::{CodeParser, Format, RowOptions, options_of};
 use super::out::Out;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::{Code, Failure, FailureKind};
 use crate::files::{FileError, Scratch};
 use crate::runs::{Progress, Recorded, SelectedCode, Settings, Store};
@@ -47,6 +47,8 @@ pub(super) struct Arguments {
     /// judged_series.csv, series_runs.csv and series_budget.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    rows: RowOptions,
     /// Format of the rows
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -58,6 +60,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return judge_series::run(
             &arguments.series,
             arguments.out.as_deref(),
+            arguments.rows.junit.as_deref(),
             arguments.format,
             command,
         );
@@ -81,7 +84,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let measurements = plan.measurements(code);
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Quiet).carry_out(measurements);
-    let published = publish(&judgements, &out, arguments.format, command);
+    let rows = &arguments.rows;
+    let published = publish(&judgements, rows, &out, arguments.format, command);
     let found = conclude(&judgements, planned, &codes);
     Ok(found.max(published))
 }
@@ -173,6 +177,6 @@ impl Progress for Quiet {
     fn advanced(&self, _: f64) {}
     fn finished(&self, _: Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
-        tell!("warning: {message}");
+        complain!("warning: {message}");
     }
 }

@@ -1,13 +1,13 @@
 //! `tristack judge --series`.
 
 use super::options::{ConventionOptions, Format, OneStackOptions, options_of, positive};
-use super::out::Out;
+use super::out::{Out, write};
 use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::{FileError, Layout, Links, read_bounded};
 use crate::model::{ContactConvention, ContactLaw, InvalidValue, Stack, shown};
-use crate::output::{DataTable, json, judged_series, judged_series_text};
+use crate::output::{DataTable, json, judged_series, judged_series_text, junit};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
 use crate::study::yield_force::{JudgedSeries, SPEEDS, SeriesInput, judge_series, no_yield};
@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, Args)]
 pub(super) struct SeriesArguments {
     /// Three or more series of one stack at different wall speeds (CSV, docs/formats.md), instead of a plan
-    #[arg(long, value_name = "FILE", num_args = 3.., requires_all = ["speeds", "mu", "stiffness"])]
+    #[arg(long, value_name = "FILE", num_args = 3.., requires_all = ["speeds", "mu", "stiffness"], conflicts_with_all = ["only_failures", "summary"])]
     pub series: Vec<PathBuf>,
     /// Their wall speeds in r sqrt(k_n/m), in the order of the files, separated by commas
     #[arg(
@@ -67,6 +67,7 @@ const JSON: &str = "judged_series.json";
 pub(super) fn run(
     arguments: &SeriesArguments,
     out: Option<&Path>,
+    tests: Option<&Path>,
     format: Format,
     command: &str,
 ) -> Result<ExitStatus, CliError> {
@@ -77,6 +78,9 @@ pub(super) fn run(
     let written = out.write(|| {
         let files = TABLES.into_iter().zip(tables.iter().map(DataTable::csv));
         files.chain([(JSON, json(&tables, command))]).collect()
+    });
+    let tested = tests.map_or(ExitStatus::Success, |file| {
+        write(file, junit::of_series("tristack judge", &judged).as_bytes())
     });
     let verdict = judged.grounds.verdict();
     for note in judged.grounds.notes() {
@@ -100,7 +104,10 @@ pub(super) fn run(
         arms.pair,
         arms.floor
     );
-    Ok(ExitStatus::of_verdict(verdict).max(printed).max(written))
+    Ok(ExitStatus::of_verdict(verdict)
+        .max(printed)
+        .max(written)
+        .max(tested))
 }
 
 fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {

@@ -40,21 +40,26 @@ pub use error::{CliError, ExitStatus};
 use crate::code::GUARD_COMMAND;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 pub(crate) use interrupt::INTERRUPT;
+use options::GRAMMAR;
 use std::cell::RefCell;
 use std::ffi::OsString;
-pub(crate) use streams::{print, tell};
+pub(crate) use streams::{complain, print, tell};
 
 /// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes compared with it
 #[derive(Debug, Parser)]
 #[command(name = "tristack", version, max_term_width = 100)]
 #[command(
-    after_help = "Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
-    --stiffness is k_n r/(m g).\n\n--out and --vtk take a new or empty directory, or one with nothing but \
+    after_help = format!("Forces are in m g, lengths in r, speeds in r sqrt(k_n/m), times in sqrt(m/k_n); \
+    --stiffness is k_n r/(m g).\n\n{GRAMMAR}\n\nTables are fitted to the width of the terminal, or to that which \
+    COLUMNS says; NO_COLOR and CLICOLOR_FORCE are respected.\n\n--out and --vtk take a new or empty directory, or one with nothing but \
     earlier results of the same command.\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
     3 a code failed or is missing, 4 inconclusive, 5 a result could not be written, 130 interrupted; of several rows \
-    2 counts before 3, and 3 before 4."
+    2 counts before 3, and 3 before 4.")
 )]
 struct Cli {
+    /// Leave standard error to errors and warnings: no progress, no notes
+    #[arg(long, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -130,6 +135,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
             });
         }
     };
+    if cli.quiet {
+        streams::be_quiet();
+    }
     if !matches!(cli.command, Command::Guard(_)) {
         interrupt::listen();
     }

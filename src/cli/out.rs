@@ -1,6 +1,6 @@
 //! Directories and files for results.
 
-use super::{ExitStatus, INTERRUPT, tell};
+use super::{ExitStatus, INTERRUPT, complain};
 use crate::files::{FileError, Layout, write_atomically};
 use crate::model::shown;
 use std::path::Path;
@@ -46,7 +46,7 @@ impl<'a> Out<'a> {
             let status = write(&directory.join(name.as_ref()), content.as_ref());
             worst = worst.max(status);
             if status != ExitStatus::Success && name.as_ref() == self.witness {
-                tell!("nothing else is written to {}", shown(directory));
+                complain!("nothing else is written to {}", shown(directory));
                 break;
             }
         }
@@ -61,9 +61,9 @@ pub(super) fn write(path: &Path, content: &[u8]) -> ExitStatus {
         Err(error) => {
             let (file, error) = (shown(path), shown(Path::new(&error.to_string())));
             match error.contains(&file) {
-                true => tell!("error: {error}"),
+                true => complain!("error: {error}"),
                 // It is the directory that cannot be written.
-                false => tell!("error: cannot write {file}: {error}"),
+                false => complain!("error: cannot write {file}: {error}"),
             }
             ExitStatus::NotWritten
         }

@@ -1,6 +1,6 @@
 //! `tristack predict`.
 
-use super::options::{Format, Friction, StackOptions, as_flag, friction, number};
+use super::options::{FRICTION, Format, Friction, StackOptions, as_flag, number, single};
 use super::{CliError, ExitStatus};
 use crate::experiment::{
     ContactEstimate, Cylinder, Experiment, Forecast, density, length, mass, modulus,
@@ -44,8 +44,7 @@ pub(super) struct Arguments {
     /// Length along the axis with unit, such as "40 mm"
     #[arg(long, value_name = "L", value_parser = length, allow_hyphen_values = true)]
     length: f64,
-    /// Floor friction; a number or the word `critical`
-    #[arg(long, value_parser = friction)]
+    #[arg(long, help = FRICTION, value_parser = single::<Friction>)]
     mu: Friction,
     /// Uncertainty of the floor friction, as ±
     #[arg(

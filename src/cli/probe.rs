@@ -3,7 +3,7 @@
 use super::options::{CodeOptions, Format, RunOptions, selected_codes};
 use super::out::{Out, write};
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::files::{FileError, Layout};
 use crate::model::shown;
 use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code};
@@ -109,7 +109,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         if let Err(error) = result
             && !INTERRUPT.requested()
         {
-            tell!("{} was not probed: {error}", selected.name);
+            complain!("{} was not probed: {error}", selected.name);
         } else if selected.code.is_none() {
             let name = selected.name;
             tell!("{name} is not installed: its recorded answers stand in for it");

@@ -1,6 +1,7 @@
 //! Progress on standard error: a bar on a terminal, a line for each phase elsewhere.
 
-use super::tell;
+use super::streams::is_quiet;
+use super::{complain, tell};
 use crate::code::{Code, Failure};
 use crate::runs::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
@@ -68,7 +69,10 @@ impl Phase {
 impl Reporter {
     pub fn new() -> Self {
         Self {
-            bar: ProgressBar::no_length(),
+            bar: match is_quiet() {
+                true => ProgressBar::hidden(),
+                false => ProgressBar::no_length(),
+            },
             phase: Mutex::new(Phase::new("")),
         }
     }
@@ -76,6 +80,14 @@ impl Reporter {
     fn say(&self, line: &str) {
         match self.bar.is_hidden() {
             true => tell!("{line}"),
+            false => self.bar.println(line),
+        }
+    }
+
+    /// Says a line that --quiet does not silence.
+    fn complain(&self, line: &str) {
+        match self.bar.is_hidden() {
+            true => complain!("{line}"),
             false => self.bar.println(line),
         }
     }
@@ -177,7 +189,9 @@ impl Progress for Reporter {
             (phase.finished, phase.open)
         };
         match result {
-            Err(failure) if !failure.is_interrupted() => self.say(&format!("failed: {failure}")),
+            Err(failure) if !failure.is_interrupted() => {
+                self.complain(&format!("failed: {failure}"))
+            }
             _ => self
                 .bar
                 .set_message(format!("[{finished}/{open}] {code}: {task}")),
@@ -185,7 +199,7 @@ impl Progress for Reporter {
     }
 
     fn warn(&self, message: &str) {
-        self.say(&format!("warning: {message}"));
+        self.complain(&format!("warning: {message}"));
     }
 }
 

@@ -4,7 +4,7 @@ use super::convention::settle;
 use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
 use super::progress::Reporter;
 use super::trajectories::plans;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::{Code, Run};
 use crate::model::shown;
 use crate::model::{PAPER_BODIES, Power};
@@ -89,7 +89,7 @@ fn record(
     };
     let made = make(&mut recording, selected, only, settings, &Reporter::new());
     if let Err(error) = made {
-        tell!("{name} is not recorded: {error}");
+        complain!("{name} is not recorded: {error}");
         return Ok(ExitStatus::CodeFailed);
     }
     recording.save(directory, name)?;

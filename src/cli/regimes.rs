@@ -3,7 +3,7 @@
 use super::options::{Format, RunOptions, as_flag, number, whole};
 use super::out::Out;
 use super::progress::{Reporter, during};
-use super::{CliError, ExitStatus, tell};
+use super::{CliError, ExitStatus, complain, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let native = [SelectedCode::find(Code::NATIVE)];
     let survey = survey(&plan, &Campaign::new(&native, &settings, &Reporter::new()));
     let Some(survey) = survey else {
-        tell!("interrupted: nothing is printed or written; every finished run is kept");
+        complain!("interrupted: nothing is printed or written; every finished run is kept");
         return Ok(ExitStatus::Interrupted);
     };
     let tables = [

@@ -4,7 +4,7 @@ use super::convention::settle;
 use super::options::{CodeParser, RunOptions, find_all, selected_codes};
 use super::out::Out;
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{Power, shown};
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         Ok(Some(reproduced)) => reproduced,
         Err(error) if !INTERRUPT.requested() => return Err(error.into()),
         _ => {
-            tell!(
+            complain!(
                 "interrupted: no report is written; every finished run is kept, and the same command goes on from here"
             );
             return Ok(ExitStatus::Interrupted);

@@ -8,7 +8,7 @@ use super::options::{
 use super::out::Out;
 use super::pictures::Pictures;
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, print, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, print, tell};
 use crate::code::{Code, Failure, HOME, InstalledCode, Run, RunContext, keep_evidence};
 use crate::files::{FileError, Layout, remove_older, write_atomically};
 use crate::model::{
@@ -328,7 +328,7 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
     }
     match write_atomically(&directory.join(CASE), case.to_json().as_bytes()) {
         Err(error) if error.is_full() => {
-            tell!("error: {}", shown(Path::new(&error.to_string())));
+            complain!("error: {}", shown(Path::new(&error.to_string())));
             Ok(ExitStatus::NotWritten)
         }
         written => written.map(|()| ExitStatus::Success),

@@ -1,39 +1,50 @@
 //! The stacks of a crosscheck on the command line.
 
-use super::options::{Friction, StackOptions, as_flag, friction};
+use super::options::{FRICTIONS, Friction, STIFFNESSES, StackOptions, Stiffness, Values, as_flag};
 use crate::code::Code;
 use crate::model::{InvalidValue, Power, Stack};
+use crate::output::friction;
 use crate::study::yield_force::{Measurement, Profile};
 use clap::Args;
 
-/// The stacks of a profile, or others in its way.
+const OWN_FRICTIONS: &str = "; with --stiffness and without --profile they make stacks of their own, otherwise they \
+    choose rows of the profile";
+const OWN_STIFFNESSES: &str = "; with --mu and without --profile they make stacks of their own, otherwise they choose rows of the profile";
+
+/// Largest relative distance of a friction from that of the row that it names. Those of a profile differ by more than a
+/// hundredth, and people write the critical one with few digits.
+const FEW_DIGITS: f64 = 1e-5;
+
+/// The stacks of a profile or some of them, or others in its way.
 #[derive(Debug, Clone, Args)]
 pub(super) struct StackSet {
-    /// Set of stacks
-    #[arg(long, value_enum, default_value_t = Profile::Quick)]
-    profile: Profile,
-    /// Floor frictions of other stacks than those of the profile: numbers or the word `critical`, separated by commas
-    #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction, allow_negative_numbers = true, conflicts_with = "profile")]
-    mu: Vec<Friction>,
-    /// Stiffnesses k_n r/(m g) of these stacks, separated by commas
+    /// Set of stacks [default: quick]
+    #[arg(long, value_enum)]
+    profile: Option<Profile>,
+    #[arg(long, help = FRICTIONS.to_owned() + OWN_FRICTIONS, value_parser = Values::<Friction>::parse, allow_negative_numbers = true)]
+    mu: Option<Values<Friction>>,
     #[arg(
         long,
-        requires = "mu",
-        value_name = "S1,S2",
-        value_delimiter = ',',
+        help = STIFFNESSES.to_owned() + OWN_STIFFNESSES,
+        value_name = "S",
+        value_parser = Values::<Stiffness>::parse,
         allow_negative_numbers = true
     )]
-    stiffness: Vec<f64>,
+    stiffness: Option<Values<Stiffness>>,
     #[command(flatten)]
     pub others: StackOptions,
 }
 
 impl StackSet {
+    fn profile(&self) -> Profile {
+        self.profile.unwrap_or(Profile::Quick)
+    }
+
     /// The codes that measure them by a law of this power: of other laws than the paper's, the quick profile has one of
     /// each folder.
     pub fn codes(&self, power: Power) -> Vec<Code> {
         let mut codes = Code::of_power(power);
-        if power != Power::Linear && self.profile == Profile::Quick {
+        if power != Power::Linear && self.profile() == Profile::Quick {
             codes.retain(|code| code.is_first_variant());
         }
         codes
@@ -45,7 +56,11 @@ impl StackSet {
         names: &[Code],
         power: Power,
     ) -> Result<Vec<Measurement>, InvalidValue> {
-        let stacks = self.stacks(power)?;
+        let own = self.own_stacks(power)?;
+        let stacks = match &own {
+            Some(own) => own.clone(),
+            None => self.profile_stacks(power)?,
+        };
         let pairs = stacks
             .iter()
             .flat_map(|stack| names.iter().map(move |name| (stack, name)));
@@ -53,23 +68,88 @@ impl StackSet {
             .into_iter()
             .try_for_each(|(stack, name)| name.check_stiffness_ratio(stack.stiffness_ratio))
             .map_err(as_flag)?;
-        Ok(self.profile.measurements_of(&stacks, names, power))
+        let all = self.profile().measurements_of(&stacks, names, power);
+        match own {
+            Some(_) => Ok(all),
+            None => self.chosen(all),
+        }
     }
 
-    /// The stacks of the profile, or those asked for.
-    fn stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
-        let own = self.stiffness.iter().flat_map(|&stiffness| {
-            let frictions = self.mu.iter();
-            frictions.map(move |&mu| (mu, stiffness))
-        });
-        let profile = self.profile.stacks(power, self.others.bodies).into_iter();
-        let profile =
-            profile.map(|stack| (Friction::Number(stack.floor_friction), stack.stiffness));
-        let places: Vec<(Friction, f64)> = match self.mu.is_empty() {
-            true => profile.collect(),
-            false => own.collect(),
+    /// The stacks that are asked for in place of those of a profile.
+    fn own_stacks(&self, power: Power) -> Result<Option<Vec<Stack>>, InvalidValue> {
+        let (None, Some(frictions), Some(stiffnesses)) = (self.profile, &self.mu, &self.stiffness)
+        else {
+            return Ok(None);
         };
-        let stack = |(mu, stiffness)| self.others.stack(mu, stiffness, power);
-        places.into_iter().map(stack).collect()
+        let places = stiffnesses.0.iter().flat_map(|stiffness| {
+            let frictions = frictions.0.iter();
+            frictions.map(|&mu| (mu, stiffness.0))
+        });
+        let stacks = places.map(|(mu, stiffness)| self.others.stack(mu, stiffness, power));
+        stacks.collect::<Result<_, _>>().map(Some)
     }
+
+    fn profile_stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
+        let stacks = self.profile().stacks(power, self.others.bodies).into_iter();
+        let stack = |stack: Stack| {
+            let mu = Friction::Number(stack.floor_friction);
+            self.others.stack(mu, stack.stiffness, power)
+        };
+        stacks.map(stack).collect()
+    }
+
+    /// Those of the `rows` of the profile that --mu and --stiffness choose. Each value must choose one.
+    fn chosen(&self, mut rows: Vec<Measurement>) -> Result<Vec<Measurement>, InvalidValue> {
+        if let Some(Values(asked)) = &self.stiffness {
+            let is = |row: &Measurement, stiffness: &Stiffness| row.stack.stiffness == stiffness.0;
+            let shown = |stiffness: &Stiffness| stiffness.0.to_string();
+            let of_row = |row: &Measurement| row.stack.stiffness.to_string();
+            rows = filtered(rows, "--stiffness", asked, is, shown, of_row)?;
+        }
+        if let Some(Values(asked)) = &self.mu {
+            let is = |row: &Measurement, mu: &Friction| {
+                let (own, asked) = (row.stack.floor_friction, mu.of(&row.stack));
+                (own - asked).abs() <= FEW_DIGITS * own
+            };
+            let shown = |mu: &Friction| match mu {
+                Friction::Number(number) => number.to_string(),
+                Friction::Critical => "critical".to_owned(),
+            };
+            let of_row = |row: &Measurement| friction(row.stack.floor_friction);
+            rows = filtered(rows, "--mu", asked, is, shown, of_row)?;
+        }
+        Ok(rows)
+    }
+}
+
+/// The `rows` that a value of `flag` chooses, or the values that it could have if one of them chooses none.
+fn filtered<Q>(
+    mut rows: Vec<Measurement>,
+    flag: &str,
+    asked: &[Q],
+    is: impl Fn(&Measurement, &Q) -> bool,
+    shown: impl Fn(&Q) -> String,
+    of_row: impl Fn(&Measurement) -> String,
+) -> Result<Vec<Measurement>, InvalidValue> {
+    if let Some(none) = asked
+        .iter()
+        .find(|value| !rows.iter().any(|row| is(row, value)))
+    {
+        let mut values: Vec<String> = Vec::new();
+        for value in rows.iter().map(of_row) {
+            if !values.contains(&value) {
+                values.push(value);
+            }
+        }
+        return Err(InvalidValue {
+            key: flag.to_owned(),
+            value: shown(none),
+            accepted: format!(
+                "one of those that the profile has here: {}; stacks of your own take --mu and --stiffness without --profile",
+                values.join(", ")
+            ),
+        });
+    }
+    rows.retain(|row| asked.iter().any(|value| is(row, value)));
+    Ok(rows)
 }

@@ -2,16 +2,39 @@
 
 use super::ExitStatus;
 use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Writes a line to standard error; a closed pipe is no reason to stop.
-macro_rules! tell {
+/// Whether standard error is left to errors and warnings.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves standard error to errors and warnings, as --quiet asks.
+pub(super) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether standard error is left to errors and warnings.
+pub(super) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Writes an error or a warning as a line to standard error; a closed pipe is no reason to stop.
+macro_rules! complain {
     ($($message:tt)*) => {{
         use std::io::Write as _;
         let _ = writeln!(std::io::stderr(), $($message)*);
     }};
 }
 
-pub(crate) use tell;
+/// Writes a note as a line to standard error, unless --quiet is given.
+macro_rules! tell {
+    ($($message:tt)*) => {{
+        if !$crate::cli::streams::is_quiet() {
+            $crate::cli::complain!($($message)*);
+        }
+    }};
+}
+
+pub(crate) use {complain, tell};
 
 /// Writes results to standard output; a closed pipe is no error, and any other one is told.
 pub(crate) fn print(text: &str) -> ExitStatus {
@@ -21,7 +44,7 @@ pub(crate) fn print(text: &str) -> ExitStatus {
         .and_then(|()| output.flush());
     match written {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            tell!("error: cannot write standard output: {error}");
+            complain!("error: cannot write standard output: {error}");
             ExitStatus::NotWritten
         }
         _ => ExitStatus::Success,

@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ConventionOptions, Format, Friction, StackListOptions, friction};
+use super::options::{ConventionOptions, Format, StackListOptions};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -13,9 +13,6 @@ use clap::Args;
     after_help = "Example: tristack theory --mu 0.3 --stiffness 1e4 --pair-arm -0.5 --floor-arm -0.5"
 )]
 pub(super) struct Arguments {
-    /// Floor friction: numbers or the word `critical`, separated by commas
-    #[arg(long, required = true, value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
-    mu: Vec<Friction>,
     #[command(flatten)]
     stack: StackListOptions,
     #[command(flatten)]
@@ -28,9 +25,7 @@ pub(super) struct Arguments {
 /// Prints the predictions for every combination of friction and stiffness.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.convention.of(Code::NATIVE)?;
-    let stacks = arguments
-        .stack
-        .stacks(&arguments.mu, convention.law.power)?;
+    let stacks = arguments.stack.stacks(convention.law.power)?;
     let predictions: Vec<Predictions> = stacks
         .iter()
         .map(|stack| Predictions::new(stack, &convention))

@@ -37,9 +37,11 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     .shown("code")
     .version(|(cost, _)| &cost.version)
     .shown("version")
+    .dispensable(3)
     .number("ratio", "1", times_lanes)
     .means("`ns_per_step` over that of native lanes")
     .shown_as("times native-lanes", plain)
+    .dispensable(6)
     .number("ns_per_step", "ns", |(cost, _)| cost.median())
     .means("wall time per step and case, the median of the runs")
     .shown_as("ns per step and case", plain)
@@ -50,6 +52,7 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     .number("start_up_seconds", "s", |(cost, _)| cost.start_up())
     .means("start and end, the median of the runs")
     .shown_as("start s", plain)
+    .dispensable(2)
     .number("yield_forces_per_second", "1/s", |(cost, _)| {
         cost.yield_forces_per_second()
     })
@@ -60,15 +63,18 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     })
     .means("how many times as many native lanes make")
     .shown_as("times fewer", plain)
+    .dispensable(4)
     .number("largest_error", "1", |(cost, _)| cost.largest_error)
     .means("largest distance of these yield forces from the exact limit, relative to F + n + 1")
     .shown_as("largest error", one_digit)
+    .dispensable(5)
     .number("peak_megabytes", "MB", |(cost, _)| {
         cost.peak_bytes
             .map(|bytes| bytes as f64 / BYTES_PER_MEGABYTE)
     })
     .means("largest resident memory; that of native is all of this process")
     .shown_as("MB", |megabytes| format!("{megabytes:.0}"))
+    .dispensable(1)
     .rows(beside_lanes(costs))
 }
 

@@ -3,9 +3,10 @@
 use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable};
 use super::text::{markdown_code, markdown_text};
+use crate::code::Code;
 use crate::model::PAPER_BODIES;
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
-use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source};
+use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict};
 
 const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the \
                           paper's, relative to F + n + 1";
@@ -25,6 +26,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .version(|row| &row.version)
     .source(|row| row.source)
     .shown("source")
+    .dispensable(1)
     .convention(|row| row.study.convention)
     .law(|row| row.study.convention.law)
     .number("yield_force", "m g", |row| row.yield_force())
@@ -36,11 +38,13 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .number("uncertainty", "m g", |row| row.uncertainty())
     .means("its numerical uncertainty (see `budget`)")
     .shown_as("±", one_digit)
+    .dispensable(4)
     .text("reference", |_| "quasistatic")
     .means("the theory that it is compared with")
     .number("reference_force", "m g", |row| row.reference_force())
     .means("F by that theory, with the arms of the code")
     .shown_as("exact limit", digits::<9>)
+    .dispensable(5)
     .number("slip_onset", "m g", |row| Some(row.slip()?.force))
     .means("F at which the floor begins to slip, at vanishing wall speed")
     .number("slip_onset_uncertainty", "m g", |row| {
@@ -62,12 +66,99 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .number("tolerance", "1", |row| row.tolerance())
     .means("largest error that agrees")
     .shown_as("tolerance", small)
+    .dispensable(3)
     .number("model_form", "1", |row| row.model_form())
     .means(MODEL_FORM)
     .shown_as("model form", relative)
+    .dispensable(2)
     .verdict(|row| row.verdict())
     .rows(judgements)
 }
+
+/// The verdicts on the rows of each code.
+pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
+    let mut codes: Vec<Code> = Vec::new();
+    for row in judgements {
+        if !codes.contains(&row.code) {
+            codes.push(row.code);
+        }
+    }
+    let of_code = |code: Code| judgements.iter().filter(move |row| row.code == code);
+    let count = move |code: Code, verdict: Verdict| {
+        let rows = of_code(code).filter(|row| row.verdict() == verdict);
+        rows.count()
+    };
+    let worst = move |code: Code| {
+        let judged = of_code(code).filter(|row| row.error().is_some());
+        let size = |row: &Judgement| row.error().unwrap_or_default().abs();
+        judged.max_by(|one, other| size(one).total_cmp(&size(other)))
+    };
+    let mut columns = Columns::<Code>::new(
+        "crosscheck-summary",
+        "A row is how many rows of one code have which verdict.",
+        "`tristack crosscheck --summary`, `tristack sweep --summary`, `tristack judge --summary`",
+    )
+    .code(|code| *code)
+    .number("rows", "1", move |code| of_code(*code).count())
+    .means("number of rows")
+    .shown("rows")
+    .number("recorded", "1", move |code| {
+        of_code(*code).filter(|row| row.is_recorded()).count()
+    })
+    .means("number of those that are recorded, not live")
+    .shown("recorded")
+    .dispensable(3);
+    for (name, meaning, verdict) in VERDICTS {
+        columns = columns
+            .number(name, "1", move |code| count(*code, verdict))
+            .means(meaning);
+        let has_any =
+            verdict == Verdict::Agrees || codes.iter().any(|&code| count(code, verdict) > 0);
+        // People see no verdict that no row has, but that all agree or none.
+        if has_any {
+            columns = columns.shown(verdict.as_str());
+        }
+    }
+    columns
+        .number("largest_error", "1", move |code| worst(*code)?.error())
+        .means("error of the largest size")
+        .shown_as("largest error", relative)
+        .number("largest_error_mu", "1", move |code| {
+            Some(worst(*code)?.mu())
+        })
+        .means("floor friction μ of the row that has it")
+        .shown_as("at mu", friction)
+        .dispensable(2)
+        .number("largest_error_stiffness", "m g/r", move |code| {
+            Some(worst(*code)?.stiffness())
+        })
+        .means("stiffness of the row that has it")
+        .shown("stiffness")
+        .dispensable(1)
+        .rows(codes.clone())
+}
+
+/// The verdicts as columns of a summary.
+const VERDICTS: [(&str, &str, Verdict); 6] = [
+    ("agrees", "number of rows that agree", Verdict::Agrees),
+    ("differs", "number of rows that differ", Verdict::Differs),
+    (
+        "inconclusive",
+        "number of inconclusive rows",
+        Verdict::Inconclusive,
+    ),
+    ("no_yield", "number of rows without yield", Verdict::NoYield),
+    (
+        "failed",
+        "number of rows whose code failed",
+        Verdict::Failed,
+    ),
+    (
+        "missing",
+        "number of rows whose code is neither installed nor recorded",
+        Verdict::Missing,
+    ),
+];
 
 /// The parts of the uncertainty of every row, and the convergence of its runs.
 pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
@@ -215,5 +306,6 @@ fn codes(judgements: &[Judgement]) -> DataTable<'_> {
             row.study.convention.arms.floor.to_string()
         })
         .left("evidence", |row| Evidence::of(row).as_str().to_owned())
+        .dispensable(1)
         .rows(rows)
 }

@@ -3,10 +3,10 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, declared_explanations,
-    forecasts, impacts, inventory, judged_series, largest_forces, measured_convention,
-    passport_changes, passport_forces, planned_runs, probe, pyramids, regimes, scaling,
-    simulations, theory, trajectories,
+    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, crosscheck_summary,
+    declared_explanations, forecasts, impacts, inventory, judged_series, largest_forces,
+    measured_convention, passport_changes, passport_forces, planned_runs, probe, pyramids, regimes,
+    scaling, simulations, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -70,6 +70,7 @@ pub fn formats_page() -> String {
 pub(super) fn json_tables() -> Vec<DataTable<'static>> {
     let mut tables = vec![
         crosscheck(&[]),
+        crosscheck_summary(&[]),
         budget(&[]),
         trajectories(&[]),
         impacts(&[]),

@@ -63,21 +63,26 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
          same convention, run by run",
     )
     .shown("reference")
+    .dispensable(1)
     .number("exact", "1", |row| {
         let found = measured(row).map(|own| own.exact);
         found.filter(|_| row.grounds.is_judged())
     })
     .means("exact value under the convention of the code, in the unit of the quantity")
     .shown_as("exact", digits::<8>)
+    .dispensable(4)
     .number("measured", "1", |row| Some(measured(row)?.measured))
     .means("the same as measured, extrapolated to vanishing time step")
     .shown_as("measured", digits::<8>)
+    .dispensable(5)
     .number("error", "1", |row| Some(row.judged()?.error))
     .means("measured minus exact, over exact; beside a twin the differences at equal time steps, extrapolated")
     .shown_as("error", relative)
+    .dispensable(6)
     .number("uncertainty", "1", uncertainty)
     .means("sum of the following parts")
     .shown_as("±", one_digit)
+    .dispensable(3)
     .number("time_step", "1", |row| Some(measured(row)?.budget.time_step))
     .means("change by the last order in the time step that the extrapolation removes")
     .number("sign_change", "1", |row| {
@@ -95,6 +100,7 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .number("tolerance", "1", |row| row.tolerance())
     .means("largest error that agrees")
     .shown_as("tolerance", one_digit)
+    .dispensable(2)
     .verdict(|row| row.verdict())
     .rows(judgements)
 }

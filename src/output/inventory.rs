@@ -34,6 +34,7 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     })
     .means("distribution package and its version")
     .shown("package")
+    .dispensable(2)
     .convention(|(code, _)| code.is_settled().then(|| code.convention()))
     .right("pair arm", |(code, _)| {
         arms(*code, code.convention().arms.pair)
@@ -45,6 +46,7 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .means("SHA-256 of the deck")
     .shown("deck")
     .cell(|(code, _)| code.files_hash(TaskKind::Stack)[..12].to_owned())
+    .dispensable(1)
     .text("install", |(code, _)| code.installation_hint())
     .means("how to install it")
     .rows(rows)

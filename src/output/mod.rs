@@ -13,6 +13,7 @@ mod forecast;
 mod formats;
 mod impact;
 mod inventory;
+pub(crate) mod junit;
 mod laws;
 mod number;
 mod page;
@@ -42,7 +43,9 @@ pub(crate) use atlas::{Problem, atlas_files, atlas_table};
 pub(crate) use bench::{bench, bench_machine, bench_markdown, scaling};
 pub(crate) use case_file::commented_case;
 pub(crate) use check::{check, check_text};
-pub(crate) use crosscheck::{budget, crosscheck, crosscheck_markdown, crosscheck_text};
+pub(crate) use crosscheck::{
+    budget, crosscheck, crosscheck_markdown, crosscheck_summary, crosscheck_text,
+};
 pub(crate) use difference::{passport_changes, passport_forces};
 pub(crate) use explain::explanation;
 pub(crate) use explained::{declared_explanations, explained};
@@ -66,7 +69,7 @@ pub(crate) use series::{judged_series, judged_series_text};
 pub(crate) use series_columns::series_columns;
 pub(crate) use simulation::{simulations, unfinished};
 pub(crate) use start_list::{parallel_list, slurm_array, start_list};
-pub(crate) use table::json;
+pub(crate) use table::{json, wrapped_to_screen};
 pub(crate) use theory::{theories_by_stack, theory};
 pub(crate) use trajectory::{trajectories, trajectories_markdown, trajectories_text};
 pub(crate) use vtk::{VTK_COLLECTION, is_vtk_collection, is_vtk_row};

@@ -47,6 +47,7 @@ pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
             let found = own.find(|one| one.code == code && one.property == *property);
             found.map_or_else(|| "-".to_owned(), cell)
         });
+        columns = columns.with_verdicts();
     }
     columns.rows(properties).shown()
 }

@@ -219,9 +219,13 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         .source(|own| own.source)
         .shown("source")
         .right("peak at", move |own| time(own, 0))
+        .dispensable(3)
         .right("wall lost at", move |own| time(own, 1))
+        .dispensable(2)
         .right("landed at", move |own| time(own, 2))
+        .dispensable(1)
         .left("verdict", |own| tally(own))
+        .with_verdicts()
         .rows(judgements)
 }
 
@@ -251,18 +255,26 @@ fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         .left("branch", |(_, own)| own.branch.as_str().to_owned())
         .left("quantity", |(_, own)| own.quantity.as_str().to_owned())
         .right("largest at dt", move |(_, own)| largest(own, 0))
+        .dispensable(4)
         .right("at dt/2", move |(_, own)| largest(own, 1))
+        .dispensable(5)
         .right("at dt/4", move |(_, own)| largest(own, 2))
+        .dispensable(6)
         .right("order", |(_, own)| {
             optional(own.last_order(), |order| format!("{order:.2}"))
         })
+        .dispensable(7)
         .left("documented", |(_, own)| {
             own.documented.order.as_str().to_owned()
         })
+        .dispensable(3)
         .right("round-off", |(_, own)| {
             optional(own.distances.last(), |own| small(own.round_off))
         })
+        .dispensable(1)
         .right("step error", |(_, own)| small(own.step_error))
+        .dispensable(2)
         .left("verdict", |(_, own)| own.verdict().to_string())
+        .with_verdicts()
         .rows(rows)
 }

@@ -24,6 +24,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// All of them, from best to worst.
+    pub const ALL: [Self; 6] = [
+        Self::Agrees,
+        Self::Inconclusive,
+        Self::Differs,
+        Self::NoYield,
+        Self::Missing,
+        Self::Failed,
+    ];
+
     /// The verdict on a number that is off by `error`, known to `uncertainty`, where `tolerance` is allowed.
     pub fn of(error: f64, uncertainty: f64, tolerance: f64) -> Self {
         if error.abs() > tolerance.max(uncertainty) {

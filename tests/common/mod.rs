@@ -96,6 +96,8 @@ impl Bench {
             .env("TRISTACK_STORE", self.path("store"))
             .env("TMPDIR", self.root.path())
             .env_remove("TRISTACK_REFERENCE")
+            .env_remove("COLUMNS")
+            .env_remove("CLICOLOR_FORCE")
             .current_dir(self.root.path());
         command
     }

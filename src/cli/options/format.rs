@@ -1,7 +1,7 @@
 //! `--format`.
 
 use crate::cli::{ExitStatus, print};
-use crate::output::{DataTable, json};
+use crate::output::{DataTable, json, wrapped_to_screen};
 use clap::ValueEnum;
 
 /// The format of printed results.
@@ -26,7 +26,7 @@ impl Format {
     ) -> ExitStatus {
         print(&match self {
             Self::Table if tables.iter().all(DataTable::is_empty) => String::new(),
-            Self::Table => people(),
+            Self::Table => wrapped_to_screen(people()),
             Self::Json => json(tables, command),
             Self::Csv => tables.first().map_or_else(String::new, DataTable::csv),
         })

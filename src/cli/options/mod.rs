@@ -4,18 +4,24 @@ mod codes;
 mod convention;
 mod flag;
 mod format;
+mod friction;
 mod numbers;
+mod rows;
 mod runs;
 mod stack;
+mod values;
 
 pub(super) use super::code_names::CodeParser;
 pub(super) use codes::{CodeOptions, find_all, selected_codes, tell_stand_ins};
 pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;
+pub(super) use friction::{FRICTION, FRICTIONS, Friction, STIFFNESSES, Stiffness};
 pub(super) use numbers::{number, positive, seconds, whole};
+pub(super) use rows::RowOptions;
 pub(super) use runs::{RunOptions, recording_directory, time_limit};
-pub(super) use stack::{Friction, OneStackOptions, StackListOptions, StackOptions, friction};
+pub(super) use stack::{OneStackOptions, StackListOptions, StackOptions};
+pub(super) use values::{GRAMMAR, Values, single};
 
 use clap::Args;
 

@@ -1,7 +1,9 @@
 //! The stack: friction, stiffness, stiffness ratio, or the material that they follow from.
 
 use super::flag::as_flag;
+use super::friction::{FRICTION, FRICTIONS, Friction, STIFFNESS, STIFFNESSES, Stiffness};
 use super::numbers::number;
+use super::values::{Values, single};
 use crate::model::{InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack};
 use clap::Args;
 
@@ -125,18 +127,18 @@ impl MaterialOptions {
 /// The parameters of one stack.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct OneStackOptions {
-    /// Floor friction; a number or the word `critical`
-    #[arg(long, value_parser = friction, requires = "hardness", allow_negative_numbers = true)]
+    #[arg(long, help = FRICTION, value_parser = single::<Friction>, requires = "hardness", allow_negative_numbers = true)]
     mu: Option<Friction>,
-    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g)
     #[arg(
         long,
+        help = STIFFNESS,
         value_name = "S",
+        value_parser = single::<Stiffness>,
         group = "hardness",
         requires = "mu",
         allow_negative_numbers = true
     )]
-    stiffness: Option<f64>,
+    stiffness: Option<Stiffness>,
     #[command(flatten)]
     others: StackOptions,
     #[command(flatten)]
@@ -147,25 +149,28 @@ impl OneStackOptions {
     /// The checked stack, in a law of this power.
     pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
-        let stiffness = self.stiffness.or_else(|| self.material.stiffness());
+        let own = self.stiffness.map(|stiffness| stiffness.0);
+        let stiffness = own.or_else(|| self.material.stiffness());
         let mu = self.mu.unwrap_or(Friction::Number(f64::NAN));
         others.stack(mu, stiffness.unwrap_or(f64::NAN), power)
     }
 }
 
-/// The parameters of several stacks other than floor friction.
+/// The parameters of several stacks.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct StackListOptions {
-    /// Stiffness k_n r/(m g), of a law of power p K r^p/(m g); one or several, separated by commas
+    #[arg(id = "mu", long = "mu", help = FRICTIONS, value_name = "MU", value_parser = Values::<Friction>::parse, allow_negative_numbers = true)]
+    frictions: Values<Friction>,
     #[arg(
         id = "stiffness",
         long = "stiffness",
+        help = STIFFNESSES,
         required_unless_present = "youngs",
-        value_name = "S1,S2",
-        value_delimiter = ',',
+        value_name = "S",
+        value_parser = Values::<Stiffness>::parse,
         allow_negative_numbers = true
     )]
-    stiffnesses: Vec<f64>,
+    stiffnesses: Option<Values<Stiffness>>,
     #[command(flatten)]
     others: StackOptions,
     #[command(flatten)]
@@ -175,10 +180,12 @@ pub(in crate::cli) struct StackListOptions {
 impl StackListOptions {
     /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
     /// fastest.
-    pub fn stacks(&self, frictions: &[Friction], power: Power) -> Result<Vec<Stack>, InvalidValue> {
+    pub fn stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
-        let material = self.material.stiffness();
-        let stiffnesses: Vec<f64> = self.stiffnesses.iter().copied().chain(material).collect();
+        let material = self.material.stiffness().map(Stiffness);
+        let own = self.stiffnesses.iter().flat_map(|values| &values.0);
+        let stiffnesses: Vec<Stiffness> = own.copied().chain(material).collect();
+        let frictions = &self.frictions.0;
         let count = frictions.len().saturating_mul(stiffnesses.len());
         if count > MOST_STACKS {
             return Err(InvalidValue {
@@ -190,47 +197,8 @@ impl StackListOptions {
         let stacks = stiffnesses.iter().flat_map(|&stiffness| {
             let frictions = frictions.iter();
             let others = &others;
-            frictions.map(move |&mu| others.stack(mu, stiffness, power))
+            frictions.map(move |&mu| others.stack(mu, stiffness.0, power))
         });
         stacks.collect()
     }
-}
-
-/// A floor friction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cli) enum Friction {
-    /// This number.
-    Number(f64),
-    /// The rigid critical friction of the stack.
-    Critical,
-}
-
-impl Friction {
-    /// The friction for this stack.
-    pub fn of(self, stack: &Stack) -> f64 {
-        match self {
-            Self::Number(number) => number,
-            Self::Critical => match stack.validate_bodies() {
-                Ok(()) => stack.ring().critical_friction,
-                Err(_) => f64::NAN,
-            },
-        }
-    }
-
-    /// The friction for cylinders.
-    pub fn of_cylinders(self) -> f64 {
-        self.of(&Stack::paper(f64::NAN, f64::NAN))
-    }
-}
-
-/// Reads `--mu`: a number, or the word `critical`.
-pub(in crate::cli) fn friction(text: &str) -> Result<Friction, String> {
-    if text == "critical" {
-        return Ok(Friction::Critical);
-    }
-    text.parse().map(Friction::Number).map_err(|_| {
-        "accepted are a number above 0 and the word `critical` (2 - sqrt 3 of cylinders, sqrt 3 - sqrt 2 of three \
-         spheres, sqrt 2 - 1 of four)"
-            .to_owned()
-    })
 }

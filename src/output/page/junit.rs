@@ -1,21 +1,16 @@
 //! All verdicts as JUnit XML, for continuous integration.
 
 use crate::output::friction;
+use crate::output::junit::{document, row, status, suite};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::Reproduction;
-use crate::study::Verdict;
-use crate::study::yield_force::Judgement;
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::{TestCase, TestCaseStatus, TestSuite};
 
 /// One suite for each kind of verdict. A claim that does not hold is a result, not a failed test: its case passes and
 /// names the verdict. A claim that cannot be tested is skipped.
 pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
-    let mut report = Report::new("tristack report");
-    let mut add_suite = |name: &str, cases: Vec<TestCase>| {
-        let mut suite = TestSuite::new(name);
-        suite.add_test_cases(cases);
-        report.add_test_suite(suite);
-    };
+    let mut suites: Vec<TestSuite> = Vec::new();
+    let mut add_suite = |name: &str, cases: Vec<TestCase>| suites.push(suite(name, cases));
     let parts = [
         ("yield_curves", &reproduction.yield_curves),
         ("scaling", &reproduction.scaling),
@@ -45,24 +40,7 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
     });
     add_suite("trajectories", trajectories.collect());
     add_suite("claims", claims.iter().map(claim).collect());
-    report.to_string().expect("plain text has an XML form") + "\n"
-}
-
-fn row(row: &Judgement) -> TestCase {
-    let (mu, stiffness) = (friction(row.mu()), row.stiffness());
-    let name = format!("{} at mu = {mu}, stiffness = {stiffness}", row.code);
-    TestCase::new(name, status(row.verdict(), &row.reason()))
-}
-
-fn status(verdict: Verdict, text: &str) -> TestCaseStatus {
-    let mut status = match verdict {
-        Verdict::Agrees => return TestCaseStatus::success(),
-        Verdict::Differs => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        Verdict::Failed | Verdict::NoYield => TestCaseStatus::non_success(NonSuccessKind::Error),
-        Verdict::Inconclusive | Verdict::Missing => TestCaseStatus::skipped(),
-    };
-    status.set_type(verdict.as_str()).set_message(text);
-    status
+    document("tristack report", suites)
 }
 
 fn claim(judged: &ClaimJudgement) -> TestCase {

@@ -43,6 +43,11 @@ pub(super) struct Column<'a, R> {
     digits: fn(f64) -> String,
     /// Text for people in place of the value.
     cell: Option<CellOf<'a, R>>,
+    /// Its place among the columns that a narrow terminal leaves out, the first of which is 1; `None` for one that
+    /// always stays.
+    pub dispensable: Option<u8>,
+    /// Whether verdicts in its cells are coloured.
+    pub has_verdicts: bool,
 }
 
 impl<'a, R: 'a> Column<'a, R> {
@@ -73,6 +78,8 @@ impl<'a, R: 'a> Column<'a, R> {
             heading: self.heading,
             title: self.title,
             digits: self.digits,
+            dispensable: self.dispensable,
+            has_verdicts: self.has_verdicts,
         }
     }
 }
@@ -126,6 +133,8 @@ impl<'a, R: 'a> Columns<'a, R> {
             value: Box::new(move |row| value(row).into()),
             digits: |number| number.to_string(),
             cell: None,
+            dispensable: None,
+            has_verdicts: false,
         });
         self
     }
@@ -180,6 +189,18 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// Shows the column as `title` on a page with mathematics.
     pub(crate) fn titled(mut self, title: &'static str) -> Self {
         self.current().title = Some(title);
+        self
+    }
+
+    /// Leaves the column out of a terminal that is too narrow for all, in this `order`: the first to go has 1.
+    pub(crate) fn dispensable(mut self, order: u8) -> Self {
+        self.current().dispensable = Some(order);
+        self
+    }
+
+    /// Colours verdicts in its cells on a terminal.
+    pub(crate) fn with_verdicts(mut self) -> Self {
+        self.current().has_verdicts = true;
         self
     }
 
@@ -298,6 +319,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.text("verdict", move |row| verdict(row).as_str())
             .means(meaning)
             .shown("verdict")
+            .with_verdicts()
     }
 
     /// The table with these `rows`.

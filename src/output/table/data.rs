@@ -1,6 +1,7 @@
 //! Declared columns with rows, in every format.
 
 use super::columns::{Column, Columns, Schema};
+use super::look::TerminalLook;
 use super::{Table, Value};
 use crate::output::number::CRITICAL;
 use serde::{Serialize, Serializer};
@@ -42,7 +43,9 @@ impl DataTable<'_> {
     }
 
     /// The columns for people with their headings.
-    pub(super) fn headed(&self) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> {
+    pub(super) fn headed(
+        &self,
+    ) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> + Clone {
         let all = self.columns.iter();
         all.filter_map(|column| Some((column.heading?, column)))
     }
@@ -70,7 +73,12 @@ impl DataTable<'_> {
         for row in 0..self.rows {
             table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
         }
-        table
+        let columns = self.headed().map(|(_, column)| column);
+        table.on_terminals(TerminalLook {
+            dispensable: columns.clone().map(|column| column.dispensable).collect(),
+            with_verdicts: columns.map(|column| column.has_verdicts).collect(),
+            in_files: !self.schema.name.is_empty(),
+        })
     }
 
     /// The columns for people on a page with mathematics.

@@ -3,7 +3,10 @@
 mod columns;
 mod data;
 mod latex;
+mod look;
+mod screen;
 mod shown;
+mod terminal;
 mod units;
 mod value;
 
@@ -11,5 +14,6 @@ pub(crate) use columns::Columns;
 pub use data::DataTable;
 pub(crate) use data::json;
 pub(crate) use latex::document_of;
+pub(crate) use screen::wrapped_to_screen;
 pub use shown::Table;
 pub(crate) use value::Value;

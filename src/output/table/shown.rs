@@ -1,9 +1,14 @@
 //! A table of text cells for people, in every format.
 
 use super::latex::{LatexColumn, latex};
-use crate::model::readable_lines;
+use super::look::{Limits, TerminalLook};
 use crate::output::text::{html_attribute, html_text, markdown_cell};
-use comfy_table::{CellAlignment, ContentArrangement, TableStyle, presets};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, TableStyle, Width, presets,
+};
+
+/// Blanks on both sides of the content of a cell.
+const PADDING: usize = 2;
 
 /// Letters from which on a text is long for a column.
 const LONG_TEXT: usize = 60;
@@ -11,12 +16,13 @@ const LONG_TEXT: usize = 60;
 /// Named columns and rows of cells. In a cell `…` between backticks is code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
-    headings: Vec<String>,
+    pub(super) headings: Vec<String>,
     /// Whether a column holds numbers, aligned to the right.
-    numeric: Vec<bool>,
-    rows: Vec<Vec<String>>,
+    pub(super) numeric: Vec<bool>,
+    pub(super) rows: Vec<Vec<String>>,
     /// Anchors of the rows on a page; none, or one for each row.
-    anchors: Vec<String>,
+    pub(super) anchors: Vec<String>,
+    pub(super) look: TerminalLook,
 }
 
 impl Table {
@@ -28,6 +34,7 @@ impl Table {
             numeric,
             rows: Vec::new(),
             anchors: Vec::new(),
+            look: TerminalLook::default(),
         }
     }
 
@@ -36,6 +43,11 @@ impl Table {
         self.anchors = anchors.into_iter().collect();
         debug_assert_eq!(self.anchors.len(), self.rows.len());
         self
+    }
+
+    /// The table with this look on terminals.
+    pub(super) fn on_terminals(self, look: TerminalLook) -> Self {
+        Self { look, ..self }
     }
 
     /// Adds a row of as many cells as there are columns.
@@ -48,18 +60,18 @@ impl Table {
         self.rows.len()
     }
 
-    /// The table for a terminal.
-    pub fn terminal(&self) -> String {
-        self.drawn(presets::UTF8_FULL_CONDENSED, readable_lines)
-    }
-
     /// The table in Markdown.
     pub(crate) fn markdown(&self) -> String {
-        self.drawn(presets::ASCII_MARKDOWN, markdown_cell)
+        self.drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
     }
 
-    /// The table for a terminal or in Markdown, where only the latter has anchors.
-    fn drawn(&self, style: TableStyle, escaped: fn(&str) -> String) -> String {
+    /// The table in this style, within `limits` if there are any. Only Markdown has anchors.
+    pub(super) fn drawn(
+        &self,
+        style: TableStyle,
+        escaped: fn(&str) -> String,
+        limits: Option<&Limits>,
+    ) -> String {
         let cells = |cells: &[String]| -> Vec<String> {
             let cells = cells.iter().map(|cell| escaped(cell));
             cells.collect()
@@ -80,6 +92,15 @@ impl Table {
         for (column, numeric) in table.column_iter_mut().zip(&self.numeric) {
             if *numeric {
                 column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        if let Some(limits) = limits {
+            let columns = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
+            table.set_content_arrangement(ContentArrangement::Dynamic);
+            table.set_width(columns(limits.width));
+            for (column, least) in table.column_iter_mut().zip(&limits.least) {
+                let padded = columns(least + PADDING);
+                column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(padded)));
             }
         }
         let lines: Vec<String> = table

@@ -1,0 +1,66 @@
+//! Verdicts as JUnit XML, for continuous integration.
+
+use super::number::friction;
+use crate::study::Verdict;
+use crate::study::yield_force::{JudgedSeries, Judgement};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+/// The rows of a crosscheck, a suite for each code.
+pub(crate) fn of_rows(name: &str, judgements: &[Judgement]) -> String {
+    let mut codes: Vec<&str> = Vec::new();
+    for row in judgements {
+        if !codes.contains(&row.code.as_str()) {
+            codes.push(row.code.as_str());
+        }
+    }
+    let suites = codes.into_iter().map(|code| {
+        let own = judgements.iter().filter(|row| row.code.as_str() == code);
+        suite(code, own.map(row))
+    });
+    document(name, suites)
+}
+
+/// Series that were judged without a plan: a suite of one test.
+pub(crate) fn of_series(name: &str, judged: &JudgedSeries) -> String {
+    let stack = &judged.measurement.stack;
+    let reason = judged.grounds.reason();
+    let place = place(stack.floor_friction, stack.stiffness);
+    let case = TestCase::new(place, status(judged.grounds.verdict(), &reason));
+    document(name, [suite("series", [case])])
+}
+
+/// A document of `suites`.
+pub(super) fn document(name: &str, suites: impl IntoIterator<Item = TestSuite>) -> String {
+    let mut report = Report::new(name);
+    report.add_test_suites(suites);
+    report.to_string().expect("plain text has an XML form") + "\n"
+}
+
+/// A suite of `cases`.
+pub(super) fn suite(name: &str, cases: impl IntoIterator<Item = TestCase>) -> TestSuite {
+    let mut suite = TestSuite::new(name);
+    suite.add_test_cases(cases);
+    suite
+}
+
+/// A row of a crosscheck.
+pub(super) fn row(row: &Judgement) -> TestCase {
+    let name = format!("{} at {}", row.code, place(row.mu(), row.stiffness()));
+    TestCase::new(name, status(row.verdict(), &row.reason()))
+}
+
+fn place(mu: f64, stiffness: f64) -> String {
+    format!("mu = {}, stiffness = {stiffness}", friction(mu))
+}
+
+/// The result of a test with this verdict, and what there is to say about it.
+pub(super) fn status(verdict: Verdict, text: &str) -> TestCaseStatus {
+    let mut status = match verdict {
+        Verdict::Agrees => return TestCaseStatus::success(),
+        Verdict::Differs => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        Verdict::Failed | Verdict::NoYield => TestCaseStatus::non_success(NonSuccessKind::Error),
+        Verdict::Inconclusive | Verdict::Missing => TestCaseStatus::skipped(),
+    };
+    status.set_type(verdict.as_str()).set_message(text);
+    status
+}

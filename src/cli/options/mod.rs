@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+mod amount;
 mod codes;
 mod convention;
 mod flag;
@@ -8,11 +9,12 @@ mod runs;
 mod stack;
 
 pub(super) use super::code_names::CodeParser;
+pub(super) use amount::{moment, size};
 pub(super) use codes::{CodeOptions, find_all, selected_codes, tell_stand_ins};
 pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;
-pub(super) use runs::{RunOptions, recording_directory, time_limit};
+pub(super) use runs::{RunOptions, StoreOptions, recording_directory, time_limit};
 pub(super) use stack::{Friction, OneStackOptions, StackListOptions, StackOptions, friction};
 
 use clap::Args;

@@ -214,7 +214,7 @@ fn prune(arguments: &PruneArguments, command: &str) -> Result<ExitStatus, CliErr
     if !arguments.dry_run && !chosen.is_empty() {
         let entries = chosen.iter().map(|content| content.entry.clone());
         let entries: Vec<StoredEntry> = entries.collect();
-        arguments.store.open()?.remove(&entries)?;
+        arguments.store.opened()?.remove(&entries)?;
     }
     let (removed, left) = (bytes(&chosen), total - bytes(&chosen));
     let verb = match arguments.dry_run {

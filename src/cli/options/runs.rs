@@ -44,7 +44,7 @@ impl RunOptions {
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         let jobs = self.jobs.or(std::thread::available_parallelism().ok());
         Ok(Settings {
-            store: self.store.open()?,
+            store: self.store.opened()?,
             recorded: recorded(),
             fresh: self.fresh,
             threads: jobs.map_or(1, usize::from),
@@ -56,7 +56,7 @@ impl RunOptions {
 
 impl StoreOptions {
     /// The store, which is created if there is none.
-    pub fn open(&self) -> Result<Store, CliError> {
+    pub fn opened(&self) -> Result<Store, CliError> {
         Ok(Store::open_as(&self.directory()?, self.sharing())?)
     }
 

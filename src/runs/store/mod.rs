@@ -67,7 +67,10 @@ pub enum StoreError {
         "nothing is removed from the store {}: {owner} is using it; wait until that has ended, or end it",
         shown(path)
     )]
-    InUse { path: PathBuf, owner: LockOwner },
+    InUse {
+        path: PathBuf,
+        owner: Box<LockOwner>,
+    },
     #[error(
         "nothing is removed from the store {}: {owner} began to use it, and whether it still does cannot be seen from here; \
          if it has ended, remove {}",
@@ -76,7 +79,7 @@ pub enum StoreError {
     )]
     InUseElsewhere {
         path: PathBuf,
-        owner: LockOwner,
+        owner: Box<LockOwner>,
         session: PathBuf,
     },
     #[error(

@@ -163,7 +163,9 @@ impl Session {
                 continue;
             };
             let path = self.root.clone();
-            return Err(match owner.host == state.claims.owner.host {
+            let is_here = owner.host == state.claims.owner.host;
+            let owner = Box::new(owner);
+            return Err(match is_here {
                 true => StoreError::InUse { path, owner },
                 false => StoreError::InUseElsewhere {
                     path,

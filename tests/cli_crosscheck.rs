@@ -395,6 +395,8 @@ fn the_explanation_of_a_row_is_json_too() {
         assert!(share < 1.0, "{run}");
     }
     assert_eq!(rows("explanation")[0]["arms"], "measured");
+}
+
 fn places(rows: &[serde_json::Value]) -> Vec<(f64, f64)> {
     let number = |row: &serde_json::Value, key: &str| row[key].as_f64().expect("a number");
     let places = rows

@@ -6,6 +6,7 @@ mod check;
 mod code_names;
 mod codes;
 mod command_line;
+mod completions;
 mod convention;
 mod crosscheck;
 mod error;
@@ -15,6 +16,7 @@ mod impacts;
 mod interrupt;
 mod judge;
 mod judge_series;
+mod man;
 mod options;
 mod out;
 mod passport;
@@ -30,9 +32,11 @@ mod report;
 mod schema;
 mod simulate;
 mod stack_set;
+mod store;
 mod streams;
 mod sweep;
 mod theory;
+mod time;
 mod trajectories;
 
 pub use error::{CliError, ExitStatus};
@@ -84,9 +88,27 @@ enum Command {
     Judge(judge::Arguments),
     Predict(predict::Arguments),
     Bench(bench::Arguments),
+    Time(time::Arguments),
+    Store(store::Arguments),
     Schema(schema::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
     #[command(name = GUARD_COMMAND, hide = true)]
     Guard(guard::Arguments),
+}
+
+/// The grammar for readers and shells: without what the program asks of itself.
+fn public_grammar() -> clap::Command {
+    let all = grammar();
+    let visible = all.get_subcommands().filter(|own| !own.is_hide_set());
+    let about = all.get_about().cloned().unwrap_or_default();
+    let after = all.get_after_help().cloned().unwrap_or_default();
+    clap::Command::new("tristack")
+        .version(env!("CARGO_PKG_VERSION"))
+        .about(about)
+        .after_help(after)
+        .args(all.get_arguments().cloned())
+        .subcommands(visible.cloned())
 }
 
 /// Parses the command line `arguments`, the first of which is the program, without running it.
@@ -162,7 +184,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         Command::Judge(arguments) => judge::run(&arguments, command),
         Command::Predict(arguments) => predict::run(&arguments, command),
         Command::Bench(arguments) => bench::run(&arguments, command),
+        Command::Time(arguments) => time::run(&arguments, command),
+        Command::Store(arguments) => store::run(&arguments, command),
         Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Guard(arguments) => guard::run(&arguments),
     }
 }

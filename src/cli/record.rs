@@ -37,7 +37,7 @@ enum Set {
 /// Runs crosscheck, trajectories, probe and report with the external codes. For each code, writes CODE.csv with
 /// a summary and the provenance of every run, and CODE.tar.gz with the series of the trajectories and the
 /// answers to the probe. They go to the directory that TRISTACK_REFERENCE names, or to reference/recorded of the
-/// checkout, from which the next build of the program embeds them.
+/// checkout in which the command is given, from which the next build of the program embeds them.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub(super) struct Arguments {

@@ -342,6 +342,11 @@ impl Code {
         self.definition().seconds.step
     }
 
+    /// Duration of a start in seconds, about.
+    pub(crate) fn start_seconds(self) -> f64 {
+        self.definition().seconds.start
+    }
+
     /// Time after which a run of `steps` steps counts as hanging.
     pub(crate) fn time_limit(self, steps: u64) -> Duration {
         self.definition().time_limit(steps)

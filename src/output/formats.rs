@@ -3,10 +3,11 @@
 use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
-    arm_effects, atlas_table, bench, boundaries, budget, check, crosscheck, crosscheck_summary,
-    declared_explanations, forecasts, impacts, inventory, judged_series, largest_forces,
-    measured_convention, passport_changes, passport_forces, planned_runs, probe, pyramids, regimes,
-    scaling, simulations, theory, trajectories,
+    all_durations, arm_effects, atlas_table, bench, boundaries, budget, check, code_durations,
+    crosscheck, crosscheck_summary, declared_explanations, forecasts, impacts, inventory,
+    judged_series, largest_forces, measured_convention, passport_changes, passport_forces,
+    planned_runs, probe, pyramids, regimes, scaling, simulations, stored, stored_entries,
+    stored_files, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -92,6 +93,11 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         pyramids(&[]),
         inventory(&[]),
         planned_runs(&[], &[]),
+        code_durations(&[]),
+        all_durations(&[]),
+        stored(&[]),
+        stored_entries(&[]),
+        stored_files(&[]),
     ];
     tables.extend(declared_explanations());
     tables.extend(judged_series(None));

@@ -1,7 +1,7 @@
 //! Entries: runs on disk, each a directory that is written completely before it is renamed into place.
 
 use super::summary::{ESTIMATOR, RunSummary};
-use crate::code::Run;
+use crate::code::{Provenance, Run};
 use crate::files::{
     CHECKSUMS, FileError, Links, check, checksums, create_parent, kind, locked_directory,
     parse_json, read_bounded, read_sealed, seal, sync_directory, write_sealed, write_synced,
@@ -17,9 +17,33 @@ use std::path::Path;
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
+/// Beginning of the name of a summary, which goes on with a digest of the sources that made it.
+const SUMMARY: &str = "summary-";
+const SUMMARY_DIGEST: usize = 16;
+const ENDING: &str = ".json";
 const DRAFT: &str = ".draft-";
 /// Largest file of an entry that is read, in bytes: four times the longest result of a code.
 const LARGEST: u64 = 1 << 30;
+
+/// Whether an entry has a file called `name`: its own four, and a summary for each version of the sources that read it.
+pub(super) fn is_entry_file(name: &str) -> bool {
+    let summary = name.strip_prefix(SUMMARY);
+    let digest = summary.and_then(|rest| rest.strip_suffix(ENDING));
+    let is_summary = digest.is_some_and(|digest| {
+        digest.len() == SUMMARY_DIGEST && digest.bytes().all(|byte| byte.is_ascii_hexdigit())
+    });
+    is_summary || [CASE, SERIES, PROVENANCE, CHECKSUMS].contains(&name)
+}
+
+/// Reads the case and the provenance of the entry in `directory`, without its series and unchecked.
+///
+/// # Errors
+/// If one of them is missing or malformed.
+pub(crate) fn read_origin(directory: &Path) -> Result<(Case, Provenance), FileError> {
+    let (case, provenance) = (directory.join(CASE), directory.join(PROVENANCE));
+    let parsed = Case::parse(&read(&case)?, &case)?;
+    Ok((parsed, parse_json(&read(&provenance)?, &provenance)?))
+}
 
 /// Reads the entry in `directory`; `None` if there is none.
 ///
@@ -93,7 +117,7 @@ struct KeptSummary {
 
 /// The file with the summary. It belongs to the sources that made it.
 fn summary_file() -> String {
-    format!("summary-{}.json", &ESTIMATOR[..16])
+    format!("{SUMMARY}{}{ENDING}", &ESTIMATOR[..SUMMARY_DIGEST])
 }
 
 fn summary_json(summary: &RunSummary, checksums: &[u8]) -> Vec<u8> {

@@ -7,6 +7,7 @@ use crate::model::{ContactTest, ImpactTarget, sha256_hex};
 use crate::series::Rebound;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::path::Path;
 use std::sync::LazyLock;
 
 /// Digest of the sources that read an impact off its motion.
@@ -56,6 +57,14 @@ pub struct ImpactReading {
 struct Kept {
     run: ImpactRun,
     reading: ImpactReading,
+}
+
+/// The impact in the `text` of the result at `path`, and the program that made it.
+///
+/// # Errors
+/// If it is malformed.
+pub(super) fn read_impact(text: &[u8], path: &Path) -> Result<(ImpactRun, Identity), FileError> {
+    parse_json::<Kept>(text, path).map(|kept| (kept.run, kept.reading.identity))
 }
 
 impl ImpactRun {

@@ -5,6 +5,7 @@ use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext, 
 use crate::dem::{EventRun, Observation};
 use crate::files::{FileError, parse_json};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// An event run with its observation, as it is kept.
 #[derive(Serialize, Deserialize)]
@@ -12,6 +13,14 @@ use serde::{Deserialize, Serialize};
 struct ObservedRun {
     run: EventRun,
     observation: Observation,
+}
+
+/// The event run in the `text` of the result at `path`.
+///
+/// # Errors
+/// If it is malformed.
+pub(super) fn observed_run(text: &[u8], path: &Path) -> Result<EventRun, FileError> {
+    parse_json::<ObservedRun>(text, path).map(|kept| kept.run)
 }
 
 impl ScheduledTask for EventRun {

@@ -1,8 +1,8 @@
 //! Micro-tests with their outcomes, kept so that a code need not be probed twice.
 
-use crate::code::Provenance;
+use crate::code::{InstalledCode, Provenance, TaskKind};
 use crate::files::{FileError, parse_json};
-use crate::model::ContactTest;
+use crate::model::{ContactTest, sha256_hex};
 use crate::series::Motion;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -27,6 +27,14 @@ pub struct Answer {
     pub input_hash: String,
     /// The outcome.
     pub motion: Motion,
+}
+
+/// The address of the record of `code`: that of its identity and of its decks.
+pub(crate) fn probe_address(code: &dyn InstalledCode) -> String {
+    let decks = [TaskKind::Motion, TaskKind::SpheresMotion];
+    let decks = decks.map(|kind| code.name().files_hash(kind));
+    let parts = serde_json::json!([code.identity(), decks]);
+    sha256_hex(parts.to_string().as_bytes())
 }
 
 /// Spins to the slip threshold are measured, and may differ between machines in the last of their eleven

@@ -5,7 +5,9 @@ use super::convention::{
 };
 use super::verdict::{Ground, Grounds, Verdict};
 use crate::code::{Code, ConventionKey, Identity, InstalledCode};
-use crate::runs::{Progress, Reading, RunError, SelectedCode, Settings, Workload, read_all};
+use crate::runs::{
+    Outlook, Progress, Reading, RunError, SelectedCode, Settings, Workload, outlook, read_all,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
@@ -208,6 +210,12 @@ impl<'a> Campaign<'a> {
             self.judge(study, results)
         });
         judged.flatten().collect()
+    }
+
+    /// What carrying out `studies` would do, beside the micro-tests.
+    pub(crate) fn outlook<S: Study>(&self, studies: &[S]) -> Outlook {
+        let workloads: Vec<Workload<TaskOf<S>>> = studies.iter().flat_map(S::workloads).collect();
+        outlook::<S::Reading>(&workloads, self.codes, self.settings)
     }
 
     fn judge<S: Study>(

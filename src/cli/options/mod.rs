@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+mod amount;
 mod codes;
 mod convention;
 mod flag;
@@ -12,6 +13,7 @@ mod stack;
 mod values;
 
 pub(super) use super::code_names::CodeParser;
+pub(super) use amount::{moment, size};
 pub(super) use codes::{CodeOptions, find_all, selected_codes, tell_stand_ins};
 pub(super) use convention::{ConventionOptions, power};
 pub(super) use flag::as_flag;
@@ -19,7 +21,7 @@ pub(super) use format::Format;
 pub(super) use friction::{FRICTION, FRICTIONS, Friction, STIFFNESSES, Stiffness};
 pub(super) use numbers::{number, positive, seconds, whole};
 pub(super) use rows::RowOptions;
-pub(super) use runs::{RunOptions, recording_directory, time_limit};
+pub(super) use runs::{RunOptions, StoreOptions, recording_directory, time_limit};
 pub(super) use stack::{OneStackOptions, StackListOptions, StackOptions};
 pub(super) use values::{GRAMMAR, Values, single};
 

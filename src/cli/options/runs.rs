@@ -5,7 +5,7 @@ use crate::cli::{CliError, INTERRUPT};
 use crate::model::InvalidValue;
 use crate::runs::{Recorded, Settings, Sharing, Store};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// The environment variable with the directory of recorded runs.
@@ -13,15 +13,22 @@ const REFERENCE: &str = "TRISTACK_REFERENCE";
 /// More runs at the same time than any machine has cores.
 const MOST_JOBS: u16 = 4096;
 
-/// The store of runs, and how runs are carried out.
+/// The store of runs.
 #[derive(Debug, Clone, Default, Args)]
-pub(in crate::cli) struct RunOptions {
+pub(in crate::cli) struct StoreOptions {
     /// Store of finished runs: a new or empty directory, or a store of yours [default: $TRISTACK_STORE, else tristack in the user's cache directory]
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
     /// Accept a store that other users may write to, and believe what is in it
     #[arg(long)]
     pub shared_store: bool,
+}
+
+/// The store of runs, and how runs are carried out.
+#[derive(Debug, Clone, Default, Args)]
+pub(in crate::cli) struct RunOptions {
+    #[command(flatten)]
+    pub store: StoreOptions,
     /// Run everything again instead of reusing runs from the store
     #[arg(long)]
     pub fresh: bool,
@@ -37,13 +44,9 @@ pub(in crate::cli) struct RunOptions {
 impl RunOptions {
     /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
-        let sharing = match self.shared_store {
-            true => Sharing::Shared,
-            false => Sharing::Private,
-        };
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Ok(Settings {
-            store: Store::open_as(&self.store_directory()?, sharing)?,
+            store: self.store.opened()?,
             recorded: recorded(),
             fresh: self.fresh,
             threads: self.jobs.unwrap_or_else(cores),
@@ -51,8 +54,24 @@ impl RunOptions {
             interrupt: &INTERRUPT,
         })
     }
+}
 
-    fn store_directory(&self) -> Result<PathBuf, InvalidValue> {
+impl StoreOptions {
+    /// The store, which is created if there is none.
+    pub fn opened(&self) -> Result<Store, CliError> {
+        Ok(Store::open_as(&self.directory()?, self.sharing())?)
+    }
+
+    /// Who may write to the store.
+    pub fn sharing(&self) -> Sharing {
+        match self.shared_store {
+            true => Sharing::Shared,
+            false => Sharing::Private,
+        }
+    }
+
+    /// The directory of the store, which may be absent.
+    pub fn directory(&self) -> Result<PathBuf, InvalidValue> {
         let from_environment = || directory_from("TRISTACK_STORE");
         let from_cache = || dirs::cache_dir().map(|cache| cache.join("tristack"));
         let chosen = self.store.clone().or_else(from_environment);
@@ -81,18 +100,17 @@ fn recorded() -> Recorded {
     directory.map_or_else(Recorded::embedded, |directory| Recorded::new(&directory))
 }
 
-/// The directory that `record` writes to: the one that `TRISTACK_REFERENCE` names, or else that of the checkout
-/// from which the program was built.
+/// The directory that `record` writes to: the one that `TRISTACK_REFERENCE` names, or else that of the checkout in which
+/// the program is run. The program does not know where it was built, so that it can be passed on.
 pub(in crate::cli) fn recording_directory() -> Result<PathBuf, InvalidValue> {
-    let of_checkout = || {
-        let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
-        reference.is_dir().then(|| reference.join("recorded"))
-    };
+    let recorded = PathBuf::from("reference/recorded");
+    let of_checkout = || recorded.is_dir().then_some(recorded);
     let directory = directory_from(REFERENCE).or_else(of_checkout);
     directory.ok_or_else(|| InvalidValue {
         key: REFERENCE.to_owned(),
         value: "absent".to_owned(),
-        accepted: "a directory: the checkout that tristack was built from is not here".to_owned(),
+        accepted: "a directory: the current directory is no checkout of tristack, which has reference/recorded"
+            .to_owned(),
     })
 }
 

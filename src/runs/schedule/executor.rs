@@ -20,9 +20,9 @@ type Outcome<R> = <<R as Reading>::Task as ScheduledTask>::Outcome;
 type Slot<R> = Mutex<Option<Result<R, RunError>>>;
 
 /// The requests for one call of a code.
-struct Job<'a> {
-    code: &'a dyn InstalledCode,
-    requests: Vec<usize>,
+pub(super) struct Job<'a> {
+    pub(super) code: &'a dyn InstalledCode,
+    pub(super) requests: Vec<usize>,
 }
 
 /// The state that workers share.
@@ -63,7 +63,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         results.collect()
     }
 
-    fn task(&self, request: usize) -> &'a R::Task {
+    pub(super) fn task(&self, request: usize) -> &'a R::Task {
         self.requests[request].task
     }
 
@@ -96,7 +96,7 @@ impl<'a, R: Reading> Executor<'a, R> {
     }
 
     /// Jobs for the requests in `open`, the longest first.
-    fn pack(&self, open: &[usize], codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
+    pub(super) fn pack(&self, open: &[usize], codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
         let mut jobs = Vec::new();
         for selected in codes {
             let Some(code) = selected.code.as_deref() else {
@@ -124,7 +124,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         (0..calls).map(hand).collect()
     }
 
-    fn requests_of(&self, code: Code) -> Vec<usize> {
+    pub(super) fn requests_of(&self, code: Code) -> Vec<usize> {
         let all = self.requests.iter().enumerate();
         let own = all.filter(|(_, request)| request.code == code);
         own.map(|(index, _)| index).collect()

@@ -1,10 +1,12 @@
 //! Carries out the tasks of all workloads on all cores and keeps each result at once.
 
 mod executor;
+mod outlook;
 mod requests;
 mod store_writer;
 mod task;
 
+pub(crate) use outlook::{CodeOutlook, Outlook, PlannedCall, outlook};
 pub use task::ScheduledTask;
 
 use super::recorded::{Recorded, RecordedError};

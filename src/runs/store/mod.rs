@@ -8,10 +8,14 @@
 
 mod directories;
 mod format;
+mod listing;
 mod lock;
+mod removal;
 mod session;
 
 pub use directories::Sharing;
+pub(crate) use listing::entries;
+pub use listing::{EntryKind, StoredEntry, StoredFile};
 pub use lock::LockOwner;
 
 use crate::code::{Identity, Provenance, Run};
@@ -28,6 +32,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 const CHECKPOINTS: &str = "checkpoints";
+const QUARANTINE: &str = "quarantine";
 
 /// The reason why a store cannot be used.
 #[derive(Debug, Error)]
@@ -61,6 +66,30 @@ pub enum StoreError {
         shown(path)
     )]
     Busy { path: PathBuf, owner: String },
+    #[error(
+        "nothing is removed from the store {}: {owner} is using it; wait until that has ended, or end it",
+        shown(path)
+    )]
+    InUse {
+        path: PathBuf,
+        owner: Box<LockOwner>,
+    },
+    #[error(
+        "nothing is removed from the store {}: {owner} began to use it, and whether it still does cannot be seen from here; \
+         if it has ended, remove {}",
+        shown(path),
+        shown(session)
+    )]
+    InUseElsewhere {
+        path: PathBuf,
+        owner: Box<LockOwner>,
+        session: PathBuf,
+    },
+    #[error(
+        "nothing is removed from the store {}, which can only be read: {reason}",
+        shown(path)
+    )]
+    ReadOnly { path: PathBuf, reason: String },
 }
 
 /// A kind of result that a store keeps.
@@ -236,7 +265,7 @@ impl Store {
     /// Puts the damaged result under `address` into quarantine, and returns its place there. It may have been moved
     /// already.
     pub(crate) fn put_aside(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
-        let directory = self.directories.create("quarantine")?;
+        let directory = self.directories.create(QUARANTINE)?;
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| std::fs::symlink_metadata(place).is_err());
         let aside = free.expect("there are more numbers than files");
@@ -273,6 +302,12 @@ impl Store {
         let path = self.path(kind, address)?;
         self.create_directory(kind, address)?;
         write_sealed(self.work_directory(), &path, content.as_bytes())
+    }
+
+    /// Whether there is a result of the given kind under `address`, which may be damaged.
+    pub(crate) fn holds(&self, kind: Kind, address: &str) -> bool {
+        let path = self.path(kind, address);
+        path.is_ok_and(|path| std::fs::symlink_metadata(path).is_ok())
     }
 
     /// Directory of the checkpoints of native runs.

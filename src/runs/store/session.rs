@@ -148,6 +148,35 @@ impl Session {
         state.write(&self.path)
     }
 
+    /// Keeps other programs from beginning to use the store as long as the returned lock lives.
+    ///
+    /// # Errors
+    /// If one uses it already, or one of another machine may.
+    pub(super) fn alone(&self) -> Result<Lock, StoreError> {
+        let state = self.state();
+        let lock = self.lock(&state)?;
+        remove_dead(&self.root);
+        for name in sessions(&self.root) {
+            let session = name.file(&self.root);
+            let owner = claims(&session).map(|claims| claims.owner);
+            let Some(owner) = owner.filter(|_| name != self.name) else {
+                continue;
+            };
+            let path = self.root.clone();
+            let is_here = owner.host == state.claims.owner.host;
+            let owner = Box::new(owner);
+            return Err(match is_here {
+                true => StoreError::InUse { path, owner },
+                false => StoreError::InUseElsewhere {
+                    path,
+                    owner,
+                    session,
+                },
+            });
+        }
+        Ok(lock)
+    }
+
     fn lock(&self, state: &State) -> Result<Lock, StoreError> {
         Lock::acquire(&self.root.join("lock"), &state.claims.owner)
     }
@@ -193,6 +222,21 @@ fn sessions(root: &Path) -> Vec<SessionName> {
     let entries = fs::read_dir(root.join(SESSIONS)).into_iter().flatten();
     let names = entries.flatten().map(|entry| entry.file_name());
     names.filter_map(|name| SessionName::of(&name)).collect()
+}
+
+/// The directories for unfinished work, as paths in the store at `root`, of sessions that have ended.
+pub(super) fn leftovers(root: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root.join(WORK)).into_iter().flatten();
+    let directories = entries.flatten().filter(|entry| {
+        let is_own = is_temporary(&entry.file_name(), PREFIX.as_ref());
+        is_own && entry.file_type().is_ok_and(|kind| kind.is_dir())
+    });
+    let names = directories.filter_map(|entry| entry.file_name().into_string().ok());
+    let ended = names.map(SessionName).filter(|name| {
+        let session = fs::symlink_metadata(name.file(root));
+        session.is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
+    });
+    ended.map(|name| Path::new(WORK).join(name.0)).collect()
 }
 
 fn claims(session: &Path) -> Option<Claims> {

@@ -2,11 +2,11 @@
 
 use super::probe::probe;
 use crate::code::{Code, Failure, Finished, Identity, InstalledCode};
-use crate::code::{Provenance, RunContext, TaskKind};
+use crate::code::{Provenance, RunContext};
 use crate::files::FileError;
 use crate::model::{ContactTest, sha256_hex};
 use crate::runs::{Answer, Kind, ProbeRecord, Progress, Reading, Recorded};
-use crate::runs::{RecordedError, ScheduledTask, Store};
+use crate::runs::{RecordedError, ScheduledTask, Store, probe_address};
 use std::time::Instant;
 
 /// All micro-tests that measure the convention of a code.
@@ -33,12 +33,8 @@ impl ScheduledTask for MicroTests {
         0
     }
 
-    /// That of the identity of the code and of its deck.
     fn address(&self, code: &dyn InstalledCode) -> String {
-        let decks = [TaskKind::Motion, TaskKind::SpheresMotion];
-        let decks = decks.map(|kind| code.name().files_hash(kind));
-        let parts = serde_json::json!([code.identity(), decks]);
-        sha256_hex(parts.to_string().as_bytes())
+        probe_address(code)
     }
 
     fn stored(

@@ -1,5 +1,6 @@
 //! The cost of a step, of a start and of a yield force: native beside the external codes.
 
+mod duration;
 mod memory;
 mod pyramid;
 mod scaling;
@@ -7,6 +8,7 @@ mod stack;
 mod statistics;
 mod target;
 
+pub(crate) use duration::{Basis, CodeDuration, durations};
 pub use pyramid::PyramidBench;
 pub(crate) use pyramid::PyramidCost;
 pub(crate) use scaling::{Scaling, ScalingRow, measure_scaling};

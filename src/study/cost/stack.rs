@@ -101,17 +101,27 @@ fn time_steps(
     cost: &mut StackCost,
     context: &RunContext,
 ) -> Result<(), BenchError> {
+    cost.add_steps(short_and_long(target, bodies, STEPS, context)?);
+    Ok(())
+}
+
+/// The steps and the seconds of a short run and of a long one with so many `steps`.
+pub(super) fn short_and_long(
+    target: &InstalledTarget,
+    bodies: u8,
+    steps: u64,
+    context: &RunContext,
+) -> Result<[(u64, f64); 2], BenchError> {
     let code = target.code.name();
     let count = match code {
         Code::NATIVE => NATIVE_CASES,
         _ => 1,
     };
-    let [short, long] = [1, LENGTHS].map(|part| timed_cases((code, bodies), count, STEPS, part));
+    let [short, long] = [1, LENGTHS].map(|part| timed_cases((code, bodies), count, steps, part));
     let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
     let short = target.time(&short, context)?.duration.as_secs_f64();
     let long = target.time(&long, context)?.duration.as_secs_f64();
-    cost.add_steps([(few, short), (many, long)]);
-    Ok(())
+    Ok([(few, short), (many, long)])
 }
 
 fn time_yield_forces(

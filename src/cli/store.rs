@@ -1,0 +1,256 @@
+//! `tristack store`.
+
+use super::code_names::read_user_folders;
+use super::options::{Format, StoreOptions, moment, size as size_option};
+use super::{CliError, ExitStatus, print, tell};
+use crate::model::{InvalidValue, shown};
+use crate::output::{entry_text, size, stored, stored_entries, stored_files};
+use crate::runs::{
+    CodesOfToday, Content, EntryKind, Selection, StoredEntry, contents, oldest_beyond,
+};
+use clap::builder::PossibleValue;
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Show what the store of finished runs holds, and remove what is not needed
+#[derive(Debug, Args)]
+#[command(
+    subcommand_required = true,
+    arg_required_else_help = true,
+    after_help = "Examples: tristack store list\n          \
+    tristack store prune --outdated --dry-run\n          \
+    tristack store prune --to 100MB\n\n\
+    Whatever is removed is made again when it is needed, the slow runs of external codes too."
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    List(ListArguments),
+    Show(ShowArguments),
+    Prune(PruneArguments),
+}
+
+/// List what the store holds, summed up by kind, code and version
+#[derive(Debug, Args)]
+struct ListArguments {
+    #[command(flatten)]
+    store: StoreOptions,
+    /// List every entry
+    #[arg(long)]
+    entries: bool,
+    #[command(flatten)]
+    chosen: Choice,
+    /// Format of the list
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Show one entry: what it is of, how it was made, its files
+#[derive(Debug, Args)]
+struct ShowArguments {
+    /// Address of the entry, or the beginning of it
+    address: String,
+    #[command(flatten)]
+    store: StoreOptions,
+    /// Format of the entry
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// Remove entries from the store, while no other tristack uses it
+///
+/// What is removed fits everything that is asked for. Damaged results in quarantine go only with `--kind quarantine`.
+/// Nothing is removed that tristack has not put there, and no link is followed.
+#[derive(Debug, Args)]
+#[command(
+    group = ArgGroup::new("asked").args(["kind", "code", "older_than", "outdated", "to"]).required(true).multiple(true)
+)]
+struct PruneArguments {
+    #[command(flatten)]
+    store: StoreOptions,
+    #[command(flatten)]
+    chosen: Choice,
+    /// Remove the oldest entries until the store has at most this size, such as 100MB
+    #[arg(long, value_name = "SIZE", value_parser = size_option)]
+    to: Option<u64>,
+    /// Only list what would be removed
+    #[arg(long)]
+    dry_run: bool,
+    /// Format of the list
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+/// The entries that are meant.
+#[derive(Debug, Args)]
+struct Choice {
+    /// Entries of these kinds, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "K1,K2")]
+    kind: Vec<EntryKind>,
+    /// Entries of these codes, separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "C1,C2")]
+    code: Vec<String>,
+    /// Entries older than an age, such as 12h, 30d or 2w, or written before a date such as 2026-01-31 (UTC)
+    #[arg(long, value_name = "AGE", value_parser = moment)]
+    older_than: Option<SystemTime>,
+    /// Entries that no run of today has the address of, because tristack, the code or its deck have changed since; of
+    /// codes that are not installed none
+    #[arg(long)]
+    outdated: bool,
+}
+
+impl ValueEnum for EntryKind {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.as_str()))
+    }
+}
+
+impl Choice {
+    /// Those of `contents` that are meant.
+    fn of(&self, contents: Vec<Content>) -> Vec<Content> {
+        if self.outdated {
+            // Codes of the user's folders are known by name from then on; broken folders are others' concern.
+            read_user_folders();
+        }
+        let selection = Selection {
+            kinds: self.kind.clone(),
+            codes: self.code.clone(),
+            before: self.older_than,
+            outdated: self.outdated,
+        };
+        selection.of(contents)
+    }
+}
+
+/// Lists, shows or removes entries.
+pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    match &arguments.action {
+        Action::List(arguments) => list(arguments, command),
+        Action::Show(arguments) => show(arguments, command),
+        Action::Prune(arguments) => prune(arguments, command),
+    }
+}
+
+/// The directory of a store and what it holds; nothing where there is no store.
+fn open(options: &StoreOptions) -> Result<(PathBuf, Vec<Content>), CliError> {
+    let root = options.directory()?;
+    let found = contents(&root, options.sharing())?;
+    if found.is_none() {
+        tell!("there is no store {} yet", shown(&root));
+    }
+    Ok((root, found.unwrap_or_default()))
+}
+
+fn list(arguments: &ListArguments, command: &str) -> Result<ExitStatus, CliError> {
+    let (root, all) = open(&arguments.store)?;
+    let chosen = arguments.chosen.of(all);
+    let tables = [match arguments.entries {
+        true => stored_entries(&chosen),
+        false => stored(&chosen),
+    }];
+    let people = || tables[0].shown().terminal() + &sum(&chosen, &root);
+    Ok(arguments.format.print(&tables, command, people))
+}
+
+fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError> {
+    let (root, all) = open(&arguments.store)?;
+    read_user_folders();
+    let mut named = all;
+    named.retain(|content| content.entry.name.starts_with(&arguments.address));
+    if named.len() != 1 {
+        return Err(not_one(&arguments.address, &named, &root).into());
+    }
+    let tables = [stored_entries(&named), stored_files(&named[0].entry.files)];
+    let people = || {
+        let outdated = CodesOfToday::default().is_outdated(&named[0]);
+        entry_text(&named[0], outdated)
+    };
+    Ok(arguments.format.print(&tables, command, people))
+}
+
+/// The error for an address that is not that of exactly one entry.
+fn not_one(address: &str, named: &[Content], root: &Path) -> InvalidValue {
+    let accepted = match named {
+        [] => format!(
+            "the beginning of an address in the store {} (tristack store list --entries)",
+            shown(root)
+        ),
+        [one, other, ..] => format!(
+            "more digits: {} entries begin with it, among them {} {} and {} {}",
+            named.len(),
+            one.entry.kind.as_str(),
+            one.entry.name,
+            other.entry.kind.as_str(),
+            other.entry.name
+        ),
+        [_] => "another address".to_owned(),
+    };
+    InvalidValue {
+        key: "address".to_owned(),
+        value: address.to_owned(),
+        accepted,
+    }
+}
+
+fn prune(arguments: &PruneArguments, command: &str) -> Result<ExitStatus, CliError> {
+    let (root, all) = open(&arguments.store)?;
+    let total = bytes(&all);
+    let mut chosen = arguments.chosen.of(all);
+    if !arguments.chosen.kind.contains(&EntryKind::Quarantine) {
+        chosen.retain(|content| content.entry.kind != EntryKind::Quarantine);
+    }
+    if let Some(allowed) = arguments.to {
+        chosen = oldest_beyond(chosen, total, allowed);
+    }
+    if !arguments.dry_run && !chosen.is_empty() {
+        let entries = chosen.iter().map(|content| content.entry.clone());
+        let entries: Vec<StoredEntry> = entries.collect();
+        arguments.store.opened()?.remove(&entries)?;
+    }
+    let (removed, left) = (bytes(&chosen), total - bytes(&chosen));
+    let verb = match arguments.dry_run {
+        true => "would be removed",
+        false => "removed",
+    };
+    let sentence = format!(
+        "{} entries, {}, {verb} from the store {}; {} left\n",
+        chosen.len(),
+        size(removed as f64),
+        shown(&root),
+        size(left as f64)
+    );
+    if let Some(allowed) = arguments.to.filter(|&allowed| left > allowed) {
+        tell!(
+            "that is more than {}: what else is there was not asked for, or is in quarantine",
+            size(allowed as f64)
+        );
+    }
+    let tables = [stored_entries(&chosen)];
+    let summary = stored(&chosen);
+    Ok(match arguments.format {
+        Format::Table if chosen.is_empty() => print(&sentence),
+        format => format.print(&tables, command, || summary.shown().terminal() + &sentence),
+    })
+}
+
+fn bytes(contents: &[Content]) -> u64 {
+    contents.iter().map(|content| content.entry.bytes()).sum()
+}
+
+fn sum(contents: &[Content], root: &Path) -> String {
+    format!(
+        "{} entries, {}, in the store {}\n",
+        contents.len(),
+        size(bytes(contents) as f64),
+        shown(root)
+    )
+}

@@ -2,6 +2,7 @@
 
 mod codes;
 mod convention;
+mod duration;
 mod flag;
 mod format;
 mod runs;

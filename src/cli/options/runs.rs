@@ -1,5 +1,7 @@
 //! How runs are carried out, and where they are kept.
 
+use super::duration::duration;
+use crate::cli::interrupt::end_within;
 use crate::cli::{CliError, INTERRUPT};
 use crate::model::InvalidValue;
 use crate::runs::{Recorded, Settings, Sharing, Store};
@@ -30,6 +32,10 @@ pub(in crate::cli) struct RunOptions {
     /// codes, none for native]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub time_limit: Option<f64>,
+    /// Time that this command may take: 90s, 1h 30min, or as Slurm writes it, [D-][HH:]MM:SS. No run is begun that would
+    /// not end in time, what native runs have done is kept, and the exit status is 6; the same command goes on from there
+    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    pub time_left: Option<Duration>,
 }
 
 impl RunOptions {
@@ -39,6 +45,7 @@ impl RunOptions {
             true => Sharing::Shared,
             false => Sharing::Private,
         };
+        self.time_left.map(end_within);
         let jobs = self.jobs.or(std::thread::available_parallelism().ok());
         Ok(Settings {
             store: Store::open_as(&self.store_directory()?, sharing)?,

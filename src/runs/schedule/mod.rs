@@ -4,6 +4,8 @@ mod executor;
 mod requests;
 mod store_writer;
 mod task;
+mod time_left;
+mod waiting;
 
 pub use task::ScheduledTask;
 

@@ -13,7 +13,7 @@ pub(super) struct StackSet {
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     profile: Profile,
     /// Floor frictions of other stacks than those of the profile: numbers or the word `critical`, separated by commas
-    #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction, allow_negative_numbers = true, conflicts_with = "profile")]
+    #[arg(long, requires = "stiffness", value_delimiter = ',', value_parser = friction, allow_negative_numbers = true)]
     mu: Vec<Friction>,
     /// Stiffnesses k_n r/(m g) of these stacks, separated by commas
     #[arg(

@@ -5,12 +5,13 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Options that change no number: output files, formats, and how runs are carried out.
-const LEFT_OUT: [&str; 8] = [
+const LEFT_OUT: [&str; 9] = [
     "--out",
     "--format",
     "--store",
     "--jobs",
     "--time-limit",
+    "--time-left",
     "--svg",
     "--vtk",
     "--junit",
@@ -62,6 +63,8 @@ mod tests {
             "curve",
             "--format=json",
             "--fresh",
+            "--time-left",
+            "1h",
             "--mu",
             "0.1:0.3:0.1",
         ];

@@ -1,5 +1,6 @@
 //! The exit status and the errors of a command.
 
+use super::INTERRUPT;
 use crate::code::{Code, Failure, FailureKind};
 use crate::files::FileError;
 use crate::model::{CaseError, InvalidValue, shown};
@@ -28,7 +29,7 @@ pub enum ExitStatus {
     Disagreement,
     /// The command line or an input is wrong.
     WrongInput,
-    /// The user interrupted the program.
+    /// The user interrupted the program, or its time was up.
     Interrupted,
 }
 
@@ -42,6 +43,7 @@ impl ExitStatus {
             Self::CodeFailed => 3,
             Self::Inconclusive => 4,
             Self::NotWritten => 5,
+            Self::Interrupted if INTERRUPT.is_for_time() => 6,
             Self::Interrupted => 130,
         }
     }
@@ -99,7 +101,7 @@ pub enum CliError {
     /// The register of claims is wrong.
     #[error(transparent)]
     Register(#[from] RegisterError),
-    /// The user did not want to wait for the micro-tests on which everything else depends.
+    /// The user, or the time that is left, did not wait for the micro-tests on which everything else depends.
     #[error(
         "interrupted while conventions that manifests leave out were being measured; what is finished is kept, and the same \
          command goes on from here"

@@ -1,21 +1,32 @@
-//! Interrupts by the user: Ctrl-C, `kill`, closing the terminal.
+//! The end before the end: interrupts by the user (Ctrl-C, `kill`, closing the terminal), and the time that a command
+//! has at most.
 
-use super::{ExitStatus, complain};
+use super::{ExitStatus, complain, tell};
 use crate::code::{Interrupt, let_interrupt_questions};
 use crate::files::system_text;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
 use signal_hook::iterator::Signals;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
 
-/// Set when the user interrupts the program.
+/// Longest time that is kept back for the end: killing programs takes five seconds at most, keeping results far less.
+const LONGEST_RESERVE: Duration = Duration::from_secs(30);
+/// The part of the time that is kept back, unless that is longer.
+const RESERVE: u32 = 10;
+
+/// Set when the user interrupts the program, or its time is up.
 pub(crate) static INTERRUPT: Interrupt = Interrupt::new();
+/// When the program began.
+static START: LazyLock<Instant> = LazyLock::new(Instant::now);
 
 /// Starts to listen for interrupts. The first one stops the codes; finished runs are printed and kept in the store.
 /// A second one ends the program at once, and the guards of the codes with it.
 pub(super) fn listen() {
+    LazyLock::force(&START);
     let_interrupt_questions(&INTERRUPT);
     match Signals::new(wanted()) {
         Ok(mut signals) => {
-            std::thread::spawn(move || signals.forever().for_each(|_| interrupt()));
+            std::thread::spawn(move || signals.forever().for_each(receive));
         }
         Err(error) => complain!("warning: interrupts will end the program at once: {error}"),
     }
@@ -23,11 +34,43 @@ pub(super) fn listen() {
 
 /// Reports that a command ended with `done` of `planned` `subjects` complete.
 pub(super) fn interrupted_after(done: usize, planned: usize, subjects: &str) -> ExitStatus {
+    let ended = match INTERRUPT.is_for_time() {
+        true => "out of time",
+        false => "interrupted",
+    };
     complain!(
-        "interrupted with {done} of {planned} {subjects} complete; every finished run is kept, and the same \
+        "{ended} with {done} of {planned} {subjects} complete; every finished run is kept, and the same \
          command goes on from here"
     );
     ExitStatus::Interrupted
+}
+
+/// Lets everything end before the time `left` has passed since the program began: a tenth of it is kept back, half a
+/// minute at most.
+pub(super) fn end_within(left: Duration) {
+    let usable = left - LONGEST_RESERVE.min(left / RESERVE);
+    if INTERRUPT.limit(*START, usable) {
+        std::thread::spawn(move || {
+            std::thread::sleep(usable.saturating_sub(START.elapsed()));
+            end_time();
+        });
+    }
+}
+
+fn receive(signal: i32) {
+    match signal {
+        SIGUSR1 => end_time(),
+        _ => interrupt(),
+    }
+}
+
+/// Stops everything because the time is up, as batch systems announce it with SIGUSR1.
+fn end_time() {
+    if !INTERRUPT.end_time() {
+        std::thread::spawn(|| {
+            tell!("out of time: finished runs are kept, and what native runs have done so far");
+        });
+    }
 }
 
 fn interrupt() {
@@ -47,7 +90,7 @@ fn interrupt() {
 fn wanted() -> Vec<i32> {
     let status = system_text("/proc/self/status").unwrap_or_default();
     let stays = ignored(&status) >> (SIGHUP - 1) & 1 == 1;
-    let mut signals = vec![SIGINT, SIGTERM];
+    let mut signals = vec![SIGINT, SIGTERM, SIGUSR1];
     signals.extend((!stays).then_some(SIGHUP));
     signals
 }

@@ -57,7 +57,7 @@ pub(crate) use streams::{complain, print, tell};
     --stiffness is k_n r/(m g).\n\n{GRAMMAR}\n\nTables are fitted to the width of the terminal, or to that which \
     COLUMNS says; NO_COLOR and CLICOLOR_FORCE are respected.\n\n--out and --vtk take a new or empty directory, or one with nothing but \
     earlier results of the same command.\n\nExit status: 0 all agree, 1 wrong usage or input, 2 a disagreement, \
-    3 a code failed or is missing, 4 inconclusive, 5 a result could not be written, 130 interrupted; of several rows \
+    3 a code failed or is missing, 4 inconclusive, 5 a result could not be written, 6 out of time (--time-left), 130 interrupted; of several rows \
     2 counts before 3, and 3 before 4.")
 )]
 struct Cli {

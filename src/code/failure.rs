@@ -34,6 +34,12 @@ pub enum FailureKind {
     TimedOut(Duration),
     #[error("interrupted")]
     Interrupted,
+    /// No other start of the same command would have enough time for it either.
+    #[error("by estimate it takes {} s, and of --time-left {} s can be used; allow more, or leave --time-left out", .estimate.as_secs(), .usable.as_secs())]
+    TooLong {
+        estimate: Duration,
+        usable: Duration,
+    },
     #[error("the series is not usable: {0}")]
     Series(#[from] SeriesError),
     /// A run that is made elsewhere has no result yet.

@@ -1,7 +1,7 @@
 //! The interface of an installed code.
 
 use super::failure::Failure;
-use super::process::Interrupt;
+use super::interrupt::Interrupt;
 use super::provenance::{Identity, Run};
 use super::registry::Code;
 use crate::model::{Case, ContactTest, Pyramid};
@@ -80,6 +80,11 @@ pub trait InstalledCode: Send + Sync {
     /// What the identity covers and what it does not, in prose.
     fn coverage(&self) -> String {
         "the sources of this program".to_owned()
+    }
+
+    /// Whether a compression that is cut short goes on, at its next start, from where it was.
+    fn keeps_checkpoints(&self) -> bool {
+        false
     }
 
     /// The distribution of cases over calls.

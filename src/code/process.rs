@@ -3,13 +3,15 @@
 use super::capture::capture;
 use super::failure::FailureKind;
 use super::guard;
+use super::interrupt::Interrupt;
 use super::manifest::Environment;
+use nix::sys::signal::Signal;
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
@@ -19,27 +21,6 @@ const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
 /// Longest wait for a pipe after its program has ended: a process that outlives it may keep the pipe open.
 const LONGEST_REST: Duration = Duration::from_secs(1);
-
-/// A request to stop, shared by everything that runs.
-#[derive(Debug, Default)]
-pub struct Interrupt(AtomicBool);
-
-impl Interrupt {
-    /// No request yet.
-    pub const fn new() -> Self {
-        Self(AtomicBool::new(false))
-    }
-
-    /// Requests a stop; returns whether one was requested before.
-    pub fn request(&self) -> bool {
-        self.0.swap(true, Ordering::SeqCst)
-    }
-
-    /// Whether a stop was requested.
-    pub(crate) fn requested(&self) -> bool {
-        self.0.load(Ordering::SeqCst)
-    }
-}
 
 /// A program to run.
 pub(crate) struct Job<'a> {
@@ -86,7 +67,10 @@ fn watch(
         if let Some(status) = child.try_wait()? {
             // Kills what is left of its process group.
             let _ = child.start_kill();
-            return Ok(status);
+            return match ended_with_tristack(job, status) {
+                true => Err(FailureKind::Interrupted),
+                false => Ok(status),
+            };
         }
         if job.interrupt.requested() {
             kill(child.as_mut())?;
@@ -103,6 +87,26 @@ fn watch(
         waited += last_poll.elapsed().min(LONGEST_INTERVAL);
         last_poll = Instant::now();
     }
+}
+
+/// Whether the program ended with `status` because a signal that asks to end was sent to everything that runs, as
+/// batch systems do: this program then learns of it at about the same time.
+fn ended_with_tristack(job: &Job, status: ExitStatus) -> bool {
+    let asked = [
+        Signal::SIGTERM,
+        Signal::SIGINT,
+        Signal::SIGHUP,
+        Signal::SIGUSR1,
+    ];
+    let signal = status.signal().and_then(|it| Signal::try_from(it).ok());
+    if !signal.is_some_and(|signal| asked.contains(&signal)) {
+        return false;
+    }
+    let start = Instant::now();
+    while !job.interrupt.requested() && start.elapsed() < LONGEST_REST {
+        std::thread::sleep(POLL_INTERVAL);
+    }
+    job.interrupt.requested()
 }
 
 fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {

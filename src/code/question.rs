@@ -1,8 +1,9 @@
 //! Questions to programs, whose answer is what they print.
 
 use super::failure::FailureKind;
+use super::interrupt::Interrupt;
 use super::manifest::Environment;
-use super::process::{Interrupt, Job, run};
+use super::process::{Job, run};
 use crate::files::Scratch;
 use std::ffi::OsString;
 use std::sync::OnceLock;

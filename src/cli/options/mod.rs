@@ -3,6 +3,7 @@
 mod amount;
 mod codes;
 mod convention;
+mod duration;
 mod flag;
 mod format;
 mod friction;

@@ -1,6 +1,8 @@
 //! How runs are carried out, and where they are kept.
 
+use super::duration::duration;
 use super::numbers::{seconds, whole};
+use crate::cli::interrupt::end_within;
 use crate::cli::{CliError, INTERRUPT};
 use crate::model::InvalidValue;
 use crate::runs::{Recorded, Settings, Sharing, Store};
@@ -39,12 +41,17 @@ pub(in crate::cli) struct RunOptions {
     /// codes, none for native]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_limit: Option<f64>,
+    /// Time that this command may take: 90s, 1h 30min, or as Slurm writes it, [D-][HH:]MM:SS. No run is begun that would
+    /// not end in time, what native runs have done is kept, and the exit status is 6; the same command goes on from there
+    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    pub time_left: Option<Duration>,
 }
 
 impl RunOptions {
     /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.time_left.map(end_within);
         Ok(Settings {
             store: self.store.opened()?,
             recorded: recorded(),

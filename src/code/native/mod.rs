@@ -122,6 +122,10 @@ impl InstalledCode for Native {
         &self.identity
     }
 
+    fn keeps_checkpoints(&self) -> bool {
+        self.arithmetic == Arithmetic::Double
+    }
+
     fn batching(&self) -> Batching {
         match self.arithmetic {
             Arithmetic::Double => Batching::OneCallACore,

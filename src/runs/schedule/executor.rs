@@ -8,13 +8,13 @@ use crate::code::{Batching, Code, Failure, FailureKind, InstalledCode, RunContex
 use crate::files::FileError;
 use crate::model::shown;
 use crate::runs::{LockOwner, in_parallel};
-use std::collections::BTreeMap;
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
 use tempfile::TempDir;
 
-/// Interval at which runs of other programs are looked for.
-const POLL_INTERVAL: Duration = Duration::from_millis(200);
+/// A call of a code that carries out many tasks takes at least so many seconds by estimate, if there is enough work for
+/// more calls than cores: starting it takes a few, and other programs at the store take on the other calls.
+const SECONDS_OF_A_CALL: f64 = 60.0;
 
 type Outcome<R> = <<R as Reading>::Task as ScheduledTask>::Outcome;
 type Slot<R> = Mutex<Option<Result<R, RunError>>>;
@@ -28,11 +28,13 @@ pub(super) struct Job<'a> {
 /// The state that workers share.
 pub(super) struct Executor<'a, R: Reading> {
     requests: Vec<RunRequest<'a, R::Task>>,
-    settings: &'a Settings<'a>,
-    progress: &'a dyn Progress,
+    pub(super) settings: &'a Settings<'a>,
+    pub(super) progress: &'a dyn Progress,
     slots: Vec<Slot<R>>,
     /// Requests that other programs are working on.
     elsewhere: Mutex<Vec<(usize, LockOwner)>>,
+    /// Number of requests for which the time left was not enough.
+    pub(super) postponed: AtomicUsize,
 }
 
 impl<'a, R: Reading> Executor<'a, R> {
@@ -47,6 +49,7 @@ impl<'a, R: Reading> Executor<'a, R> {
             settings,
             progress,
             elsewhere: Mutex::default(),
+            postponed: AtomicUsize::new(0),
         }
     }
 
@@ -55,6 +58,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         let jobs = self.jobs(codes);
         self.work_off(&jobs);
         self.wait_for_others(codes);
+        self.end_if_postponed();
         let results = self.slots.into_iter().map(|slot| {
             let result = slot.into_inner().unwrap_or_else(PoisonError::into_inner);
             assert!(result.is_some(), "every request is reported");
@@ -65,6 +69,17 @@ impl<'a, R: Reading> Executor<'a, R> {
 
     pub(super) fn task(&self, request: usize) -> &'a R::Task {
         self.requests[request].task
+    }
+
+    /// The code that carries out `request`, which is one of `codes`.
+    pub(super) fn code_of(
+        &self,
+        request: usize,
+        codes: &'a [SelectedCode],
+    ) -> Option<&'a dyn InstalledCode> {
+        let code = self.requests[request].code;
+        let selected = codes.iter().find(|selected| selected.name == code)?;
+        selected.code.as_deref()
     }
 
     fn fill(&self, request: usize, result: Result<R, RunError>) {
@@ -106,7 +121,7 @@ impl<'a, R: Reading> Executor<'a, R> {
             let own: Vec<usize> = open.iter().copied().filter(own).collect();
             let calls = match code.batching() {
                 Batching::OneCallACase => own.len(),
-                Batching::FewCalls => self.settings.threads.div_ceil(codes.len()),
+                Batching::FewCalls => self.few_calls(&own, codes.len()),
                 Batching::OneCallACore => self.settings.threads,
             };
             let hands = self.deal(own, calls).into_iter();
@@ -114,6 +129,13 @@ impl<'a, R: Reading> Executor<'a, R> {
         }
         jobs.sort_by(|left, right| self.seconds(right).total_cmp(&self.seconds(left)));
         jobs
+    }
+
+    /// The number of calls for the requests in `own`, of one of so many `codes`.
+    fn few_calls(&self, own: &[usize], codes: usize) -> usize {
+        let seconds = own.iter().map(|&request| self.total_seconds(request));
+        let enough = (seconds.sum::<f64>() / SECONDS_OF_A_CALL) as usize;
+        enough.max(self.settings.threads.div_ceil(codes))
     }
 
     /// Deals `requests` out to at most so many calls, the longest first, so that all calls take about as long.
@@ -131,7 +153,7 @@ impl<'a, R: Reading> Executor<'a, R> {
     }
 
     /// Estimated duration of a request in seconds.
-    fn total_seconds(&self, request: usize) -> f64 {
+    pub(super) fn total_seconds(&self, request: usize) -> f64 {
         let request = &self.requests[request];
         request.seconds(request.task.steps())
     }
@@ -179,7 +201,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         false
     }
 
-    fn work_off(&self, jobs: &[Job<'a>]) {
+    pub(super) fn work_off(&self, jobs: &[Job<'a>]) {
         let workers = self.settings.threads.min(jobs.len());
         if workers == 0 {
             return;
@@ -208,6 +230,7 @@ impl<'a, R: Reading> Executor<'a, R> {
             return self.fail_all(job.code, &job.requests, || FailureKind::Interrupted);
         }
         let (claim, requests) = self.take_on(job);
+        let requests = self.in_time(job.code, requests);
         if requests.is_empty() {
             return;
         }
@@ -298,7 +321,7 @@ impl<'a, R: Reading> Executor<'a, R> {
     }
 
     /// Whether the result has been kept since the jobs were packed; its slot is then filled.
-    fn is_made(
+    pub(super) fn is_made(
         &self,
         code: &dyn InstalledCode,
         request: usize,
@@ -335,7 +358,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         self.report(code, finished.request, Ok(finished.outcome));
     }
 
-    fn report(&self, code: Code, request: usize, result: Result<Outcome<R>, Failure>) {
+    pub(super) fn report(&self, code: Code, request: usize, result: Result<Outcome<R>, Failure>) {
         self.advance(request);
         let task = self.task(request);
         task.report(code, result.as_ref(), self.progress);
@@ -358,42 +381,9 @@ impl<'a, R: Reading> Executor<'a, R> {
         }
     }
 
-    fn elsewhere(&self) -> std::sync::MutexGuard<'_, Vec<(usize, LockOwner)>> {
+    pub(super) fn elsewhere(&self) -> std::sync::MutexGuard<'_, Vec<(usize, LockOwner)>> {
         self.elsewhere
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Takes the results that other programs finish, and makes those that they abandon.
-    fn wait_for_others(&self, codes: &'a [SelectedCode]) {
-        let mut announced = BTreeMap::new();
-        loop {
-            let waiting = std::mem::take(&mut *self.elsewhere());
-            if waiting.is_empty() {
-                return;
-            }
-            self.announce(&waiting, &mut announced);
-            let requests: Vec<usize> = waiting.into_iter().map(|(request, _)| request).collect();
-            if !self.settings.interrupt.requested() {
-                std::thread::sleep(POLL_INTERVAL);
-            }
-            self.work_off(&self.pack(&requests, codes));
-        }
-    }
-
-    /// Warns once, for each other program, how many of its results are waited for.
-    fn announce(&self, waiting: &[(usize, LockOwner)], announced: &mut BTreeMap<String, usize>) {
-        let mut counts = BTreeMap::new();
-        for (_, owner) in waiting {
-            *counts.entry(owner.to_string()).or_insert(0) += 1;
-        }
-        let name = R::Task::KIND.name();
-        for (owner, count) in counts {
-            if announced.insert(owner.clone(), count).is_none() {
-                self.progress.warn(&format!(
-                    "waiting for {count} {name}s that {owner} is making"
-                ));
-            }
-        }
     }
 }

@@ -5,6 +5,8 @@ mod outlook;
 mod requests;
 mod store_writer;
 mod task;
+mod time_left;
+mod waiting;
 
 pub(crate) use outlook::{CodeOutlook, Outlook, PlannedCall, outlook};
 pub use task::ScheduledTask;

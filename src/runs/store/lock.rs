@@ -3,6 +3,7 @@
 
 use super::StoreError;
 use crate::files::{FileError, Links, open_regular, read_bounded, system_text};
+use nix::errno::Errno;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
 use std::io::{Seek, Write};
@@ -80,9 +81,7 @@ impl Lock {
                     std::thread::sleep(POLL_INTERVAL);
                 }
                 Err(TryLockError::WouldBlock) => return Err(busy(path)),
-                Err(TryLockError::Error(error)) => {
-                    return Err(FileError::writing(path)(error).into());
-                }
+                Err(TryLockError::Error(error)) => return Err(no_lock(path, error)),
             }
         }
         // Named in the error of programs that wait too long; the lock holds without it.
@@ -96,6 +95,24 @@ pub(super) fn overwrite(file: &mut File, content: &[u8]) -> std::io::Result<()> 
     file.set_len(0)?;
     file.rewind()?;
     file.write_all(content)
+}
+
+/// The failure of a lock in the file at `path`: most often the file system has none.
+pub(super) fn no_lock(path: &Path, error: std::io::Error) -> StoreError {
+    let missing = [
+        Errno::ENOLCK,
+        Errno::ENOSYS,
+        Errno::EOPNOTSUPP,
+        Errno::EINVAL,
+    ];
+    let found = error.raw_os_error().map(Errno::from_raw);
+    match found.is_some_and(|found| missing.contains(&found)) {
+        true => StoreError::NoLocks {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        },
+        false => FileError::writing(path)(error).into(),
+    }
 }
 
 fn busy(path: &Path) -> StoreError {

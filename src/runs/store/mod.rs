@@ -90,6 +90,13 @@ pub enum StoreError {
         shown(path)
     )]
     ReadOnly { path: PathBuf, reason: String },
+    #[error(
+        "{}: the file system has no locks ({reason}), by which programs at one store learn of one another; accepted is a \
+         store on a file system with flock, as a local disk, NFS with its lock service, or Lustre mounted with -o flock: \
+         choose another directory with --store",
+        shown(path)
+    )]
+    NoLocks { path: PathBuf, reason: String },
 }
 
 /// A kind of result that a store keeps.

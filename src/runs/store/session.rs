@@ -5,9 +5,13 @@
 //! removes.
 
 use super::directories::Directories;
-use super::lock::{Lock, overwrite};
+use super::lock::{Lock, no_lock, overwrite};
 use super::{CHECKPOINTS, LockOwner, StoreError};
 use crate::files::{FileError, Links, is_temporary, open_regular, read_bounded, temporary};
+use nix::sys::statfs::{
+    BTRFS_SUPER_MAGIC, EXT4_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC, TMPFS_MAGIC, XFS_SUPER_MAGIC,
+    fstatfs,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
 use std::ffi::OsStr;
@@ -92,7 +96,14 @@ impl Session {
             .permissions(Permissions::from_mode(READABLE))
             .tempfile_in(&sessions)
             .map_err(writing())?;
-        draft.as_file().lock().map_err(writing())?;
+        let locked = draft.as_file().lock();
+        locked.map_err(|error| no_lock(draft.path(), error))?;
+        if is_unlocked(draft.path()) {
+            return Err(StoreError::NoLocks {
+                path: draft.path().to_owned(),
+                reason: "a file that is locked can be locked again".to_owned(),
+            });
+        }
         let name = draft.path().file_name().and_then(SessionName::of);
         let name = name.expect("its parts are those of a session");
         let work = name.work(root);
@@ -205,7 +216,13 @@ impl Session {
 impl State {
     fn write(&mut self, path: &Path) -> Result<(), StoreError> {
         let text = serde_json::to_vec(&self.claims).expect("plain data has a JSON form");
-        Ok(overwrite(&mut self.file, &text).map_err(FileError::writing(path))?)
+        let written = overwrite(&mut self.file, &text);
+        let sent = written.and_then(|()| match is_local(&self.file) {
+            true => Ok(()),
+            // Other machines do not see what a network file system has not sent yet.
+            false => self.file.sync_data(),
+        });
+        Ok(sent.map_err(FileError::writing(path))?)
     }
 }
 
@@ -248,6 +265,18 @@ fn claims(session: &Path) -> Option<Claims> {
 fn is_unlocked(session: &Path) -> bool {
     let file = open_regular(session, Links::Refused, File::options().read(true));
     file.is_ok_and(|file| file.try_lock_shared().is_ok())
+}
+
+/// Whether `file` is on a file system of this machine alone, as far as the kind of the file system says.
+fn is_local(file: &File) -> bool {
+    let local = [
+        BTRFS_SUPER_MAGIC,
+        EXT4_SUPER_MAGIC,
+        OVERLAYFS_SUPER_MAGIC,
+        TMPFS_MAGIC,
+        XFS_SUPER_MAGIC,
+    ];
+    fstatfs(file).is_ok_and(|found| local.contains(&found.filesystem_type()))
 }
 
 /// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its

@@ -58,6 +58,8 @@ pub enum Profile {
     /// The same as the paper made it, by the peak at wall speed 1e-6 and time step 1e-3; external codes at
     /// mu = 0.2, stiffness 1e4 alone.
     Paper,
+    /// The same by every code: days of one core for an external one (docs/cluster.md).
+    Literal,
 }
 
 impl Profile {
@@ -71,7 +73,7 @@ impl Profile {
         };
         let critical = of(f64::NAN, f64::NAN).ring().critical_friction;
         let frictions: Vec<f64> = match (self, power, bodies) {
-            (Self::Standard | Self::Paper, Power::Linear, PAPER_BODIES) => {
+            (Self::Standard | Self::Paper | Self::Literal, Power::Linear, PAPER_BODIES) => {
                 FIGURE_FRICTIONS.to_vec()
             }
             (.., PAPER_BODIES) => QUICK_FRICTIONS.to_vec(),
@@ -103,10 +105,10 @@ impl Profile {
                     Self::Quick | Self::Standard => {
                         measurements.push(plan(code, &stack, convention));
                     }
-                    Self::Paper if is_run_literally(code, &stack) => {
+                    Self::Paper if !is_run_literally(code, &stack) => {}
+                    Self::Paper | Self::Literal => {
                         measurements.push(plan_literal(code, &stack, convention));
                     }
-                    Self::Paper => {}
                 }
             }
         }
@@ -125,7 +127,7 @@ mod tests {
 
     #[test]
     fn every_stack_of_the_figure_yields_for_every_code_and_every_case_is_valid() {
-        for profile in [Profile::Standard, Profile::Paper] {
+        for profile in [Profile::Standard, Profile::Paper, Profile::Literal] {
             for measurement in profile.measurements(&Code::of_power(Power::Linear)) {
                 assert!(!measurement.cases.is_empty(), "{:?}", measurement.stack);
                 for case in &measurement.cases {

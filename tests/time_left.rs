@@ -1,0 +1,177 @@
+//! Commands with little time end before it is over, say so, and go on from there.
+
+mod common;
+
+use common::replay::{self, Disturbance};
+use common::{Bench, wait_for};
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use std::fs;
+use std::process::{Output, Stdio};
+use tristack::code::Code;
+use tristack::model::Stack;
+use tristack::study::yield_force::Profile;
+
+/// Exit statuses.
+const OUT_OF_TIME: Option<i32> = Some(6);
+const INTERRUPTED: Option<i32> = Some(130);
+const FAILED: Option<i32> = Some(3);
+
+fn run(bench: &Bench, line: &str) -> (Option<i32>, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = bench.tristack(line).output().expect("it runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (status.code(), text(stdout), text(stderr))
+}
+
+#[test]
+fn without_time_nothing_is_begun_and_the_same_command_goes_on() {
+    let bench = Bench::without_codes();
+    let line = "crosscheck --codes native --mu 0.2,0.3 --stiffness 100 --format csv --out rows";
+    let (status, _, message) = run(&bench, &format!("{line} --time-left 1ns"));
+    assert_eq!(status, OUT_OF_TIME, "{message}");
+    assert!(
+        message.contains("out of time with 0 of 2 rows complete"),
+        "{message}"
+    );
+    assert!(
+        message.contains("the same command goes on from here"),
+        "{message}"
+    );
+    assert!(
+        !bench.path("rows/crosscheck.csv").exists(),
+        "nothing is written"
+    );
+    let (status, rows, message) = run(&bench, &format!("{line} --time-left 1-00:00:00"));
+    assert_eq!(status, Some(0), "{message}");
+    let (_, undisturbed, _) = run(&Bench::without_codes(), line);
+    assert_eq!(rows, undisturbed);
+}
+
+/// Estimated seconds of the runs of YADE for a stack that takes long at the paper's literal settings.
+fn estimates() -> Vec<f64> {
+    let manifest = fs::read_to_string(common::project().join("yade_scripts/code.toml"));
+    let manifest: toml::Value = toml::from_str(&manifest.expect("a manifest")).expect("TOML");
+    let step = manifest["seconds"]["step"].as_float().expect("a number");
+    let yade = Code::named("yade").expect("it is built in");
+    let measurements = Profile::Literal.measurements(&[yade]);
+    let stack = Stack::paper(0.4, 100.0);
+    let row = measurements.iter().find(|row| row.stack == stack);
+    let cases = row.expect("it is one of the figure").cases.iter();
+    cases.map(|case| case.total_steps() as f64 * step).collect()
+}
+
+const LONG: &str =
+    "crosscheck --profile literal --codes yade --mu 0.4 --stiffness 100 --format csv";
+
+#[test]
+fn a_run_for_which_no_start_has_the_time_fails_with_its_estimate() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let shortest = estimates().into_iter().fold(f64::INFINITY, f64::min);
+    assert!(shortest > 300.0, "{shortest} s");
+    let (status, rows, message) = run(&bench, &format!("{LONG} --time-left 5min"));
+    assert_eq!(status, FAILED, "{message}");
+    assert!(rows.contains(",failed"), "{rows}");
+    let found = message.contains("by estimate it takes") && message.contains("270 s can be used");
+    assert!(found, "{message}");
+}
+
+#[test]
+fn a_run_for_which_too_little_time_is_left_is_not_begun() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let (all, longest) = (
+        estimates().iter().sum::<f64>(),
+        estimates().into_iter().fold(0.0, f64::max),
+    );
+    // Enough for the longest, not for all of them; half a minute is kept back.
+    let left = (all + longest) / 2.0 + 30.0;
+    let (status, _, message) = run(&bench, &format!("{LONG} --jobs 1 --time-left {left:.0}s"));
+    assert_eq!(status, OUT_OF_TIME, "{message}");
+    assert!(message.contains("1 runs are not begun"), "{message}");
+}
+
+#[test]
+fn words_that_are_no_duration_are_refused() {
+    let bench = Bench::without_codes();
+    for word in ["90", "0s", "1:2:3:4", "soon"] {
+        let line = format!("crosscheck --codes native --time-left {word}");
+        let (status, _, message) = run(&bench, &line);
+        assert_eq!(status, Some(1), "{message}");
+        assert!(message.contains("[D-][HH:]MM:SS"), "{message}");
+    }
+}
+
+/// A crosscheck whose runs last until they are ended, once it makes one; and what it prints.
+fn ended_by(signal: Signal) -> (Option<i32>, String) {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| {
+        Disturbance::Instead("touch begun; exec sleep 1000")
+    });
+    let mut command = bench.process("crosscheck --codes yade --jobs 1");
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let program = command.spawn().expect("it starts");
+    let work = bench.path("store/work");
+    wait_for(|| {
+        let files = work.is_dir().then(|| common::files_below(&work))?;
+        files
+            .iter()
+            .any(|file| file.ends_with("begun"))
+            .then_some(())
+    });
+    let process = Pid::from_raw(program.id() as i32);
+    kill(process, signal).expect("it is there");
+    let output = program.wait_with_output().expect("it ends");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), message)
+}
+
+#[test]
+fn the_signal_that_batch_systems_send_before_the_end_ends_the_time() {
+    let (status, message) = ended_by(Signal::SIGUSR1);
+    assert_eq!(status, OUT_OF_TIME, "{message}");
+    let parts = [
+        "out of time: finished runs are kept",
+        "the same command goes on from here",
+    ];
+    for part in parts {
+        assert!(message.contains(part), "{message}");
+    }
+    assert_eq!(ended_by(Signal::SIGTERM).0, INTERRUPTED);
+}
+
+/// Batch systems send SIGTERM to all processes of a job, and a code may end before tristack learns of it.
+#[test]
+fn a_code_that_ends_by_the_signal_that_tristack_gets_as_well_has_not_failed() {
+    let bench = Bench::with_system_programs();
+    // The shell, its guard, tristack.
+    let both = "kill -TERM $(cut -d' ' -f4 /proc/$PPID/stat); kill -TERM $$; sleep 1000";
+    replay::install(&bench, |_| Disturbance::Instead(both));
+    let (status, _, message) = run(&bench, "crosscheck --codes yade --jobs 1");
+    assert_eq!(status, INTERRUPTED, "{message}");
+    assert!(!message.contains("failed"), "{message}");
+    let work = fs::read_dir(bench.path("store/work")).expect("a directory");
+    assert_eq!(work.count(), 0, "nothing is kept as evidence");
+}
+
+/// The numbers of docs/cluster.md on the paper's figure 2(a) at its literal settings by LAMMPS.
+#[test]
+fn the_page_on_clusters_says_how_many_steps_the_literal_figure_takes() {
+    let lammps = Code::named("lammps").expect("it is built in");
+    let measurements = Profile::Literal.measurements(&[lammps]);
+    let cases = measurements.iter().flat_map(|row| &row.cases);
+    let steps: Vec<u64> = cases.map(|case| case.total_steps()).collect();
+    let (all, longest) = (steps.iter().sum::<u64>(), steps.iter().max());
+    let said = format!(
+        "{} runs, {:.2} × 10¹⁰ steps in all, {:.2} × 10⁹ in the longest",
+        steps.len(),
+        all as f64 / 1e10,
+        *longest.expect("a run") as f64 / 1e9
+    );
+    let page = fs::read_to_string(common::project().join("docs/cluster.md")).expect("a page");
+    assert!(page.contains(&said), "docs/cluster.md does not say: {said}");
+}

@@ -115,7 +115,7 @@ fn every_erratum_holds_and_is_needed() {
 /// The parts of `text` in front of, between and after `mark`, those between at odd indices.
 fn split<'a>(text: &'a str, mark: char, defects: &mut Vec<String>) -> Vec<&'a str> {
     let parts: Vec<&str> = text.split(mark).collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         defects.push(format!("a {mark} without its pair"));
     }
     parts

@@ -51,7 +51,9 @@ impl RunOptions {
     /// These options as settings of the schedule.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.time_left.map(end_within);
+        if let Some(time) = self.time_left {
+            end_within(time);
+        }
         Ok(Settings {
             store: self.store.opened()?,
             recorded: recorded(),

@@ -17,7 +17,11 @@ fn planned(bench: &Bench, line: &str) -> (Vec<Value>, Value) {
 
 /// Runs in the store.
 fn kept(bench: &Bench) -> usize {
-    let files = files_below(&bench.path("store/runs")).into_iter();
+    let runs = bench.path("store/runs");
+    if !runs.exists() {
+        return 0;
+    }
+    let files = files_below(&runs).into_iter();
     files.filter(|file| file.ends_with("series.csv")).count()
 }
 

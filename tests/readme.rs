@@ -13,9 +13,6 @@ use std::path::Path;
 /// Characters of README.md at most: a first page is read in one go.
 const LONGEST_FIRST_PAGE: usize = 6000;
 
-/// Commands and pages that README.md names before they are there.
-const UNDER_CONSTRUCTION: [&str; 5] = ["store", "time", "completions", "man", "docs/cluster.md"];
-
 /// The names of the commands in `tristack --help`.
 fn commands() -> BTreeSet<String> {
     let help = standard_output(&mut Bench::without_codes().tristack("--help"));
@@ -97,9 +94,7 @@ fn the_table_of_commands_is_that_of_the_program() {
     let named: Vec<&str> = cells
         .flat_map(|cell| cell.split('`').skip(1).step_by(2))
         .collect();
-    let mut expected = commands();
-    let pending = UNDER_CONSTRUCTION.iter().filter(|name| !name.contains('/'));
-    expected.extend(pending.map(|&name| name.to_owned()));
+    let expected = commands();
     assert_eq!(named.len(), expected.len(), "{named:?}");
     let named: BTreeSet<String> = named.into_iter().map(str::to_owned).collect();
     assert_eq!(named, expected);
@@ -116,9 +111,6 @@ fn every_link_leads_to_a_file_and_a_heading() {
                 "" => page.name.clone(),
                 path => page.beside(path),
             };
-            if UNDER_CONSTRUCTION.contains(&target.as_str()) {
-                continue;
-            }
             assert!(project().join(&target).exists(), "{}: {link}", page.name);
             if !anchor.is_empty() {
                 let headings = Page::read(&target).anchors();
@@ -173,7 +165,7 @@ fn every_command_and_flag_of_the_pages_exists() {
         for line in page.command_lines() {
             let (command, flags) = command_and_flags(&line);
             let first = command.split(' ').next().unwrap_or_default();
-            if UNDER_CONSTRUCTION.contains(&first) || first.starts_with("--") || first.is_empty() {
+            if first.starts_with("--") || first.is_empty() {
                 continue;
             }
             assert!(known.contains(first), "{}: tristack {line}", page.name);

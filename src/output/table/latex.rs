@@ -142,7 +142,7 @@ impl Kind {
         match self {
             Self::Lines {
                 has_formulas: true, ..
-            } => 20.0,
+            } => 12.0,
             Self::Lines { .. } => 8.0,
             _ => 0.0,
         }
@@ -226,7 +226,10 @@ fn open_brackets(text: &str) -> String {
         };
         rest = after;
     }
-    opened + rest
+    let opened = opened + rest;
+    opened
+        .replace("\\bigl", "\\allowbreak\\bigl")
+        .replace("}(", "}\\allowbreak(")
 }
 
 /// `text` whose long words, such as versions, may be broken after signs.
@@ -412,6 +415,6 @@ mod tests {
         assert_eq!(lines, ["F at", "$\\mu_c / 2$", "of all", "codes"]);
         assert_eq!(width("$\\mu_c$"), 2.0);
         let opened = open_brackets("$\\left(a \\to b\\right) \\leftarrow c$");
-        assert_eq!(opened, "$\\bigl(a \\to b\\bigr) \\leftarrow c$");
+        assert_eq!(opened, "$\\allowbreak\\bigl(a \\to b\\bigr) \\leftarrow c$");
     }
 }

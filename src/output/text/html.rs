@@ -7,7 +7,27 @@ use pulldown_latex::{Event, Parser, RenderConfig, Storage, push_mathml};
 /// `text` in HTML.
 pub(crate) fn html_text(text: &str) -> String {
     let text = readable_lines(text);
-    spans(&text).into_iter().map(span).collect()
+    let mut html = String::new();
+    let mut spans = spans(&text).into_iter().peekable();
+    while let Some(own) = spans.next() {
+        let Some(Span::Plain(next)) = spans.peek_mut().filter(|_| matches!(own, Span::Math(_)))
+        else {
+            html += &span(own);
+            continue;
+        };
+        // Lines may break after a formula, but not before a full stop.
+        let rest = next.trim_start_matches(['.', ',', ';', ':', ')', '’']);
+        let stops = &next[..next.len() - rest.len()];
+        html += &match stops {
+            "" => span(own),
+            _ => format!(
+                "<span style=\"white-space:nowrap\">{}{stops}</span>",
+                span(own)
+            ),
+        };
+        *next = rest;
+    }
+    html
 }
 
 /// `text` as the value of an attribute, as it is written.
@@ -53,7 +73,8 @@ fn mathml(tex: &str) -> Option<String> {
     let mut mathml = String::new();
     let events = events.ok()?.into_iter().map(Ok::<_, std::fmt::Error>);
     push_mathml(&mut mathml, events, RenderConfig::default()).ok()?;
-    Some(mathml)
+    // TeX sets a slash without space.
+    Some(mathml.replace("<mo>/</mo>", "<mo lspace=\"0\" rspace=\"0\">/</mo>"))
 }
 
 #[cfg(test)]

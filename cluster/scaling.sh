@@ -16,11 +16,12 @@ if [ $# = 0 ]; then
 fi
 mkdir "$directory"
 cd "$directory"
+probed=$directory/probed
 
 probe_codes() {
     local previous='' option
     for option in "$@"; do
-        [ "$previous" != --codes ] || "$tristack" probe --codes "$option" --store "$store" >probe.txt 2>&1
+        [ "$previous" != --codes ] || "$tristack" probe --codes "$option" --store "$probed" >probe.txt 2>&1
         previous=$option
     done
 }
@@ -39,13 +40,15 @@ run_tasks() {
     for task in "${waiting[@]}"; do wait "$task"; done
 }
 
+mkdir "$probed"
+probe_codes "$@"
 printf '%6s %9s %14s\n' tasks seconds 'times as fast'
 first=''
 for tasks in ${TASKS:-1 2 4}; do
     store=$directory/$tasks/store
     mkdir "$tasks"
+    cp -r "$probed" "$store"
     pushd "$tasks" >/dev/null
-    probe_codes "$@"
     begin=$(date +%s%3N)
     run_tasks "$tasks" "$@"
     took=$(($(date +%s%3N) - begin))

@@ -1,18 +1,21 @@
 //! A cluster on this machine: a munged, a slurmctld, and two nodes, each a slurmd in name spaces of its own, so that it has its
 //! own host name and all its processes end with it. The nodes share one kernel, and so do the locks of files.
 
-use super::common::{Bench, wait_for};
+use super::common::Bench;
 use std::fmt::Write;
 use std::fs;
 use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// In the environment: Slurm must be there, and must be allowed to run.
 const REQUIRED: &str = "TRISTACK_REQUIRE_SLURM";
 /// Debian has daemons where not every user looks for programs.
 const PLACES: &str = "/usr/sbin:/usr/bin:/sbin:/bin";
+/// Many times what anything takes, on a busy machine too; it ends a test that would hang.
+const PATIENCE: Duration = Duration::from_secs(600);
 pub const NODES: [&str; 2] = ["n1", "n2"];
 /// The options with which `unshare` makes a node.
 const NODE: [&str; 5] = ["--fork", "--kill-child", "--pid", "--mount-proc", "--uts"];
@@ -85,7 +88,7 @@ impl<'a> Cluster<'a> {
             format!("--seed-file={}", path("slurm/seed")),
         ];
         cluster.daemons.push(cluster.spawn("munged", &munged));
-        wait_for(|| bench.path("slurm/socket").exists().then_some(()));
+        cluster.wait_for("munged answers", || bench.path("slurm/socket").exists());
         let slurmctld = ["slurmctld", "-D", "-c"].map(str::to_owned);
         cluster.daemons.push(cluster.spawn("slurmctld", &slurmctld));
         for node in NODES {
@@ -177,11 +180,25 @@ impl<'a> Cluster<'a> {
         words.extend(["sh".to_owned(), "-c".to_owned(), script]);
         self.nodes[place(node)] = Some(self.spawn(node, &words));
         let states = format!("sinfo --noheader --nodes={node} --format=%t");
-        wait_for(|| {
+        self.wait_for("the node is idle", || {
             let mut command = self.command("sinfo");
-            let output = command.args(states.split(' ').skip(1)).output().ok()?;
-            (output.stdout.trim_ascii() == b"idle").then_some(())
+            let output = command.args(states.split(' ').skip(1)).output();
+            output.is_ok_and(|output| output.stdout.trim_ascii() == b"idle")
         });
+    }
+
+    /// Waits until `condition` holds, which is `said` in words.
+    #[track_caller]
+    pub fn wait_for(&self, said: &str, condition: impl Fn() -> bool) {
+        let start = Instant::now();
+        while !condition() {
+            assert!(
+                start.elapsed() < PATIENCE,
+                "waited in vain until {said}\n{}",
+                self.logs()
+            );
+            std::thread::sleep(Duration::from_millis(100));
+        }
     }
 
     /// Ends a node as if its power failed, and tells Slurm, which would notice by itself after minutes.

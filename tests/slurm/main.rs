@@ -7,32 +7,39 @@ mod common;
 mod cluster;
 
 use cluster::{Cluster, NODES};
-use common::{Bench, OWN_PROGRAM, files_below, project, wait_for};
+use common::{Bench, OWN_PROGRAM, files_below, project};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 const LINE: &str = "--codes native,lammps --mu 0.2,0.3 --stiffness 1e2";
 const TASKS: usize = 3;
-/// Many times what it takes; it ends a test that would hang.
-const PATIENCE: Duration = Duration::from_secs(600);
-
-/// A LAMMPS that notes on which node it begins and finishes which run of the store. A start of tristack has it make another
-/// one, as a witness to what is installed.
+/// A LAMMPS that notes on which node it begins and finishes which run of the store, and begins no stack there as long as the
+/// node is held. A start of tristack has it make another run, as a witness to what is installed.
 fn install_noting_lammps(bench: &Bench) {
-    let noted = bench.path("noted").display().to_string();
+    let [noted, hold] = ["noted", "hold"].map(|name| bench.path(name).display().to_string());
     let script = format!(
         "case $PWD in */store/work/*) ;; *) exec /usr/bin/lmp \"$@\" ;; esac\n\
-         note() {{ echo $1 $(hostname) $(cat parameters.in *.in | sha256sum) >> {noted}; }}\n\
+         note() {{ echo $1 $(hostname) $(cat *.in | sha256sum) >> {noted}; }}\n\
          note begun\n\
+         if [ -f stack.in ] && [ -e {hold}-$(hostname) ]; then\n\
+             note held\n\
+             while [ -e {hold}-$(hostname) ]; do sleep 0.05; done\n\
+         fi\n\
          /usr/bin/lmp \"$@\" || exit\n\
          note finished\n"
     );
     bench.install("lmp", &script);
+    for node in NODES {
+        fs::write(bench.path(&format!("hold-{node}")), "").expect("a file");
+    }
 }
 
-/// What was noted: begun or finished, on which node, which run.
+fn release(bench: &Bench, node: &str) {
+    fs::remove_file(bench.path(&format!("hold-{node}"))).expect("it is there");
+}
+
+/// What was noted: begun, held or finished, on which node, which run.
 fn noted(bench: &Bench) -> Vec<[String; 3]> {
     let text = fs::read_to_string(bench.path("noted")).unwrap_or_default();
     let lines = text.lines().map(|line| {
@@ -40,13 +47,6 @@ fn noted(bench: &Bench) -> Vec<[String; 3]> {
         [(); 3].map(|()| words.next().unwrap_or_default())
     });
     lines.collect()
-}
-
-/// Number of runs that `node` has begun and not finished.
-fn under_way(bench: &Bench, node: &str) -> isize {
-    let own = noted(bench).into_iter().filter(|note| note[1] == node);
-    own.map(|note| if note[0] == "begun" { 1 } else { -1 })
-        .sum()
 }
 
 /// The script, edited as its page says.
@@ -111,32 +111,23 @@ fn an_array_that_loses_a_node_and_runs_out_of_time_gives_the_rows_of_one_machine
 
     // Both nodes are making runs. One dies; the other is told that its time is up, and requeues its task itself.
     for node in NODES {
-        wait_for(|| (under_way(&bench, node) == 1).then_some(()));
+        let is_held = |note: &[String; 3]| note[0] == "held" && note[1] == node;
+        cluster.wait_for("a run is under way", || noted(&bench).iter().any(is_held));
     }
     cluster.kill("n2");
-    let survivor = cluster.ask("squeue --noheader --states=running --format=%i");
-    assert_eq!(survivor.lines().count(), 1, "{survivor}");
-    let survivor = survivor.trim();
+    release(&bench, "n2");
+    let running = cluster.ask("squeue --noheader --states=running --format=%i");
+    assert_eq!(running.lines().count(), 1, "{running}");
+    let survivor = running.trim();
     cluster.ask(&format!("scancel --full --signal=USR1 {survivor}"));
-    let out_of_time = bench.path(&format!("crosscheck-{}.txt", survivor.replace('_', "-")));
-    wait_for(|| {
-        fs::read_to_string(&out_of_time)
-            .ok()?
-            .contains("out of time")
-            .then_some(())
-    });
+    let out = bench.path(&format!("crosscheck-{}.txt", survivor.replace('_', "-")));
+    let told = |part| fs::read_to_string(&out).is_ok_and(|text| text.contains(part));
+    cluster.wait_for("the task ends", || told("out of time with"));
+    release(&bench, "n1");
     cluster.boot("n2");
-
-    let start = Instant::now();
-    while !cluster.ask("squeue --noheader").is_empty() {
-        assert!(
-            start.elapsed() < PATIENCE,
-            "{}\n{}",
-            cluster.ask("squeue"),
-            cluster.logs()
-        );
-        std::thread::sleep(Duration::from_millis(200));
-    }
+    cluster.wait_for("the array ends", || {
+        cluster.ask("squeue --noheader").is_empty()
+    });
     for task in 1..=TASKS {
         let state = cluster.ask(&format!("scontrol --oneliner show job {job}_{task}"));
         let told = fs::read_to_string(bench.path(&format!("crosscheck-{job}-{task}.txt")));
@@ -155,21 +146,13 @@ fn an_array_that_loses_a_node_and_runs_out_of_time_gives_the_rows_of_one_machine
     }
     let often: Vec<_> = finished.iter().filter(|(_, times)| **times != 1).collect();
     assert!(often.is_empty(), "made more than once: {often:?}");
-    let begun = notes.len() - finished.len();
     assert!(finished.len() > 10, "{notes:?}");
+    let begun = notes.iter().filter(|note| note[0] == "begun").count();
     assert_eq!(
         begun - finished.len(),
         2,
         "one by the dead node, one by the task that was out of time"
     );
-    for node in NODES {
-        assert!(
-            notes
-                .iter()
-                .any(|note| note[0] == "finished" && note[1] == node),
-            "{node} made a part"
-        );
-    }
 
     // The rows of one machine, with a store of its own.
     let line = format!("crosscheck {LINE} --out alone");

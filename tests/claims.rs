@@ -152,8 +152,11 @@ fn relics(prose: &str) -> Vec<String> {
     let signs = prose.matches([
         '_', '^', '<', '>', '=', '|', '\\', '[', '@', '±', '→', '≥', '≤',
     ]);
+    // Panels of a figure are letters in brackets.
+    let is_panel = |word: &&str| word.starts_with('(') && word.ends_with(')') && word.len() == 3;
     let ends = |character: char| character.is_ascii_punctuation();
-    let words = prose.split_whitespace().map(|word| word.trim_matches(ends));
+    let words = prose.split_whitespace().filter(|word| !is_panel(word));
+    let words = words.map(|word| word.trim_matches(ends));
     let is_symbol = |word: &str| SYMBOLS.split_whitespace().any(|symbol| symbol == word);
     let is_scientific = |word: &str| word.contains('e') && word.parse::<f64>().is_ok();
     let words = words.filter(|word| is_symbol(word) || is_scientific(word));

@@ -194,16 +194,29 @@ impl Kind {
                 format!("{digits}\\times10^{{{}}}", exponent.trim_start_matches('+'))
             }
             (Self::Aligned { .. }, None) => cell.to_owned(),
-            (Self::Lines { .. }, _) => breakable(&open_brackets(&latex_text(cell))),
+            (Self::Lines { .. }, _) => breakable(&breakable_formulas(&latex_text(cell))),
             _ => latex_text(cell),
         }
     }
 }
 
-/// `text` with brackets of one size: TeX breaks no line between those that fit what they enclose.
-fn open_brackets(text: &str) -> String {
+/// `text` whose formulas may be broken before brackets and after commas.
+fn breakable_formulas(text: &str) -> String {
+    let parts = text.split('$').enumerate();
+    let parts = parts.map(|(index, part)| match index % 2 {
+        0 => part.to_owned(),
+        _ => open_brackets(part)
+            .replace("\\bigl", "\\allowbreak\\bigl")
+            .replace("}(", "}\\allowbreak(")
+            .replace(", ", ",\\allowbreak\\ "),
+    });
+    parts.collect::<Vec<_>>().join("$")
+}
+
+/// `tex` with brackets of one size: TeX breaks no line between those that fit what they enclose.
+fn open_brackets(tex: &str) -> String {
     let mut opened = String::new();
-    let mut rest = text;
+    let mut rest = tex;
     while let Some(at) = rest
         .find("\\left")
         .into_iter()
@@ -211,10 +224,9 @@ fn open_brackets(text: &str) -> String {
         .min()
     {
         let (before, found) = rest.split_at(at);
-        let name = if found.starts_with("\\left") {
-            "\\left"
-        } else {
-            "\\right"
+        let name = match found.starts_with("\\left") {
+            true => "\\left",
+            false => "\\right",
         };
         let after = &found[name.len()..];
         let is_bracket = !after.starts_with(|next: char| next.is_ascii_alphabetic());
@@ -226,10 +238,7 @@ fn open_brackets(text: &str) -> String {
         };
         rest = after;
     }
-    let opened = opened + rest;
-    opened
-        .replace("\\bigl", "\\allowbreak\\bigl")
-        .replace("}(", "}\\allowbreak(")
+    opened + rest
 }
 
 /// `text` whose long words, such as versions, may be broken after signs.
@@ -414,7 +423,8 @@ mod tests {
         let lines = heading_lines("F at $\\mu_c / 2$ of all codes", 8.0);
         assert_eq!(lines, ["F at", "$\\mu_c / 2$", "of all", "codes"]);
         assert_eq!(width("$\\mu_c$"), 2.0);
-        let opened = open_brackets("$\\left(a \\to b\\right) \\leftarrow c$");
-        assert_eq!(opened, "$\\allowbreak\\bigl(a \\to b\\bigr) \\leftarrow c$");
+        let text = "a, b: $\\left(a, b\\right) \\leftarrow c$";
+        let opened = "a, b: $\\allowbreak\\bigl(a,\\allowbreak\\ b\\bigr) \\leftarrow c$";
+        assert_eq!(breakable_formulas(text), opened);
     }
 }

@@ -8,7 +8,8 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 const WRONG: [&str; 5] = ["zzz", "-1", "0", "nan", "1e999"];
 
 /// Flags that take the path of a file or a directory, or any line of text.
-const TAKE_ANY_TEXT: [&str; 14] = [
+const TAKE_ANY_TEXT: [&str; 15] = [
+    "--junit",
     "--out",
     "--vtk",
     "--store",

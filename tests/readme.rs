@@ -147,8 +147,9 @@ fn every_page_is_in_the_index() {
 fn command_and_flags(line: &str) -> (String, Vec<String>) {
     let words = words(line);
     let mut command = words.first().cloned().unwrap_or_default();
-    if command == "passport" {
-        command.push_str(" diff");
+    // Of commands that have commands of their own the second word counts too.
+    if let ("passport" | "store", Some(second)) = (command.as_str(), words.get(1)) {
+        command.push_str(&format!(" {second}"));
     }
     let flags = words.iter().filter(|word| word.starts_with("--"));
     let flags = flags.map(|flag| flag.split('=').next().unwrap_or_default().to_owned());

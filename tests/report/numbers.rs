@@ -2,6 +2,7 @@
 
 use super::{file, report};
 use std::collections::HashMap;
+use tristack::model::CRITICAL_FRICTION;
 
 type Row = HashMap<String, String>;
 
@@ -132,7 +133,7 @@ fn the_counts_of_rows_are_those_of_the_tables() {
     for row in judged.iter().filter(|row| row["verdict"] == "inconclusive") {
         let mu = number(row, "mu");
         // The critical friction is named.
-        expected.extend((mu != 2.0 - 3_f64.sqrt()).then_some(mu));
+        expected.extend((mu != CRITICAL_FRICTION).then_some(mu));
         expected.push(number(row, "stiffness"));
         assert!(
             item("judged rows").contains(&row["code"]),
@@ -182,7 +183,7 @@ fn exponents_are_those_of_the_fits() {
         .filter(|row| number(row, "law_power") == 1.0)
         .cloned()
         .collect();
-    let critical = 2.0 - 3_f64.sqrt();
+    let critical = CRITICAL_FRICTION;
     let agreeing = count(&linear, "verdict", "agrees") as f64;
     assert_numbers(
         &item("Scaling"),
@@ -250,7 +251,15 @@ const GIVEN: [(f64, &str); 5] = [
 ];
 
 /// Words before numbers that name a place in the paper or in the documents.
-const PLACES: [&str; 6] = ["Fig. ", "Eq. (", "Eqs. (", "section ", "supplement, ", "I."];
+const PLACES: [&str; 7] = [
+    "Fig. ",
+    "Eq. (",
+    "Eqs. (",
+    "section ",
+    "supplement, ",
+    "I.",
+    "SHA-",
+];
 
 #[test]
 fn every_other_number_of_the_prose_is_a_value_of_a_row() {
@@ -274,6 +283,8 @@ fn every_other_number_of_the_prose_is_a_value_of_a_row() {
         values.push(text.lines().count() as f64 - 1.0);
     }
     let page = file("report.md");
+    // The summary has tests of its own, sentence by sentence.
+    let (_, page) = page.split_once("\n**Table 1.**").expect("a first table");
     let prose = page
         .lines()
         .filter(|line| !line.starts_with(['|', '!', '<', '#']));

@@ -230,7 +230,7 @@ impl<'a> View<'a> {
         for (value, printed) in self.panel.y.ticks() {
             let y = bottom - self.panel.y.part(value) * self.height;
             drawing.line([[left - TICK, y], [left, y]], FRAME);
-            let beside = [left - TICK - 3.0, y + HALF_LETTER];
+            let beside = [left - TICK - 4.5, y + HALF_LETTER];
             drawing.text(printed, beside, TEXT_SIZE, Anchor::End);
         }
         let below = [0.5 * (left + right), bottom + MARGINS.3 - 6.5];

@@ -84,7 +84,7 @@ const HERTZ_END: (f64, f64) = (1.35e6, 2.0e2);
 
 /// The table of the fitted exponents.
 fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {
-    let heads = ["", "β, native", "β, exact limit", "β, kₙ r/(m g) → ∞"];
+    let heads = ["exponent β", "native", "exact limit", "kₙ → ∞"];
     let own = exponents.filter(|own| own.code == Code::NATIVE);
     let rows = own.map(|fitted| {
         let decimals = decimals(fitted.uncertainty);

@@ -91,6 +91,7 @@ impl Sheet {
             false => panels_end + key.height(),
         };
         let table = TableBlock::new(&self.table);
+        let width = width.max(left + table.width() + PADDING);
         let mut drawing = Drawing::new(width, key_end + table.height());
         for (index, panel) in self.panels.iter().enumerate() {
             let letter = char::from(b'a' + (index % 26) as u8);
@@ -174,6 +175,11 @@ impl<'a> TableBlock<'a> {
             0 => 0.0,
             rows => ABOVE + KEY_LINE * rows as f64 + PADDING,
         }
+    }
+
+    fn width(&self) -> f64 {
+        let spaces = self.widths.len().saturating_sub(1) as f64;
+        self.widths.iter().sum::<f64>() + spaces * COLUMN_SPACE
     }
 
     fn draw(&self, drawing: &mut Drawing, [left, top]: Place) {

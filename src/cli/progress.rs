@@ -58,7 +58,7 @@ impl Phase {
         let made = self.finished - self.failed;
         let failed = match self.failed {
             0 => String::new(),
-            failed => format!(", {failed} failed or interrupted"),
+            failed => format!(", {failed} failed"),
         };
         let took = duration(self.begun.elapsed());
         let Self { name, open, .. } = self;
@@ -184,8 +184,10 @@ impl Progress for Reporter {
     fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
         let (finished, open) = {
             let mut phase = self.phase();
-            phase.finished += 1;
-            phase.failed += usize::from(result.is_err());
+            // An interrupted run is neither made nor has it failed.
+            let is_interrupted = matches!(result, Err(failure) if failure.is_interrupted());
+            phase.finished += usize::from(!is_interrupted);
+            phase.failed += usize::from(result.is_err() && !is_interrupted);
             (phase.finished, phase.open)
         };
         match result {
@@ -232,6 +234,6 @@ mod tests {
         (phase.open, phase.finished, phase.failed) = (90, 12, 2);
         let summary = phase.summary().expect("something was made");
         assert!(summary.starts_with("compressions: 10 of 90 made in "));
-        assert!(summary.ends_with(", 2 failed or interrupted"), "{summary}");
+        assert!(summary.ends_with(", 2 failed"), "{summary}");
     }
 }

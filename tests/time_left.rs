@@ -7,7 +7,7 @@ use common::{Bench, wait_for};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use std::fs;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 use tristack::code::Code;
 use tristack::model::Stack;
 use tristack::study::yield_force::Profile;

@@ -44,15 +44,15 @@ fn regimes_are_printed_and_written_and_all_agree() {
 #[test]
 fn wrong_values_are_refused_by_the_name_of_their_flag() {
     let bench = Bench::without_codes();
-    for (line, flag) in [
-        ("regimes --kappa -1", "`--kappa` is -1"),
-        ("regimes --kappa nan", "`--kappa` is NaN"),
-        ("regimes --kappa 1.0774", "`--kappa` is 1.0774"),
-        ("regimes --points 1", "`--points` is 1"),
+    for (line, flag, accepted) in [
+        ("regimes --kappa -1", "`--kappa` is -1", "must be"),
+        ("regimes --kappa nan", "'nan' for '--kappa <K>'", "finite"),
+        ("regimes --kappa 1.0774", "`--kappa` is 1.0774", "must be"),
+        ("regimes --points 1", "'1' for '--points <N>'", "from 2 to"),
     ] {
         let mut command = bench.tristack(line);
         assert_eq!(command.output().expect("it starts").status.code(), Some(1));
         let said = standard_error(&mut command);
-        assert!(said.contains(flag) && said.contains("must be"), "{said}");
+        assert!(said.contains(flag) && said.contains(accepted), "{said}");
     }
 }

@@ -54,7 +54,7 @@ fn outcome(bench: &Bench, line: &str) -> (Option<i32>, String) {
 /// Refused as wrong input, with a message of one line that has all `parts`.
 #[track_caller]
 fn refused(bench: &Bench, line: &str, parts: &[&str]) {
-    let (status, message) = outcome(bench, line);
+    let (status, message) = outcome(bench, &format!("{line} --quiet"));
     assert_eq!(status, Some(1), "{line}: {message}");
     for part in parts {
         assert!(message.contains(part), "{line}: {message} lacks {part}");
@@ -600,7 +600,7 @@ fn a_run_is_printed_though_not_a_byte_of_it_can_be_written() {
         return;
     }
     let bench = Bench::with_system_programs();
-    let line = format!("{RUN} --format csv --out disk/out");
+    let line = format!("{RUN} --format csv --out disk/out --quiet");
     let set_up =
         "mkdir disk && mount -t tmpfs -o size=4k none disk && mkdir disk/out && echo > disk/all";
     let output = ended(with_mounts(

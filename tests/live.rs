@@ -226,6 +226,7 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
         files.extend([
             "case.json",
             "series.csv",
+            "series.csv-metadata.json",
             "stderr.txt",
             "stdout.txt",
             "summary.json",

@@ -79,8 +79,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         true => find_all(&arguments.stacks.codes(arguments.law)),
         false => selected_codes(&named)?,
     };
-    settle(&codes, &arguments.run)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
+    let settings = arguments.run.settings()?;
+    settle(&codes, &arguments.run)?;
     let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
     let planned = || arguments.stacks.measurements(&names, arguments.law);
     let mut measurements = during("planning", planned)?;
@@ -88,7 +89,6 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         let shortened = measurements.into_iter().map(Measurement::shortened);
         measurements = shortened.collect();
     }
-    let settings = arguments.run.settings()?;
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let rows = &arguments.rows;

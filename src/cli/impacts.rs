@@ -59,9 +59,9 @@ impl Arguments {
 /// Carries out and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let mut codes = arguments.codes()?;
-    settle(&codes, &arguments.run)?;
     let layout = Layout::tables("impacts.json", &["impacts.csv", "impacts.md"]);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
+    settle(&codes, &arguments.run)?;
     let mut studies: Vec<ImpactStudy> = Vec::new();
     for selected in &codes {
         let convention = arguments.convention.of(selected.name)?;

@@ -42,7 +42,7 @@ mod trajectories;
 pub use error::{CliError, ExitStatus};
 
 use crate::code::GUARD_COMMAND;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Command as Grammar, CommandFactory, FromArgMatches, Parser, Subcommand};
 pub(crate) use interrupt::INTERRUPT;
 use options::GRAMMAR;
 use std::cell::RefCell;
@@ -98,12 +98,12 @@ enum Command {
 }
 
 /// The grammar for readers and shells: without what the program asks of itself.
-fn public_grammar() -> clap::Command {
+fn public_grammar() -> Grammar {
     let all = grammar();
     let visible = all.get_subcommands().filter(|own| !own.is_hide_set());
     let about = all.get_about().cloned().unwrap_or_default();
     let after = all.get_after_help().cloned().unwrap_or_default();
-    clap::Command::new("tristack")
+    Grammar::new("tristack")
         .version(env!("CARGO_PKG_VERSION"))
         .about(about)
         .after_help(after)
@@ -118,14 +118,14 @@ fn public_grammar() -> clap::Command {
 pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::Error> {
     thread_local! {
         // Building the grammar takes much longer than parsing one line.
-        static GRAMMAR: RefCell<clap::Command> = RefCell::new(grammar());
+        static GRAMMAR: RefCell<Grammar> = RefCell::new(grammar());
     }
     GRAMMAR.with_borrow_mut(|grammar| parsed(grammar, arguments).map(drop))
 }
 
 /// The grammar of the command line. What follows an option that takes a value may be a negative number, so that the
 /// option itself says what it accepts.
-fn grammar() -> clap::Command {
+fn grammar() -> Grammar {
     let takes_numbers = |option: clap::Arg| {
         let takes_values = option.get_action().takes_values();
         option.allow_negative_numbers(takes_values)
@@ -134,7 +134,7 @@ fn grammar() -> clap::Command {
 }
 
 fn parsed(
-    grammar: &mut clap::Command,
+    grammar: &mut Grammar,
     arguments: impl IntoIterator<Item = OsString>,
 ) -> Result<Cli, clap::Error> {
     let matches = grammar.try_get_matches_from_mut(arguments)?;

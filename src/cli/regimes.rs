@@ -48,11 +48,13 @@ pub(super) struct Arguments {
 
 /// Examines every boundary, prints and writes the result.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let maps = during("mapping the first events", || checked_maps(arguments))?;
+    let maps = checked_maps(arguments)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
-    let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
-    let points: Vec<BoundaryPoint> = maps.iter().flat_map(of_map).collect();
     let settings = arguments.run.settings()?;
+    let of_map = |map: &RegimeMap| map.boundary_points(arguments.points, THREE_DIGITS);
+    let points: Vec<BoundaryPoint> = during("mapping the first events", || {
+        maps.iter().flat_map(of_map).collect()
+    });
     let plan = SurveyPlan::new(&points, &examined_stacks());
     let native = [SelectedCode::find(Code::NATIVE)];
     let survey = survey(&plan, &Campaign::new(&native, &settings, &Reporter::new()));

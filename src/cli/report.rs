@@ -46,11 +46,11 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let [codes, hertz_codes] =
         [Power::Linear, Power::Hertz].map(|power| codes_of(&arguments.codes, power));
     let (codes, hertz_codes) = (codes?, hertz_codes?);
-    settle(&codes, &arguments.run)?;
-    settle(&hertz_codes, &arguments.run)?;
     let register = Register::paper()?;
     let out = Out::claim(Some(&arguments.out), &layout())?;
     let settings = arguments.run.settings()?;
+    settle(&codes, &arguments.run)?;
+    settle(&hertz_codes, &arguments.run)?;
     let scope = Scope {
         codes: &codes,
         hertz_codes: &hertz_codes,

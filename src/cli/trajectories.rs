@@ -48,14 +48,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     refuse_native(&arguments.codes.named)?;
     let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| selected.name != Code::NATIVE);
-    settle(&codes, &arguments.run)?;
     let files = ["trajectories.csv", "trajectories.md"];
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
+    let settings = arguments.run.settings()?;
+    settle(&codes, &arguments.run)?;
     let names = codes.iter().map(|selected| selected.name);
     let plans = during("planning", || plans(names, arguments.bodies));
     codes.push(SelectedCode::find(Code::NATIVE));
-    let settings = arguments.run.settings()?;
     let planned = plans.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
     let tables = [trajectories(&judgements)];

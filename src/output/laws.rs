@@ -1,6 +1,6 @@
 //! What a contact law does to the yield force: the styles of all codes side by side, at one material.
 
-use super::number::{digits, friction, rounded, small};
+use super::number::{digits, friction_in_tex, rounded, small};
 use super::table::{Columns, DataTable, Table};
 use super::text::markdown_code;
 use crate::code::Code;
@@ -12,14 +12,14 @@ use crate::study::yield_force::Judgement;
 pub(crate) const LAWS_TITLE: &str = "What your contact law does to the yield force";
 
 /// What the conventions of a table of laws are.
-pub(crate) const LAWS_EXPLAINED: &str = "An arm r₁ is that of the torque, in R = r + r₁ overlap, with that of the surface velocity \
+pub(crate) const LAWS_EXPLAINED: &str = "An arm $r_1$ is that of the torque, in $R = r + r_1 \\times$ overlap, with that of the surface velocity \
     where it is another one. Springs that remember a displacement have the force of the present stiffness; those that \
     remember a force grow by the present stiffness alone. A spring that is rescaled is reduced while the contact opens, and has \
     the limit of one that is not where every contact is loaded all the way, as here.";
 
 /// What the forces of a table of laws are.
-pub(crate) const FORCES_EXPLAINED: &str = "Exact quasi-static limits F = f/(m g) at the onset of slip / at the largest force, one number where \
-    both are the same; none where the top wall reaches the bottom cylinders before the floor slips. The stiffness is K r√r/(m g).";
+pub(crate) const FORCES_EXPLAINED: &str = "Exact quasi-static limits $F = f/(mg)$ at the onset of slip / at the largest force, one number where \
+    both are the same; none where the top wall reaches the bottom cylinders before the floor slips. The stiffness is $K r\\sqrt{r}/(mg)$.";
 
 /// Why the forces differ, and what that means.
 pub(crate) fn laws_lead(judgements: &[Judgement]) -> String {
@@ -72,9 +72,9 @@ pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     .again("history")
     .shown("springs remember")
     .again("floor_ratio")
-    .shown_as("floor K / pair K", digits::<4>)
+    .shown_as("floor $K$ / pair $K$", digits::<4>)
     .again("tangential_stiffening")
-    .shown("k_t times 2/(2 − overlap)")
+    .shown("$k_t$ times 2/(2 − overlap)")
     .cell(move |row| match convention(row).law.tangential_stiffening {
         TangentialStiffening::None => "-".to_owned(),
         contacts => contacts.as_str().to_owned(),
@@ -99,7 +99,7 @@ pub(crate) fn law_forces(judgements: &[Judgement]) -> Table {
     let first = [("stiffness".to_owned(), true), ("code".to_owned(), false)];
     let headings = frictions
         .iter()
-        .map(|&mu| (format!("μ = {}", friction(mu).replace("mu_c", "μ_c")), true));
+        .map(|&mu| (format!("$\\mu = {}$", friction_in_tex(mu)), true));
     let mut table = Table::new(first.into_iter().chain(headings));
     for stiffness in sorted(Judgement::stiffness) {
         for style in styles(judgements) {
@@ -158,7 +158,7 @@ pub(crate) fn laws_markdown(judgements: &[Judgement], figure: &str, command: &st
          ## What each style means by a contact\n\n{}\n{LAWS_EXPLAINED}\n\n\
          ## Onset of slip / largest force\n\n{FORCES_EXPLAINED}\n\n{}\n\
          ## Measured\n\n\
-         The error is the distance of the measured slip onset from the exact one, relative to F + 3.\n\n{}",
+         The error is the distance of the measured slip onset from the exact one, relative to $F + 3$.\n\n{}",
         laws_lead(judgements),
         env!("CARGO_PKG_VERSION"),
         markdown_code(command),

@@ -64,6 +64,14 @@ pub(crate) fn friction_in_tex(value: f64) -> String {
     friction(value).replace(CRITICAL, "\\mu_c")
 }
 
+/// A stiffness as TeX; a large power of ten by its exponent.
+pub(crate) fn stiffness_in_tex(value: f64) -> String {
+    match value >= 1e5 && exact(value).trim_end_matches('0') == "1" {
+        true => scientific(value, 0),
+        false => exact(value),
+    }
+}
+
 /// A deviation as TeX, with one digit and a power of ten.
 pub(crate) fn power_of_ten(value: f64) -> String {
     format!("${}$", scientific(value, 0))
@@ -114,6 +122,9 @@ mod tests {
         assert_eq!(exact(0.300_000_000_000_000_04), "0.30000000000000004");
         assert_eq!(power_of_ten(1e-7), "$10^{-7}$");
         assert_eq!(power_of_ten(-5.7e-8), "$-6\\times10^{-8}$");
+        assert_eq!(stiffness_in_tex(1e6), "10^{6}");
+        assert_eq!(stiffness_in_tex(1e3), "1000");
+        assert_eq!(stiffness_in_tex(2e6), "2000000");
         assert_eq!(plain(2283.4), "2280");
         assert_eq!(plain(8.6399), "8.64");
     }

@@ -110,6 +110,16 @@ pub(crate) enum Ground {
     },
 }
 
+/// Says that a `quantity` of a row exceeds its `tolerance`, with as many digits as show it.
+fn exceeds(quantity: &str, value: f64, tolerance: f64) -> String {
+    let shown = |digits: usize| [value, tolerance].map(|number| format!("{number:.digits$e}"));
+    let told_apart = (1..17)
+        .map(shown)
+        .find(|[value, tolerance]| value != tolerance);
+    let [value, tolerance] = told_apart.unwrap_or_else(|| shown(1));
+    format!("the {quantity} {value} exceeds the tolerance {tolerance}")
+}
+
 impl Ground {
     fn note(&self) -> Option<&str> {
         match self {
@@ -143,12 +153,8 @@ impl Ground {
         };
         match self.verdict(0.0)? {
             Verdict::Agrees => None,
-            Verdict::Inconclusive => Some(format!(
-                "the uncertainty {uncertainty:.1e} exceeds the tolerance {tolerance:.1e}"
-            )),
-            _ => Some(format!(
-                "the error {error:.1e} exceeds the tolerance {tolerance:.1e}"
-            )),
+            Verdict::Inconclusive => Some(exceeds("uncertainty", uncertainty, tolerance)),
+            _ => Some(exceeds("error", error, tolerance)),
         }
     }
 

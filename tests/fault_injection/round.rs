@@ -228,7 +228,7 @@ impl<'a> Round<'a> {
             let kept = entries.len();
             return Err(format!("{said} runs were finished, {kept} are kept"));
         }
-        Ok(finished)
+        Ok(finished.max(entries.len()))
     }
 
     /// Goes on without faults; returns how many runs were made.
@@ -319,16 +319,19 @@ fn told(output: &Output) -> String {
     format!("{text}\n{message}")
 }
 
-/// Number of runs that a program said it has finished, less those that it could not keep.
+/// Number of runs that a program said it has made, less those that it could not keep. It says so at the end of a phase,
+/// so that one that was killed has said nothing.
 pub fn finished_runs(output: &Output) -> usize {
     let message = String::from_utf8_lossy(&output.stderr);
     if message.contains(disk::NOT_KEPT) {
         return 0;
     }
-    let is_run = |line: &&str| line.starts_with('[') && !line.contains(": micro-tests");
-    let finished = message.lines().filter(is_run);
+    let made = message.lines().filter_map(|line| {
+        let numbers = line.strip_prefix("compressions: ")?;
+        numbers.split_once(" of ")?.0.parse::<usize>().ok()
+    });
     let lost = message.matches("a finished run could not be kept");
-    finished.count().saturating_sub(lost.count())
+    made.sum::<usize>().saturating_sub(lost.count())
 }
 
 pub fn is_running(child: &mut Child) -> bool {

@@ -4,11 +4,12 @@ use super::axis::Axis;
 use super::panel::{Panel, Point, Sample, Stroke};
 use super::style::{DIFFERS, GUIDE, INCONCLUSIVE, Mark};
 use crate::code::Code;
+use crate::output::number::power_of_ten;
 use crate::study::yield_force::Judgement;
 use crate::study::{MAX_TOLERANCE, Verdict};
 
 /// Range of shown errors; those below and above are drawn at its ends.
-const ERRORS: (f64, f64) = (1e-10, 1e-3);
+const ERRORS: (f64, f64) = (1e-10, 1e-4);
 
 /// The axis of F + 3.
 pub(super) fn load_axis(range: (f64, f64)) -> Axis {
@@ -47,6 +48,15 @@ pub(super) fn error_panel<'a>(
         |row| Some((x(row), row.error()?.abs())),
     );
     panel
+}
+
+/// What a caption says of errors outside of the range that an [`error_panel`] shows.
+pub(super) fn errors_at_edges() -> String {
+    format!(
+        "errors below {} stand at the lower edge, those above {} at the upper one",
+        power_of_ten(ERRORS.0),
+        power_of_ten(ERRORS.1)
+    )
 }
 
 /// Writes what the errors of a panel have in common above them.

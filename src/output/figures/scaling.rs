@@ -38,10 +38,11 @@ pub(super) fn scaling(
                   of the forces can do to the last digit) and to the exact limits at the same stiffnesses, and \
                   its value for infinite stiffness. (b–d) Distance \
                   of each code with linear springs from the exact limit under its own convention, relative to $F + 3$, a panel \
-                  for each friction; errors below $10^{{-10}}$ stand at the lower edge, those above $10^{{-3}}$ at the upper one. \
+                  for each friction; {}. \
                   Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}",
         values("\\mu", &SCALING_FRICTIONS),
         number(FITTED_FROM),
+        codes::errors_at_edges(),
         codes::left_out(judgements)
     );
     let both: Vec<Judgement> = judgements.iter().chain(&laws.scaling).cloned().collect();
@@ -80,7 +81,7 @@ const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 42.0), (3e5, 2.2e3), (8e4, 5e4)];
 
 /// Name of the curve with Hertz contacts, and its place.
 const HERTZ_WORDS: &str = "μ = μ_{c}, Hertz";
-const HERTZ_END: (f64, f64) = (1.35e6, 2.0e2);
+const HERTZ_END: (f64, f64) = (1.35e6, 85.0);
 
 /// The table of the fitted exponents.
 fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {

@@ -226,9 +226,10 @@ fn the_axes_carry_symbols_and_units() {
 fn small_letters_are_of_one_size_in_every_figure_and_layout() {
     for figure in figures(&reproduction(judgements())) {
         for svg in [figure.svg(), figure.narrow_svg()] {
-            let parts = svg.split("<tspan").skip(1);
-            let sizes = parts
-                .filter_map(|part| Some(part.split_once("font-size=\"")?.1.split_once('"')?.0));
+            let tags = svg.split("<tspan").skip(1);
+            let tags = tags.filter_map(|part| Some(part.split_once('>')?.0));
+            let sizes =
+                tags.filter_map(|tag| Some(tag.split_once("font-size=\"")?.1.split_once('"')?.0));
             assert!(sizes.clone().all(|size| size == "75%"), "{}", figure.name);
             let unicode = |letter: char| "ₙₜ₁₂⁻⁰¹²³⁴⁵⁶⁷⁸⁹".contains(letter);
             assert!(!svg.contains(unicode), "{}", figure.name);

@@ -34,9 +34,10 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
              paper's perturbation result, the limit of rigid cylinders (wide and light, the same for every stiffness), and \
              every code under its own contact \
              convention, by slip onset extrapolated to vanishing wall speed. (b–d) Distance of \
-             each code from the exact limit under its own convention, relative to $F + 3$, a panel for each stiffness; errors \
-             below $10^{{-10}}$ stand at the lower edge, those above $10^{{-3}}$ at the upper one. Runs of the standard profile.{}",
+             each code from the exact limit under its own convention, relative to $F + 3$, a panel for each stiffness; \
+             {}. Runs of the standard profile.{}",
         values("k_n r/(mg)", &PAPER_STIFFNESSES),
+        codes::errors_at_edges(),
         codes::left_out(judgements)
     );
     let sheet = Sheet::of_halves(panels.collect::<Vec<Panel>>()).with_key(codes::key(judgements));
@@ -63,7 +64,7 @@ fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
     codes::loads(&mut panel, judgements, |row| row.mu());
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
-    panel.key(Sample::Line(RIGID_BELOW), "rigid cylinders");
+    panel.key(Sample::Line(RIGID_BELOW), "rigid");
     panel
 }
 

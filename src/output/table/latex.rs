@@ -421,7 +421,7 @@ mod tests {
     #[test]
     fn a_heading_is_broken_at_spaces_outside_of_formulas() {
         let lines = heading_lines("F at $\\mu_c / 2$ of all codes", 8.0);
-        assert_eq!(lines, ["F at", "$\\mu_c / 2$", "of all", "codes"]);
+        assert_eq!(lines, ["F at", "$\\mu_c / 2$ of", "all codes"]);
         assert_eq!(width("$\\mu_c$"), 2.0);
         let text = "a, b: $\\left(a, b\\right) \\leftarrow c$";
         let opened = "a, b: $\\allowbreak\\bigl(a,\\allowbreak\\ b\\bigr) \\leftarrow c$";

@@ -4,6 +4,15 @@ use super::span::{Span, spans};
 use crate::model::readable_lines;
 use pulldown_latex::{Event, Parser, RenderConfig, Storage, push_mathml};
 
+/// A place in a formula where a line may end. No browser breaks one `<math>`.
+const BREAK: &str = "</math><wbr><math display=\"inline\">";
+/// Letters from which on a formula may be broken.
+const LONG: usize = 24;
+/// Operators after which a formula may be broken.
+const BREAKING: [&str; 4] = ["=", "+", "−", ","];
+/// What precedes a sign with one operand.
+const WITHOUT_OPERAND: [&str; 2] = ["inline\"><mo>", "(</mo><mo>"];
+
 /// `text` in HTML.
 pub(crate) fn html_text(text: &str) -> String {
     let text = readable_lines(text);
@@ -18,12 +27,12 @@ pub(crate) fn html_text(text: &str) -> String {
         // Lines may break after a formula, but not before a full stop.
         let rest = next.trim_start_matches(['.', ',', ';', ':', ')', '’']);
         let stops = &next[..next.len() - rest.len()];
+        let formula = span(own);
+        let (begin, last) = formula.split_at(formula.rfind(BREAK).map_or(0, |at| at + BREAK.len()));
+        html += begin;
         html += &match stops {
-            "" => span(own),
-            _ => format!(
-                "<span style=\"white-space:nowrap\">{}{stops}</span>",
-                span(own)
-            ),
+            "" => last.to_owned(),
+            _ => format!("<span style=\"white-space:nowrap\">{last}{stops}</span>"),
         };
         *next = rest;
     }
@@ -73,8 +82,51 @@ fn mathml(tex: &str) -> Option<String> {
     let mut mathml = String::new();
     let events = events.ok()?.into_iter().map(Ok::<_, std::fmt::Error>);
     push_mathml(&mut mathml, events, RenderConfig::default()).ok()?;
-    // TeX sets a slash without space.
-    Some(mathml.replace("<mo>/</mo>", "<mo lspace=\"0\" rspace=\"0\">/</mo>"))
+    Some(breakable(&set_as_in_tex(&mathml)))
+}
+
+/// A long formula with breaks after the operators that are in no fraction, root or other part of it. They keep the
+/// spaces of an operator between two operands.
+fn breakable(mathml: &str) -> String {
+    let parts = || {
+        mathml
+            .split_inclusive('>')
+            .map(|part| part.split_at(part.find('<').unwrap_or(0)))
+    };
+    if parts().map(|(text, _)| text.chars().count()).sum::<usize>() < LONG {
+        return mathml.to_owned();
+    }
+    let (mut broken, mut depth) = (String::new(), 0_usize);
+    for (text, tag) in parts() {
+        let has_operands =
+            broken.ends_with("<mo>") && !WITHOUT_OPERAND.iter().any(|end| broken.ends_with(end));
+        let breaks = depth == 2 && has_operands && BREAKING.contains(&text);
+        if breaks {
+            broken.insert_str(broken.len() - 1, " form=\"infix\"");
+        }
+        broken += text;
+        broken += tag;
+        if breaks {
+            broken += BREAK;
+        }
+        depth = match (tag.starts_with("</"), tag.ends_with("/>")) {
+            (true, _) => depth.saturating_sub(1),
+            (false, is_whole) => depth + usize::from(!is_whole),
+        };
+    }
+    broken
+}
+
+/// `mathml` with the Greek letter in place of the micro sign, which browsers do not slant, and without space around
+/// slashes and bars, as TeX sets them.
+fn set_as_in_tex(mathml: &str) -> String {
+    mathml
+        .replace('\u{b5}', "\u{3bc}")
+        .replace("<mo>/</mo>", "<mo lspace=\"0\" rspace=\"0\">/</mo>")
+        .replace(
+            "<mo symmetric=\"false\" stretchy=\"false\">|</mo>",
+            "<mo symmetric=\"false\" stretchy=\"false\" lspace=\"0\" rspace=\"0\">|</mo>",
+        )
 }
 
 #[cfg(test)]
@@ -109,6 +161,25 @@ mod tests {
                 "{shown}"
             );
         }
+    }
+
+    #[test]
+    fn long_formulas_break_after_operators_outside_of_their_parts() {
+        let short = html_text("$-a + b = c$");
+        assert!(!short.contains(BREAK), "{short}");
+        let long = html_text("$-aaaa bbbb + \\sqrt{cccc + dddd} = (-eeee - ffff) gggg$.");
+        let ends: Vec<&str> = long
+            .split(BREAK)
+            .map(|part| &part[part.len() - 29..])
+            .collect();
+        let sign = |sign: &str| format!("<mo form=\"infix\">{sign}</mo>");
+        for (end, operator) in ends.iter().zip(["+", "=", "−"]) {
+            assert!(end.ends_with(&sign(operator)), "{long}");
+        }
+        assert_eq!(ends.len(), 4, "{long}");
+        assert!(long.ends_with("</math>.</span>"), "{long}");
+        assert_eq!(long.matches("<math").count(), 4);
+        assert_eq!(long.matches("</math>").count(), 4);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::tolerances::Agreement;
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::output::DataTable;
-use crate::output::number::{digits, friction_in_tex, percent, power_of_ten};
+use crate::output::number::{digits, friction_in_tex, percent, power_of_ten, stiffness_in_tex};
 use crate::output::table::Columns;
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
@@ -88,9 +88,9 @@ fn of_rows(reproduction: &Reproduction) -> String {
     let named = named.map(|row| {
         let mu = friction_in_tex(row.mu());
         format!(
-            "{} at $\\mu = {mu}$, stiffness {}",
+            "{} at $\\mu = {mu}$, stiffness ${}$",
             row.code,
-            row.stiffness()
+            stiffness_in_tex(row.stiffness())
         )
     });
     let named: Vec<String> = named.collect();
@@ -99,8 +99,8 @@ fn of_rows(reproduction: &Reproduction) -> String {
         false => format!(" ({}; [why](#untested))", named.join("; ")),
     };
     format!(
-        "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} are \
-         inconclusive{named}, {} have no yield, {} failed or are missing.",
+        "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} \
+         inconclusive{named}, {} without yield, {} failed or missing.",
         rows.len(),
         rows.len() - recorded,
         count(Verdict::Agrees),

@@ -2,7 +2,7 @@
 
 use super::super::document::{Block, Section};
 use super::Origin;
-use crate::output::number::friction_in_tex;
+use crate::output::number::{friction_in_tex, stiffness_in_tex};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
@@ -67,10 +67,10 @@ fn unjudged(reproduction: &Reproduction) -> Vec<String> {
     let open = reproduction.judged_rows().filter(|row| !judged(row));
     open.map(|row| {
         format!(
-            "{} at $\\mu = {}$, stiffness {} was not judged, {}: {}.",
+            "{} at $\\mu = {}$, stiffness ${}$ was not judged, {}: {}.",
             row.code,
             friction_in_tex(row.mu()),
-            row.stiffness(),
+            stiffness_in_tex(row.stiffness()),
             row.verdict(),
             row.reason()
         )

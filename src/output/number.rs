@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(exact(0.300_000_000_000_000_04), "0.30000000000000004");
         assert_eq!(power_of_ten(1e-7), "$10^{-7}$");
         assert_eq!(power_of_ten(-5.7e-8), "$-6\\times10^{-8}$");
-        assert_eq!(stiffness_in_tex(1e6), "10^{6}");
+        assert_eq!(stiffness_in_tex(1e6), "10^6");
         assert_eq!(stiffness_in_tex(1e3), "1000");
         assert_eq!(stiffness_in_tex(2e6), "2000000");
         assert_eq!(plain(2283.4), "2280");

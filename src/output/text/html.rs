@@ -10,8 +10,6 @@ const BREAK: &str = "</math><wbr><math display=\"inline\">";
 const LONG: usize = 24;
 /// Operators after which a formula may be broken.
 const BREAKING: [&str; 4] = ["=", "+", "−", ","];
-/// What precedes a sign with one operand.
-const WITHOUT_OPERAND: [&str; 2] = ["inline\"><mo>", "(</mo><mo>"];
 
 /// `text` in HTML.
 pub(crate) fn html_text(text: &str) -> String {
@@ -28,7 +26,8 @@ pub(crate) fn html_text(text: &str) -> String {
         let rest = next.trim_start_matches(['.', ',', ';', ':', ')', '’']);
         let stops = &next[..next.len() - rest.len()];
         let formula = span(own);
-        let (begin, last) = formula.split_at(formula.rfind(BREAK).map_or(0, |at| at + BREAK.len()));
+        let last_begins = formula.rfind("<math").unwrap_or(0);
+        let (begin, last) = formula.split_at(last_begins);
         html += begin;
         html += &match stops {
             "" => last.to_owned(),
@@ -98,9 +97,7 @@ fn breakable(mathml: &str) -> String {
     }
     let (mut broken, mut depth) = (String::new(), 0_usize);
     for (text, tag) in parts() {
-        let has_operands =
-            broken.ends_with("<mo>") && !WITHOUT_OPERAND.iter().any(|end| broken.ends_with(end));
-        let breaks = depth == 2 && has_operands && BREAKING.contains(&text);
+        let breaks = depth == 2 && broken.ends_with("<mo>") && BREAKING.contains(&text);
         if breaks {
             broken.insert_str(broken.len() - 1, " form=\"infix\"");
         }
@@ -117,11 +114,12 @@ fn breakable(mathml: &str) -> String {
     broken
 }
 
-/// `mathml` with the Greek letter in place of the micro sign, which browsers do not slant, and without space around
-/// slashes and bars, as TeX sets them.
+/// `mathml` with the Greek letter in place of the micro sign, which browsers do not slant, with spaces in place of their
+/// escaped names, and without space around slashes and bars, as TeX sets them.
 fn set_as_in_tex(mathml: &str) -> String {
     mathml
         .replace('\u{b5}', "\u{3bc}")
+        .replace("&amp;nbsp;", "\u{a0}")
         .replace("<mo>/</mo>", "<mo lspace=\"0\" rspace=\"0\">/</mo>")
         .replace(
             "<mo symmetric=\"false\" stretchy=\"false\">|</mo>",
@@ -168,18 +166,15 @@ mod tests {
         let short = html_text("$-a + b = c$");
         assert!(!short.contains(BREAK), "{short}");
         let long = html_text("$-aaaa bbbb + \\sqrt{cccc + dddd} = (-eeee - ffff) gggg$.");
-        let ends: Vec<&str> = long
-            .split(BREAK)
-            .map(|part| &part[part.len() - 29..])
-            .collect();
-        let sign = |sign: &str| format!("<mo form=\"infix\">{sign}</mo>");
-        for (end, operator) in ends.iter().zip(["+", "=", "−"]) {
-            assert!(end.ends_with(&sign(operator)), "{long}");
+        let pieces: Vec<&str> = long.split("</math><wbr>").collect();
+        assert_eq!(pieces.len(), 4, "{long}");
+        for (piece, operator) in pieces.iter().zip(["+", "=", "−"]) {
+            let sign = format!("<mo form=\"infix\">{operator}</mo>");
+            assert!(piece.ends_with(&sign), "{long}");
         }
-        assert_eq!(ends.len(), 4, "{long}");
-        assert!(long.ends_with("</math>.</span>"), "{long}");
-        assert_eq!(long.matches("<math").count(), 4);
-        assert_eq!(long.matches("</math>").count(), 4);
+        assert!(pieces[1].starts_with("<math") && pieces[2].starts_with("<math"));
+        let last = "<span style=\"white-space:nowrap\"><math";
+        assert!(pieces[3].starts_with(last) && pieces[3].ends_with("</math>.</span>"));
     }
 
     #[test]

@@ -115,11 +115,18 @@ fn on_page((number, own): Numbered) -> PageClaim {
         statement: claim.statement.clone(),
         verdict: own.verdict.to_string(),
         words: in_words(own.verdict),
-        evidence: own.evidence.clone(),
+        evidence: match claim.see.is_empty() || ends_a_sentence(&own.evidence) {
+            true => own.evidence.clone(),
+            false => format!("{}.", own.evidence),
+        },
         erratum: own.erratum.clone(),
         equations: claim.equations.clone(),
         sources: claim.see.iter().map(|see| format!("[](#{see})")).collect(),
     }
+}
+
+fn ends_a_sentence(text: &str) -> bool {
+    text.ends_with('.') || text.ends_with(".)")
 }
 
 /// The displayed equations with the first claim on each.

@@ -447,6 +447,24 @@ fn a_value_that_chooses_no_row_is_refused_with_those_of_the_profile() {
     }
 }
 
+/// Above this friction the wall reaches the bottom cylinders of some styles first.
+#[test]
+fn no_yield_where_none_is_expected_is_no_failure() {
+    let bench = Bench::without_codes();
+    let line = "crosscheck --law hertz --profile standard --mu 0.4 --stiffness 1e3 --only-failures --junit tests.xml";
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("no-yield"), "{message}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(!text.contains("no-yield"), "{text}");
+    let tests = fs::read_to_string(bench.path("tests.xml")).expect("the tests");
+    assert_eq!(tests.matches("<testcase ").count(), 10, "{tests}");
+    for trouble in ["<skipped", "<failure", "<error"] {
+        assert!(!tests.contains(trouble), "{tests}");
+    }
+}
+
 #[test]
 fn failures_a_summary_and_junit_show_the_same_rows() {
     let bench = Bench::without_codes();

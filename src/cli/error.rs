@@ -57,8 +57,8 @@ impl ExitStatus {
     /// The status of one row. A stack that does not yield where theory expects no yield is no disagreement.
     pub(super) fn of_row(judgement: &Judgement) -> Self {
         match judgement.verdict() {
+            _ if judgement.passes() => Self::Success,
             _ if judgement.grounds.is_contradicted() => Self::Disagreement,
-            Verdict::NoYield if judgement.reference_force().is_none() => Self::Success,
             verdict => Self::of_verdict(verdict),
         }
     }

@@ -145,7 +145,7 @@ fn filtered<Q>(
             key: flag.to_owned(),
             value: shown(none),
             accepted: format!(
-                "one of those that the profile has here: {}; stacks of your own take --mu and --stiffness without --profile",
+                "one of those that the profile has here: {}; for other stacks give both --mu and --stiffness, and no --profile",
                 values.join(", ")
             ),
         });

@@ -4,7 +4,7 @@ use super::convention::settle;
 use super::options::{
     CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
 };
-use super::progress::Reporter;
+use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
 use crate::code::{Code, RunContext};
@@ -60,8 +60,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let directory = Scratch::new().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
     let bodies = arguments.stacks.others.bodies;
-    let measured = durations(&outlook, &codes, bodies, (&settings, &context), |error| {
-        tell!("the cost of a step could not be measured: {error}");
+    let measured = during("timing a step of each code", || {
+        durations(&outlook, &codes, bodies, (&settings, &context), |error| {
+            tell!("the cost of a step could not be measured: {error}");
+        })
     });
     let (rows, seconds) = match measured {
         Err(_) if INTERRUPT.requested() => return Ok(ExitStatus::Interrupted),

@@ -46,7 +46,12 @@ pub(super) fn suite(name: &str, cases: impl IntoIterator<Item = TestCase>) -> Te
 /// A row of a crosscheck.
 pub(super) fn row(row: &Judgement) -> TestCase {
     let name = format!("{} at {}", row.code, place(row.mu(), row.stiffness()));
-    TestCase::new(name, status(row.verdict(), &row.reason()))
+    let status = match row.passes() {
+        true => TestCaseStatus::success(),
+        false if row.grounds.is_contradicted() => status(Verdict::Differs, &row.reason()),
+        false => status(row.verdict(), &row.reason()),
+    };
+    TestCase::new(name, status)
 }
 
 fn place(mu: f64, stiffness: f64) -> String {

@@ -4,7 +4,6 @@ use super::format::Format;
 use crate::cli::out::write;
 use crate::cli::{ExitStatus, INTERRUPT};
 use crate::output::{crosscheck, crosscheck_summary, crosscheck_text, junit};
-use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 use clap::Args;
 use std::path::PathBuf;
@@ -15,14 +14,14 @@ const SUITES: &str = "tristack crosscheck";
 /// What is printed of the rows of a crosscheck.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct RowOptions {
-    /// Print only the rows whose verdict is not `agrees`; files have all rows
+    /// Print only the rows that neither agree nor have no yield where none is expected; files have all rows
     #[arg(long, conflicts_with = "summary")]
     only_failures: bool,
     /// Print how many rows of each code have which verdict and where its largest error is, instead of the rows
     #[arg(long)]
     summary: bool,
     /// JUnit XML with a test for each row, for continuous integration: `differs` is a failure, `failed` and `no-yield`
-    /// are errors, `inconclusive` and `missing` skipped
+    /// where a yield is expected are errors, `inconclusive` and `missing` skipped
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
 }
@@ -39,10 +38,13 @@ impl RowOptions {
             return format.print(&tables, command, || crosscheck_text(judgements));
         }
         let failures = judgements.iter();
-        let failures = failures.filter(|row| row.verdict() != Verdict::Agrees);
+        let failures = failures.filter(|row| !row.passes());
         let failures: Vec<Judgement> = failures.cloned().collect();
         let tables = [crosscheck(&failures)];
-        format.print(&tables, command, || crosscheck_text(&failures))
+        format.print(&tables, command, || match failures.is_empty() {
+            true => format!("no failure among {} rows\n", judgements.len()),
+            false => crosscheck_text(&failures),
+        })
     }
 
     /// Writes the verdicts of all rows as JUnit XML, if there is a file for them. Nothing is written after an

@@ -3,6 +3,7 @@
 use super::extrapolate::Extrapolation;
 use super::judgement::Judgement;
 use crate::runs::RunSummary;
+use crate::study::Verdict;
 
 impl Judgement {
     /// Floor friction μ.
@@ -44,6 +45,17 @@ impl Judgement {
         limit
             .yield_force
             .and(limit.slip_onset.or(limit.yield_force))
+    }
+
+    /// Whether the row is as it should be: it agrees, or there is no yield where theory expects none. A code whose
+    /// convention is contradicted by its probe is not.
+    pub fn passes(&self) -> bool {
+        let is_expected = match self.verdict() {
+            Verdict::Agrees => true,
+            Verdict::NoYield => self.reference_force().is_none(),
+            _ => false,
+        };
+        is_expected && !self.grounds.is_contradicted()
     }
 
     /// (slip onset − exact onset)/(exact onset + 3), or the same of the peak where that is judged; `None` where

@@ -141,17 +141,17 @@ impl Progress for Reporter {
         }
         self.end(&phase);
         *phase = Phase::new(name);
-        self.bar.unset_length();
-        self.bar.reset();
-        if self.bar.is_hidden() {
-            tell!("{name}");
-            return;
-        }
+        // A change of the length draws the bar, which has its style by then.
         self.bar
             .set_style(style("{spinner} {prefix}, {elapsed} elapsed"));
         self.bar.set_prefix(name.to_owned());
         self.bar.set_message("");
-        self.bar.enable_steady_tick(BETWEEN_PICTURES);
+        self.bar.unset_length();
+        self.bar.reset();
+        match self.bar.is_hidden() {
+            true => tell!("{name}"),
+            false => self.bar.enable_steady_tick(BETWEEN_PICTURES),
+        }
     }
 
     fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64) {

@@ -25,6 +25,10 @@ const ONE_LINE: f64 = 22.0;
 const LEAST: f64 = 14.0;
 /// Space between two columns, in letters.
 const GAP: f64 = 2.0;
+/// Width of a power of ten without its exponent, in digits: the sign, the ten and the spaces.
+const POWER: usize = 5;
+/// Width of the sign before a number, in digits.
+const SIGN: usize = 2;
 
 /// A document of the tables in these files.
 pub(crate) fn document_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
@@ -74,11 +78,11 @@ fn joined(cells: impl Iterator<Item = String>) -> String {
 
 /// How a column is set.
 enum Kind {
-    /// Numbers with so many digits, in letters, before and after the point.
+    /// Numbers with so many digits, in letters, before and after the point; the width of the heading and of formulas.
     Aligned {
         before: usize,
         after: usize,
-        heading: f64,
+        others: f64,
     },
     /// Text in one line.
     Line { width: f64, is_right: bool },
@@ -97,10 +101,11 @@ impl Kind {
             column.cells.iter().map(|cell| digits(cell)).collect();
         if let (Some(numbers), true) = (numbers, column.numeric) {
             let longest = |side: fn(&(usize, usize)) -> usize| numbers.iter().map(side).max();
+            let formulas = column.cells.iter().filter(|cell| is_formula(cell));
             return Self::Aligned {
                 before: longest(|own| own.0).unwrap_or(1),
                 after: longest(|own| own.1).unwrap_or(0),
-                heading,
+                others: formulas.map(|cell| width(cell)).fold(heading, f64::max),
             };
         }
         if column.numeric || longest <= ONE_LINE {
@@ -122,8 +127,8 @@ impl Kind {
             Self::Aligned {
                 before,
                 after,
-                heading,
-            } => (*before as f64 + *after as f64 + 1.0).max(*heading),
+                others,
+            } => (*before as f64 + *after as f64 + 1.0).max(*others),
             Self::Line { width, .. } => *width,
             Self::Lines { .. } => LEAST,
         }
@@ -190,9 +195,7 @@ impl Kind {
             (Self::Aligned { .. }, _) if is_formula(cell) => {
                 format!("\\multicolumn{{1}}{{c}}{{{}}}", latex_text(cell))
             }
-            (Self::Aligned { .. }, Some((digits, exponent))) => {
-                format!("{digits}\\times10^{{{}}}", exponent.trim_start_matches('+'))
-            }
+            (Self::Aligned { .. }, Some((number, exponent))) => with_power(number, exponent),
             (Self::Aligned { .. }, None) => cell.to_owned(),
             (Self::Lines { .. }, _) => breakable(&breakable_formulas(&latex_text(cell))),
             _ => latex_text(cell),
@@ -255,7 +258,18 @@ fn breakable(text: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// Digits and signs of a number before and after its point, a power of ten as five and its exponent; `None` for a text.
+/// A number and its power of ten, which stands in the room after the point even if the number has no point.
+///
+/// A column takes all of a cell without a point to be before it, where there is no room for the power.
+fn with_power(number: &str, exponent: &str) -> String {
+    let power = format!("\\times10^{{{}}}", exponent.trim_start_matches('+'));
+    match number.contains('.') {
+        true => number.to_owned() + &power,
+        false => format!("{number}\\rlap{{${{}}{power}$}}"),
+    }
+}
+
+/// Width of a number in digits before and after its point, its power of ten after it; `None` for a text.
 fn digits(cell: &str) -> Option<(usize, usize)> {
     if cell == "-" || cell.is_empty() || is_formula(cell) {
         return Some((1, 0));
@@ -265,12 +279,15 @@ fn digits(cell: &str) -> Option<(usize, usize)> {
         .filter(|number| number.is_finite())?;
     let (number, exponent) = cell.split_once('e').unwrap_or((cell, ""));
     let (before, after) = number.split_once('.').unwrap_or((number, ""));
-    let exponent = if exponent.is_empty() {
-        0
-    } else {
-        5 + exponent.len()
+    let power = match exponent {
+        "" => 0,
+        exponent => POWER + exponent.len(),
     };
-    Some((before.len(), after.len() + exponent))
+    let before = match before.strip_prefix(['-', '+']) {
+        Some(unsigned) => SIGN + unsigned.len(),
+        None => before.len(),
+    };
+    Some((before, after.len() + power))
 }
 
 /// Whether all of `cell` is a formula, such as a friction by its name.
@@ -400,7 +417,7 @@ mod tests {
         ];
         let table = latex("errors", "Errors of $F$.", &columns);
         assert!(
-            table.contains("{lD{.}{.}{2.9}>{\\raggedright\\arraybackslash}p{0."),
+            table.contains("{lD{.}{.}{3.9}>{\\raggedright\\arraybackslash}p{0."),
             "{table}"
         );
         assert!(
@@ -416,6 +433,30 @@ mod tests {
             "{table}"
         );
         assert!(table.contains("column \\& more"), "{table}");
+    }
+
+    #[test]
+    fn a_power_of_ten_stands_after_the_point_where_its_column_has_room() {
+        let cells = ["2e-8", "-1.25e-8", "3", "-4e+12", "-"];
+        let table = latex("errors", "Errors.", &[column("±", true, &cells)]);
+        for expected in [
+            "{longtable}{D{.}{.}{3.9}}",
+            "\n2\\rlap{${}\\times10^{-8}$} \\\\\n",
+            "\n-1.25\\times10^{-8} \\\\\n",
+            "\n3 \\\\\n",
+            "\n-4\\rlap{${}\\times10^{12}$} \\\\\n",
+        ] {
+            assert!(table.contains(expected), "no {expected} in {table}");
+        }
+        assert_eq!(digits("2e-8"), Some((1, 7)));
+        assert_eq!(digits("-0.5"), Some((3, 1)));
+        assert_eq!(digits("+5.3e-3"), Some((3, 8)));
+    }
+
+    #[test]
+    fn a_column_of_numbers_has_room_for_its_formulas() {
+        let column = column("mu", true, &["0.5", "$\\mu_c / 2 + \\mu_d / 2$"]);
+        assert_eq!(Kind::of(&column).least(), 15.0);
     }
 
     #[test]

@@ -199,6 +199,18 @@ fn an_entry_that_no_run_of_today_has_the_address_of_is_outdated() {
 }
 
 #[test]
+fn runs_with_more_digits_that_explain_a_row_are_not_outdated() {
+    let bench = Bench::without_codes();
+    let explain = "crosscheck --explain native/0.3/100";
+    bench.tristack(explain).assert().code(0);
+    let all = entries(&bench, "--kind run").len();
+    assert!(all > 5, "{all} runs: none with more digits");
+    assert!(entries(&bench, "--outdated").is_empty());
+    bench.tristack("store prune --outdated").assert().code(0);
+    assert_eq!(entries(&bench, "--kind run").len(), all);
+}
+
+#[test]
 fn nothing_is_removed_while_another_program_uses_the_store() {
     let bench = bench_with_runs();
     let all = runs(&bench);

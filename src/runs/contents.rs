@@ -5,7 +5,7 @@ use super::impacts::{ImpactRun, read_impact};
 use super::observations::observed_run;
 use super::probe_record::probe_address;
 use super::store::{EntryKind, StoredEntry};
-use super::{ScheduledTask, SelectedCode, StoreError, entries, in_parallel};
+use super::{ScheduledTask, StoreError, entries, in_parallel};
 use crate::code::{Code, Identity, InstalledCode, Provenance};
 use crate::dem::EventRun;
 use crate::files::{FileError, parse_json, read_sealed};
@@ -188,25 +188,37 @@ impl Origin {
 
 /// The codes as they are installed here, each looked up when it is first asked for.
 #[derive(Default)]
-pub(crate) struct CodesOfToday(BTreeMap<String, Option<SelectedCode>>);
+pub(crate) struct CodesOfToday(BTreeMap<String, Vec<Box<dyn InstalledCode>>>);
 
 impl CodesOfToday {
     /// Whether the same task would have another address today, because this program, the code or its deck have changed
-    /// since. `None` where that is not known: the code is unknown or not installed, or the entry does not say its task.
+    /// since. `None` where that is not known: the code is unknown, not installed or broken, or the entry does not say its
+    /// task.
     pub(crate) fn is_outdated(&mut self, content: &Content) -> Option<bool> {
         let origin = content.origin.as_ref().ok()?;
         let task = origin.task.as_ref()?;
-        let code = self
-            .0
-            .entry(origin.code.clone())
-            .or_insert_with_key(|name| {
-                let code = Code::named(name);
-                code.map(SelectedCode::find)
-            });
-        let code = code.as_ref()?.code.as_deref()?;
-        if code.broken().is_some() {
-            return None;
+        let builds = self.0.entry(origin.code.clone());
+        let builds = builds.or_insert_with_key(|name| builds_of(name));
+        let (broken, working): (Vec<_>, Vec<_>) =
+            builds.iter().partition(|build| build.broken().is_some());
+        let is_own =
+            |build: &&Box<dyn InstalledCode>| task.address(&***build) == content.entry.name;
+        if working.iter().any(|build| is_own(build)) {
+            return Some(false);
         }
-        Some(task.address(code) != content.entry.name)
+        // It may be of a build that cannot be asked.
+        let is_known = !working.is_empty() && broken.is_empty();
+        is_known.then_some(true)
     }
+}
+
+/// The builds of the code with this `name` whose results the store keeps under it: the usual one, and the one with more
+/// digits that explains round-off, if it is there. None if the usual one is not installed.
+fn builds_of(name: &str) -> Vec<Box<dyn InstalledCode>> {
+    let Some(code) = Code::named(name) else {
+        return Vec::new();
+    };
+    let usual = code.find();
+    let precise = usual.is_some().then(|| code.find_precise()).flatten();
+    usual.into_iter().chain(precise).collect()
 }

@@ -234,6 +234,26 @@ fn nothing_is_removed_while_another_program_uses_the_store() {
 }
 
 #[test]
+fn a_program_whose_session_cannot_be_read_keeps_others_from_removing() {
+    let bench = bench_with_runs();
+    let all = runs(&bench);
+    let other = Store::open(&bench.path("store")).expect("a store");
+    let sessions = fs::read_dir(bench.path("store/sessions")).expect("sessions");
+    for session in sessions.flatten() {
+        // In place, so that it stays locked.
+        fs::write(session.path(), "").expect("it is emptied");
+    }
+    let prune = format!("store prune {EVERYTHING}");
+    let refused = bench.tristack(&prune).assert().code(1);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("unknown"), "{message}");
+    assert_eq!(runs(&bench), all);
+    drop(other);
+    bench.tristack(&prune).assert().code(0);
+    assert!(entries(&bench, "").is_empty());
+}
+
+#[test]
 fn nothing_goes_but_entries_and_no_link_is_followed() {
     let bench = bench_with_runs();
     let all = runs(&bench);

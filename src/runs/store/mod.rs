@@ -86,6 +86,13 @@ pub enum StoreError {
         session: PathBuf,
     },
     #[error(
+        "nothing is removed from the store {}: a program that is unknown, because {} cannot be read, is using it, or has not \
+         ended well; wait until no program uses the store, and remove that file",
+        shown(path),
+        shown(session)
+    )]
+    InUseByUnknown { path: PathBuf, session: PathBuf },
+    #[error(
         "nothing is removed from the store {}, which can only be read: {reason}",
         shown(path)
     )]

@@ -167,25 +167,36 @@ impl Session {
         let state = self.state();
         let lock = self.lock(&state)?;
         remove_dead(&self.root);
-        for name in sessions(&self.root) {
-            let session = name.file(&self.root);
-            let owner = claims(&session).map(|claims| claims.owner);
-            let Some(owner) = owner.filter(|_| name != self.name) else {
-                continue;
-            };
-            let path = self.root.clone();
-            let is_here = owner.host == state.claims.owner.host;
-            let owner = Box::new(owner);
-            return Err(match is_here {
-                true => StoreError::InUse { path, owner },
-                false => StoreError::InUseElsewhere {
-                    path,
-                    owner,
-                    session,
-                },
-            });
+        let names = sessions(&self.root).into_iter();
+        let others = names.filter(|name| *name != self.name);
+        let mut others = others.map(|name| name.file(&self.root));
+        // Sessions that end do not wait for the lock.
+        let used_by = others.find_map(|session| match is_gone(&session) {
+            true => None,
+            false => Some(self.use_by(session, &state.claims.owner.host)),
+        });
+        match used_by {
+            Some(error) => Err(error),
+            None => Ok(lock),
         }
-        Ok(lock)
+    }
+
+    /// The error that another `session` is using the store, for a program on the machine `here`.
+    fn use_by(&self, session: PathBuf, here: &str) -> StoreError {
+        let path = self.root.clone();
+        let Some(Claims { owner, .. }) = claims(&session) else {
+            return StoreError::InUseByUnknown { path, session };
+        };
+        let is_here = owner.host == here;
+        let owner = Box::new(owner);
+        match is_here {
+            true => StoreError::InUse { path, owner },
+            false => StoreError::InUseElsewhere {
+                path,
+                owner,
+                session,
+            },
+        }
     }
 
     fn lock(&self, state: &State) -> Result<Lock, StoreError> {
@@ -249,11 +260,16 @@ pub(super) fn leftovers(root: &Path) -> Vec<PathBuf> {
         is_own && entry.file_type().is_ok_and(|kind| kind.is_dir())
     });
     let names = directories.filter_map(|entry| entry.file_name().into_string().ok());
-    let ended = names.map(SessionName).filter(|name| {
-        let session = fs::symlink_metadata(name.file(root));
-        session.is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
-    });
+    let ended = names
+        .map(SessionName)
+        .filter(|name| is_gone(&name.file(root)));
     ended.map(|name| Path::new(WORK).join(name.0)).collect()
+}
+
+/// Whether there is no such session any more.
+fn is_gone(session: &Path) -> bool {
+    let found = fs::symlink_metadata(session);
+    found.is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
 }
 
 fn claims(session: &Path) -> Option<Claims> {
@@ -281,13 +297,13 @@ fn is_local(file: &File) -> bool {
 
 /// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its
 /// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
-/// cannot be seen from here.
+/// cannot be seen from here. One whose claims cannot be read may be of another machine.
 fn remove_dead(root: &Path) {
     let here = LockOwner::this_program().host;
     for name in sessions(root) {
         let session = name.file(root);
-        let foreign = || claims(&session).is_some_and(|claims| claims.owner.host != here);
-        if is_unlocked(&session) && !foreign() {
+        let is_own = || claims(&session).is_some_and(|claims| claims.owner.host == here);
+        if is_unlocked(&session) && is_own() {
             // If that fails the session file stays, and the next program tries again.
             let removed = match fs::remove_dir_all(name.work(root)) {
                 Err(error) => error.kind() == std::io::ErrorKind::NotFound,
@@ -393,6 +409,21 @@ mod tests {
         let session = begin(root.path()).unwrap();
         assert_eq!(session.claim(&addresses(&["a"])).unwrap(), [None]);
         assert!(path.exists() && work.exists());
+    }
+
+    #[test]
+    fn a_session_whose_claims_cannot_be_read_is_left_alone_and_keeps_others_from_removing() {
+        let root = tempfile::tempdir().unwrap();
+        let [path, work] = leftovers(root.path(), LockOwner::this_program());
+        fs::write(&path, "{\"owner\":").unwrap();
+        let session = begin(root.path()).unwrap();
+        assert!(path.exists() && work.exists());
+        let refused = session.alone().err().expect("somebody may be there");
+        let message = refused.to_string();
+        assert!(message.contains("unknown"), "{message}");
+        assert!(message.contains("session-abcdefABCDEF"), "{message}");
+        fs::remove_file(path).unwrap();
+        assert!(session.alone().is_ok());
     }
 
     #[test]

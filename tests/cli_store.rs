@@ -254,6 +254,24 @@ fn a_program_whose_session_cannot_be_read_keeps_others_from_removing() {
 }
 
 #[test]
+fn the_whole_address_names_all_that_has_it_and_nothing_that_begins_with_it() {
+    let bench = bench_with_runs();
+    let address = address(&runs(&bench)[0]);
+    let store = bench.path("store");
+    fs::write(store.join(format!("checkpoints/{address}.json")), "{}").expect("a checkpoint");
+    let aside = store.join(format!("quarantine/{address}-1"));
+    fs::create_dir_all(&aside).expect("a directory");
+    fs::write(aside.join("series.csv"), "step").expect("a damaged series");
+    let text = standard_output(&mut bench.tristack(&format!("store show {address}")));
+    for part in ["kind        run", "kind        checkpoint", "series.csv"] {
+        assert!(text.contains(part), "{text} lacks {part}");
+    }
+    assert!(!text.contains("quarantine"), "{text}");
+    let text = standard_output(&mut bench.tristack(&format!("store show {address}-1")));
+    assert!(text.contains("kind        quarantine"), "{text}");
+}
+
+#[test]
 fn nothing_goes_but_entries_and_no_link_is_followed() {
     let bench = bench_with_runs();
     let all = runs(&bench);

@@ -6,7 +6,7 @@ use super::{CliError, ExitStatus, print, tell};
 use crate::model::{InvalidValue, shown};
 use crate::output::{entry_text, size, stored, stored_entries, stored_files};
 use crate::runs::{
-    CodesOfToday, Content, EntryKind, Selection, StoredEntry, contents, oldest_beyond,
+    CodesOfToday, Content, EntryKind, Selection, StoredEntry, StoredFile, contents, oldest_beyond,
 };
 use clap::builder::PossibleValue;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
@@ -53,7 +53,7 @@ struct ListArguments {
 /// Show one entry: what it is of, how it was made, its files
 #[derive(Debug, Args)]
 struct ShowArguments {
-    /// Address of the entry, or the beginning of it
+    /// Address of the entry, or the beginning of it; all entries with this address are shown, whatever their kinds
     address: String,
     #[command(flatten)]
     store: StoreOptions,
@@ -164,20 +164,37 @@ fn list(arguments: &ListArguments, command: &str) -> Result<ExitStatus, CliError
 fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError> {
     let (root, all) = open(&arguments.store)?;
     read_user_folders();
-    let mut named = all;
-    named.retain(|content| content.entry.name.starts_with(&arguments.address));
-    if named.len() != 1 {
+    let named = with_address(all, &arguments.address);
+    let is_one = named
+        .iter()
+        .all(|one| one.entry.name == named[0].entry.name);
+    if named.is_empty() || !is_one {
         return Err(not_one(&arguments.address, &named, &root).into());
     }
-    let tables = [stored_entries(&named), stored_files(&named[0].entry.files)];
+    let files = named.iter().flat_map(|one| one.entry.files.clone());
+    let files: Vec<StoredFile> = files.collect();
+    let tables = [stored_entries(&named), stored_files(&files)];
     let people = || {
-        let outdated = CodesOfToday::default().is_outdated(&named[0]);
-        entry_text(&named[0], outdated)
+        let mut today = CodesOfToday::default();
+        let texts = named
+            .iter()
+            .map(|one| entry_text(one, today.is_outdated(one)));
+        texts.collect::<Vec<_>>().join("\n")
     };
     Ok(arguments.format.print(&tables, command, people))
 }
 
-/// The error for an address that is not that of exactly one entry.
+/// Those of `contents` that have the `address`; if there are none, those whose addresses begin with it.
+fn with_address(mut contents: Vec<Content>, address: &str) -> Vec<Content> {
+    let is_whole = contents.iter().any(|one| one.entry.name == address);
+    contents.retain(|one| match is_whole {
+        true => one.entry.name == address,
+        false => one.entry.name.starts_with(address),
+    });
+    contents
+}
+
+/// The error for an address that is none, or the beginning of several.
 fn not_one(address: &str, named: &[Content], root: &Path) -> InvalidValue {
     let accepted = match named {
         [] => format!(

@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
+use tristack::model::sha256_hex;
 use tristack::runs::Store;
 
 const SWEEP: &str = "sweep --code native --mu 0.3 --stiffness 100 --format csv";
@@ -269,6 +270,37 @@ fn the_whole_address_names_all_that_has_it_and_nothing_that_begins_with_it() {
     assert!(!text.contains("quarantine"), "{text}");
     let text = standard_output(&mut bench.tristack(&format!("store show {address}-1")));
     assert!(text.contains("kind        quarantine"), "{text}");
+}
+
+/// Puts `new` for `old` in the file of `run` that says how it was made, and gives it the right digest.
+fn change_origin(run: &Path, old: &str, new: &str) {
+    let files = fs::read_dir(run).expect("a run").flatten();
+    let texts = files.map(|file| (file.path(), fs::read_to_string(file.path()).expect("text")));
+    let (path, text) = texts
+        .filter(|(path, _)| !path.to_string_lossy().contains("summary"))
+        .find(|(_, text)| text.contains(old))
+        .expect("a file says it");
+    let changed = text.replace(old, new);
+    let sums = fs::read_to_string(run.join("SHA256SUMS")).expect("digests");
+    let [before, after] = [&text, &changed].map(|text| sha256_hex(text.as_bytes()));
+    assert!(sums.contains(&before), "{sums}");
+    fs::write(path, changed).expect("it can be written");
+    fs::write(run.join("SHA256SUMS"), sums.replace(&before, &after)).expect("it can be written");
+}
+
+#[test]
+fn control_characters_of_an_entry_do_not_reach_the_terminal() {
+    let bench = bench_with_runs();
+    let all = runs(&bench);
+    change_origin(&all[0], "\"machine\": \"", "\"machine\": \"\\u001b[31m");
+    change_origin(&all[1], "\"machine\": ", "\"\\u001b[31mmachine\": ");
+    for (run, line) in [(&all[0], "machine     "), (&all[1], "unreadable  ")] {
+        let show = format!("store show {}", address(run));
+        let text = standard_output(&mut bench.tristack(&show));
+        assert!(text.contains(line), "{text}");
+        assert!(text.contains("\\u{1b}[31m"), "{text}");
+        assert!(!text.contains('\x1b'), "{text:?}");
+    }
 }
 
 #[test]

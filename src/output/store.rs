@@ -2,7 +2,7 @@
 
 use super::number::{friction, optional, plain, small};
 use super::table::{Columns, DataTable};
-use crate::model::{exact, shell_quoted, shown};
+use crate::model::{exact, readable, shell_quoted, shown};
 use crate::runs::{Content, StoredEntry, StoredFile};
 use jiff::{Timestamp, Unit};
 use std::collections::BTreeMap;
@@ -187,7 +187,7 @@ pub(crate) fn entry_text(content: &Content, is_outdated: Option<bool>) -> String
     }
     let lines = lines.into_iter();
     let lines: String = lines
-        .map(|(name, value)| format!("{name:11} {}\n", value.trim_end()))
+        .map(|(name, value)| format!("{name:11} {}\n", readable(value.trim_end())))
         .collect();
     lines + &stored_files(&entry.files).shown().terminal()
 }

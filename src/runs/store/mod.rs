@@ -92,6 +92,12 @@ pub enum StoreError {
         shown(session)
     )]
     InUseByUnknown { path: PathBuf, session: PathBuf },
+    #[error("the {kind} {name} could not be removed from the store: {error}")]
+    NotRemoved {
+        kind: &'static str,
+        name: String,
+        error: FileError,
+    },
     #[error(
         "nothing is removed from the store {}, which can only be read: {reason}",
         shown(path)

@@ -12,7 +12,8 @@ impl Store {
     /// session, and deleted there, where a killed program leaves it to the next one.
     ///
     /// # Errors
-    /// If another program uses the store, or the file system refuses.
+    /// If another program uses the store, or the file system refuses: then it ends at the first entry that stays, and
+    /// those before it are removed.
     pub(crate) fn remove(&self, entries: &[StoredEntry]) -> Result<(), StoreError> {
         let session = match self.access.as_ref() {
             Access::Full(session) => session,
@@ -25,15 +26,23 @@ impl Store {
         };
         let alone = session.alone()?;
         let mut removed = Vec::new();
-        for entry in entries {
+        let taken = entries.iter().try_for_each(|entry| {
             let aside = session.work.join(format!("removed-{}", removed.len()));
-            if self.take_out(entry, &aside)? {
-                removed.push(aside);
+            let taken = self.take_out(entry, &aside);
+            if taken.map_err(|error| not_removed(entry, error))? {
+                removed.push((entry, aside));
             }
-        }
+            Ok(())
+        });
         // Others may begin: what is deleted now no longer belongs to the store.
         drop(alone);
-        removed.iter().try_for_each(|path| delete(path))
+        let deleted = removed.into_iter().map(|(entry, aside)| {
+            let deleted = delete(&aside);
+            deleted.map_err(|error| not_removed(entry, error))
+        });
+        // All are deleted, whichever of them fails.
+        let deleted: Vec<Result<(), StoreError>> = deleted.collect();
+        taken.and_then(|()| deleted.into_iter().collect())
     }
 
     /// Renames `entry` to `aside`; whether it was still there.
@@ -53,12 +62,60 @@ impl Store {
     }
 }
 
+fn not_removed(entry: &StoredEntry, error: FileError) -> StoreError {
+    StoreError::NotRemoved {
+        kind: entry.kind.as_str(),
+        name: entry.name.clone(),
+        error,
+    }
+}
+
 /// Deletes a directory or a file; a link itself, not what it points to.
-fn delete(path: &Path) -> Result<(), StoreError> {
+fn delete(path: &Path) -> Result<(), FileError> {
     let found = fs::symlink_metadata(path).map_err(FileError::reading(path))?;
     let deleted = match found.is_dir() {
         true => fs::remove_dir_all(path),
         false => fs::remove_file(path),
     };
-    Ok(deleted.map_err(FileError::writing(path))?)
+    deleted.map_err(FileError::writing(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::SystemTime;
+
+    /// The entry at `place` in the store at `root`.
+    fn entry(root: &Path, kind: EntryKind, place: &str) -> StoredEntry {
+        StoredEntry {
+            kind,
+            name: "a1b2".to_owned(),
+            path: root.join(place),
+            place: PathBuf::from(place),
+            files: Vec::new(),
+            made: SystemTime::UNIX_EPOCH,
+        }
+    }
+
+    #[test]
+    fn what_was_taken_out_is_deleted_though_another_entry_stays() {
+        let root = tempfile::tempdir().unwrap();
+        let store = Store::open(root.path()).unwrap();
+        fs::create_dir(root.path().join("probes")).unwrap();
+        fs::write(root.path().join("probes/a1b2.json"), "{}").unwrap();
+        // Nothing can be taken out of a directory that is a file.
+        fs::write(root.path().join("impacts"), "").unwrap();
+        let entries = [
+            entry(root.path(), EntryKind::Probe, "probes/a1b2.json"),
+            entry(root.path(), EntryKind::Impact, "impacts/a1b2.json"),
+        ];
+        let message = store.remove(&entries).unwrap_err().to_string();
+        assert!(
+            message.starts_with("the impact a1b2 could not be removed"),
+            "{message}"
+        );
+        assert!(!root.path().join("probes/a1b2.json").exists());
+        let left = fs::read_dir(store.work_directory()).unwrap();
+        assert_eq!(left.count(), 0);
+    }
 }

@@ -86,3 +86,28 @@ fn a_code_whose_step_cannot_be_timed_is_taken_by_its_manifest() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("could not be measured"), "{message}");
 }
+
+#[test]
+fn runs_that_are_neither_there_nor_can_be_made_are_counted() {
+    let bench = Bench::without_codes();
+    let stack = "--mu 0.123 --stiffness 100";
+    bench
+        .tristack(&format!("sweep --code native {stack}"))
+        .assert()
+        .code(0);
+    let (rows, _) = planned(&bench, &format!("time {stack}"));
+    let sum = |key: &str| rows.iter().filter_map(|row| row[key].as_u64()).sum::<u64>();
+    let (total, there) = (sum("runs"), sum("there"));
+    assert!(there > 0 && there < total, "{there} of {total}");
+    assert_eq!(sum("to_make"), 0);
+    let text = standard_output(&mut bench.tristack(&format!("time {stack}")));
+    for part in [
+        format!("nothing to make: {there} of {total} runs are there"),
+        format!(
+            "{} of {total} runs are neither there nor can be made",
+            total - there
+        ),
+    ] {
+        assert!(text.contains(&part), "{text} lacks {part}");
+    }
+}

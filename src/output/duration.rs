@@ -85,15 +85,7 @@ pub(crate) fn all_durations(all: &[AllDurations]) -> DataTable<'_> {
 
 /// The same in a sentence, with what it is based on.
 pub(crate) fn durations_text(rows: &[CodeDuration], all: &AllDurations) -> String {
-    let total: usize = rows.iter().map(|row| row.runs.tasks).sum();
-    let sentence = match all.runs {
-        0 => format!("nothing to make: all {total} runs are there\n"),
-        runs => format!(
-            "{runs} of {total} runs to make: {} with {} at a time\n",
-            time_span(all.seconds),
-            all.jobs
-        ),
-    };
+    let sentence = to_make(rows, all);
     let by_manifest = rows.iter().filter(|row| {
         let cost = row.cost.as_ref();
         cost.is_some_and(|cost| cost.basis == Basis::Manifest)
@@ -107,6 +99,28 @@ pub(crate) fn durations_text(rows: &[CodeDuration], all: &AllDurations) -> Strin
         ),
     };
     code_durations(rows).shown().terminal() + &forecast + &sentence
+}
+
+/// What is to be made, what is there, and what is neither.
+fn to_make(rows: &[CodeDuration], all: &AllDurations) -> String {
+    let total: usize = rows.iter().map(|row| row.runs.tasks).sum();
+    let there: usize = rows.iter().map(|row| row.runs.there).sum();
+    let missing = total.saturating_sub(there + all.runs);
+    let sentence = match all.runs {
+        0 if missing == 0 => format!("nothing to make: all {total} runs are there\n"),
+        0 => format!("nothing to make: {there} of {total} runs are there\n"),
+        runs => format!(
+            "{runs} of {total} runs to make: {} with {} at a time\n",
+            time_span(all.seconds),
+            all.jobs
+        ),
+    };
+    match missing {
+        0 => sentence,
+        _ => format!(
+            "{sentence}{missing} of {total} runs are neither there nor can be made: their codes are not installed\n"
+        ),
+    }
 }
 
 /// A span of time for people.

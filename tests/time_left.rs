@@ -51,11 +51,16 @@ fn without_time_nothing_is_begun_and_the_same_command_goes_on() {
     assert_eq!(rows, undisturbed);
 }
 
-/// Estimated seconds of the runs of YADE for a stack.
-fn estimates(profile: Profile, stack: &Stack) -> Vec<f64> {
+/// The seconds that YADE takes by its manifest: for a `step`, or for a `start`.
+fn seconds(key: &str) -> f64 {
     let manifest = fs::read_to_string(common::project().join("yade_scripts/code.toml"));
     let manifest: toml::Value = toml::from_str(&manifest.expect("a manifest")).expect("TOML");
-    let step = manifest["seconds"]["step"].as_float().expect("a number");
+    manifest["seconds"][key].as_float().expect("a number")
+}
+
+/// Estimated seconds of the runs of YADE for a stack, without their start.
+fn estimates(profile: Profile, stack: &Stack) -> Vec<f64> {
+    let step = seconds("step");
     let yade = Code::named("yade").expect("it is built in");
     let measurements = profile.measurements(&[yade]);
     let row = measurements.iter().find(|row| row.stack == *stack);
@@ -78,6 +83,51 @@ fn a_run_for_which_no_start_has_the_time_fails_with_its_estimate() {
     assert!(found, "{message}");
 }
 
+/// A command for one literal yield force by YADE that can use so many `seconds` more than the shortest run without its
+/// start takes, and the time of that run with its start.
+fn literal_line(more: f64) -> (String, f64) {
+    let estimates = estimates(Profile::Literal, &Stack::paper(0.4, 100.0)).into_iter();
+    let shortest = estimates.fold(f64::INFINITY, f64::min);
+    assert!(shortest > 300.0, "{shortest} s");
+    // Half a minute is kept back.
+    let left = (1e3 * (shortest + more + 30.0)).round();
+    let line = "crosscheck --profile literal --codes yade --mu 0.4 --stiffness 100 --format csv";
+    (
+        format!("{line} --time-left {left}ms"),
+        shortest + seconds("start"),
+    )
+}
+
+#[test]
+fn the_start_of_a_call_counts() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let (line, needed) = literal_line(seconds("start") - 0.5);
+    let (status, _, message) = run(&bench, &line);
+    assert_eq!(status, FAILED, "{message}");
+    let (needed, usable) = (needed.ceil(), (needed - 0.5).floor());
+    let parts = [
+        format!("by estimate it takes {needed} s"),
+        format!("{usable} s can be used"),
+    ];
+    for part in parts {
+        assert!(message.contains(&part), "{message} lacks {part}");
+    }
+}
+
+/// The time is enough for the run and not for what comes before it.
+#[test]
+fn a_run_that_no_start_comes_to_is_not_postponed_for_ever() {
+    let bench = Bench::with_system_programs();
+    replay::install(&bench, |_| Disturbance::None);
+    let (line, _) = literal_line(seconds("start") + 0.002);
+    // The first start probes the code, which the second does not repeat.
+    let starts: Vec<_> = (0..2).map(|_| run(&bench, &line)).collect();
+    let (status, _, message) = &starts[1];
+    assert_eq!(*status, FAILED, "{message}");
+    assert!(message.contains("by estimate it takes"), "{message}");
+}
+
 #[test]
 fn runs_for_which_too_little_time_is_left_are_not_begun() {
     let bench = Bench::with_system_programs();
@@ -85,10 +135,12 @@ fn runs_for_which_too_little_time_is_left_are_not_begun() {
     let estimates = estimates(Profile::Quick, &Stack::paper(0.2, 100.0));
     let longest = estimates.iter().copied().fold(0.0, f64::max);
     // Enough for each of them and not for all; a tenth is kept back.
-    let left = (estimates.iter().sum::<f64>() + longest) / 2.0 / 0.9;
+    let left = (seconds("start") + (estimates.iter().sum::<f64>() + longest) / 2.0) / 0.9;
     let line = "crosscheck --codes yade --mu 0.2 --stiffness 100 --jobs 1";
     let (status, _, message) = run(&bench, &format!("{line} --time-left {left:.0}s"));
     assert_eq!(status, OUT_OF_TIME, "{message}");
+    let told = "are not begun: by estimate they would not end in the time that is left";
+    assert!(message.contains(told), "{message}");
     let (status, _, message) = run(&bench, line);
     assert_eq!(status, Some(0), "{message}");
 }

@@ -10,6 +10,7 @@ pub struct Interrupt {
     by_user: AtomicBool,
     time_is_up: AtomicBool,
     limit: OnceLock<Limit>,
+    has_begun: AtomicBool,
 }
 
 /// The time within which everything has to be done.
@@ -26,6 +27,7 @@ impl Interrupt {
             by_user: AtomicBool::new(false),
             time_is_up: AtomicBool::new(false),
             limit: OnceLock::new(),
+            has_begun: AtomicBool::new(false),
         }
     }
 
@@ -60,6 +62,16 @@ impl Interrupt {
     pub(crate) fn time_left(&self) -> Option<(Duration, Duration)> {
         let Limit { end, whole } = self.limit.get()?;
         Some((end.saturating_duration_since(Instant::now()), *whole))
+    }
+
+    /// Notes that work has begun whose result is kept: another start of the same command does not repeat it.
+    pub(crate) fn begin(&self) {
+        self.has_begun.store(true, Ordering::SeqCst);
+    }
+
+    /// Whether any such work has begun. If none has, no other start will have more time left than this one.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.has_begun.load(Ordering::SeqCst)
     }
 
     fn is_out_of_time(&self) -> bool {

@@ -8,34 +8,60 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 impl<R: Reading> Executor<'_, R> {
-    /// Those of `requests` that will end in time, one after another; the others are reported.
+    /// Those of `requests` that will end in time in one call, one after another; the others are reported.
     pub(super) fn in_time(&self, code: &dyn InstalledCode, mut requests: Vec<usize>) -> Vec<usize> {
-        let Some((left, usable)) = self.settings.interrupt.time_left() else {
+        let interrupt = self.settings.interrupt;
+        let Some((left, whole)) = interrupt.time_left() else {
             return requests;
         };
         if code.keeps_checkpoints() && R::Task::KIND == Kind::Run {
+            interrupt.begin();
             return requests;
         }
-        let mut needed = Duration::ZERO;
+        // What this start may use for one run, or another start: the first that begins anything has all that is left.
+        let usable = match interrupt.has_begun() {
+            true => whole,
+            false => left.min(whole),
+        };
+        let start = seconds(code.name().start_seconds());
+        let mut needed = start;
         requests.retain(|&request| {
-            let estimate = Duration::try_from_secs_f64(self.total_seconds(request));
-            let estimate = estimate.unwrap_or(Duration::MAX);
-            if needed.saturating_add(estimate) <= left {
-                needed += estimate;
+            let estimate = seconds(self.total_seconds(request));
+            let after = needed.saturating_add(estimate);
+            if after <= left {
+                needed = after;
                 return true;
             }
-            let kind = match estimate > usable {
-                true => FailureKind::TooLong { estimate, usable },
-                false => FailureKind::Interrupted,
-            };
-            if estimate <= usable {
-                self.postponed.fetch_add(1, Ordering::Relaxed);
-            }
-            let failure = Failure::new(code.name(), self.task(request), kind);
-            self.report(code.name(), request, Err(failure));
+            self.leave(code, request, start.saturating_add(estimate), usable);
             false
         });
+        if !requests.is_empty() {
+            interrupt.begin();
+        }
         requests
+    }
+
+    /// Reports that `request` is not begun, which takes as long as the `estimate`, its start included: it fails if no
+    /// start of the same command has the time, of which each can use at most `usable`.
+    fn leave(
+        &self,
+        code: &dyn InstalledCode,
+        request: usize,
+        estimate: Duration,
+        usable: Duration,
+    ) {
+        let kind = match estimate > usable {
+            true => FailureKind::TooLong {
+                estimate: seconds_up(estimate),
+                usable: Duration::from_secs(usable.as_secs()),
+            },
+            false => {
+                self.postponed.fetch_add(1, Ordering::Relaxed);
+                FailureKind::Interrupted
+            }
+        };
+        let failure = Failure::new(code.name(), self.task(request), kind);
+        self.report(code.name(), request, Err(failure));
     }
 
     /// Ends the program where requests were left for its next start.
@@ -44,9 +70,37 @@ impl<R: Reading> Executor<'_, R> {
         if count > 0 {
             let name = R::Task::KIND.name();
             self.progress.warn(&format!(
-                "{count} {name}s are not begun: by estimate each takes longer than the time that is left"
+                "{count} {name}s are not begun: by estimate they would not end in the time that is left"
             ));
             self.settings.interrupt.end_time();
         }
+    }
+}
+
+/// So many seconds; the longest duration for more than that, or for what is no number.
+fn seconds(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+}
+
+/// `duration` rounded up to whole seconds, so that it never looks like a shorter one that is rounded down.
+fn seconds_up(duration: Duration) -> Duration {
+    let part = u64::from(duration.subsec_nanos() > 0);
+    Duration::from_secs(duration.as_secs().saturating_add(part))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_is_rounded_up_and_nothing_overflows() {
+        assert_eq!(
+            seconds_up(Duration::from_millis(2100)),
+            Duration::from_secs(3)
+        );
+        assert_eq!(seconds_up(Duration::from_secs(2)), Duration::from_secs(2));
+        assert_eq!(seconds_up(Duration::MAX), Duration::from_secs(u64::MAX));
+        assert_eq!(seconds(f64::INFINITY), Duration::MAX);
+        assert_eq!(seconds(f64::NAN), Duration::MAX);
     }
 }

@@ -199,11 +199,11 @@ impl CodesOfToday {
         let task = origin.task.as_ref()?;
         let builds = self.0.entry(origin.code.clone());
         let builds = builds.or_insert_with_key(|name| builds_of(name));
-        let (broken, working): (Vec<_>, Vec<_>) =
-            builds.iter().partition(|build| build.broken().is_some());
-        let is_own =
-            |build: &&Box<dyn InstalledCode>| task.address(&***build) == content.entry.name;
-        if working.iter().any(|build| is_own(build)) {
+        let builds = builds.iter().map(|build| &**build);
+        let (broken, working): (Vec<&dyn InstalledCode>, Vec<_>) =
+            builds.partition(|build| build.broken().is_some());
+        let is_own = |&build: &&dyn InstalledCode| task.address(build) == content.entry.name;
+        if working.iter().any(is_own) {
             return Some(false);
         }
         // It may be of a build that cannot be asked.

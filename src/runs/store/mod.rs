@@ -96,7 +96,7 @@ pub enum StoreError {
     NotRemoved {
         kind: &'static str,
         name: String,
-        error: FileError,
+        error: Box<FileError>,
     },
     #[error(
         "nothing is removed from the store {}, which can only be read: {reason}",

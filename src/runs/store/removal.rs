@@ -66,7 +66,7 @@ fn not_removed(entry: &StoredEntry, error: FileError) -> StoreError {
     StoreError::NotRemoved {
         kind: entry.kind.as_str(),
         name: entry.name.clone(),
-        error,
+        error: Box::new(error),
     }
 }
 

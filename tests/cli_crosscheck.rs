@@ -485,7 +485,7 @@ fn failures_a_summary_and_junit_show_the_same_rows() {
     let failures = json_rows(&text);
     assert_eq!(
         common::json(&text)["command"],
-        "tristack crosscheck --mu 0.3"
+        "tristack crosscheck --mu 0.3 --only-failures"
     );
     assert_eq!(failures.len(), 12);
     assert!(failures.iter().all(|row| row["verdict"] == "missing"));

@@ -16,13 +16,7 @@ const LEFT_OUT: [&str; 9] = [
     "--vtk",
     "--junit",
 ];
-const LEFT_OUT_FLAGS: [&str; 5] = [
-    "--fresh",
-    "--shared-store",
-    "--summary",
-    "--only-failures",
-    "--quiet",
-];
+const LEFT_OUT_FLAGS: [&str; 3] = ["--fresh", "--shared-store", "--quiet"];
 
 /// `tristack` with those of its `arguments`, the first of which is the program, on which the results depend.
 pub(super) fn command_line(arguments: &[OsString]) -> String {

@@ -9,7 +9,7 @@ use super::options::{
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::Power;
@@ -92,7 +92,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let rows = &arguments.rows;
-    let written = publish(&judgements, rows, &out, arguments.format, command);
+    let is_whole = judgements.len() == planned;
+    let written = publish(
+        (&judgements, is_whole),
+        rows,
+        &out,
+        arguments.format,
+        command,
+    );
     let found = conclude(&judgements, planned, &codes);
     Ok(found.max(written))
 }
@@ -113,17 +120,17 @@ pub(super) fn layout() -> Layout {
 const LAWS: &str = "laws.md";
 const LAWS_FIGURE: &str = "laws.svg";
 
-/// Prints the rows, and writes them if there is a directory.
+/// Prints the rows, and writes them if there is a directory and none is left out.
 pub(super) fn publish(
-    judgements: &[Judgement],
+    (judgements, is_whole): (&[Judgement], bool),
     rows: &RowOptions,
     out: &Out,
     format: Format,
     command: &str,
 ) -> ExitStatus {
     let printed = rows.print(judgements, format, command);
-    let tested = rows.write_junit(judgements);
-    let written = out.write(|| {
+    let tested = rows.write_junit(judgements, is_whole);
+    let written = out.write_whole(is_whole, || {
         let tables = [crosscheck(judgements)];
         let mut files = vec![
             ("crosscheck.csv", tables[0].csv()),
@@ -164,7 +171,7 @@ pub(super) fn conclude(
         own.any(Judgement::is_recorded)
     });
     tell!("{}", summary(judgements));
-    if INTERRUPT.requested() {
+    if judgements.len() < planned {
         return interrupted_after(judgements.len(), planned, "rows");
     }
     ExitStatus::of(judgements)

@@ -7,7 +7,7 @@ use super::options::{
 };
 use super::out::Out;
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::output::{impacts, impacts_markdown, impacts_text, json};
@@ -77,7 +77,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let tables = [impacts(&judgements)];
     let people = || impacts_text(&judgements);
     let printed = arguments.format.print(&tables, command, people);
-    let written = out.write(|| {
+    let written = out.write_whole(judgements.len() == planned, || {
         vec![
             ("impacts.csv", tables[0].csv()),
             ("impacts.json", json(&tables, command)),
@@ -100,7 +100,7 @@ fn conclude(judgements: &[ImpactJudgement], planned: usize, codes: &[SelectedCod
         .filter(|one| one.verdict() == Verdict::Agrees);
     let (agreeing, all) = (agreeing.count(), judgements.len());
     tell!("{agreeing} of {all} numbers agree");
-    if INTERRUPT.requested() {
+    if all < planned {
         return interrupted_after(all, planned, "numbers");
     }
     let each = judgements

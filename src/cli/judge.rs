@@ -85,7 +85,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Quiet).carry_out(measurements);
     let rows = &arguments.rows;
-    let published = publish(&judgements, rows, &out, arguments.format, command);
+    let is_whole = judgements.len() == planned;
+    let published = publish(
+        (&judgements, is_whole),
+        rows,
+        &out,
+        arguments.format,
+        command,
+    );
     let found = conclude(&judgements, planned, &codes);
     Ok(found.max(published))
 }

@@ -1,6 +1,6 @@
 //! Directories and files for results.
 
-use super::{ExitStatus, INTERRUPT, complain};
+use super::{ExitStatus, complain};
 use crate::files::{FileError, Layout, write_atomically};
 use crate::model::shown;
 use std::path::Path;
@@ -29,13 +29,25 @@ impl<'a> Out<'a> {
         Self { directory, witness }
     }
 
-    /// Writes files, given by name and content, if there is a directory for them. Nothing is written after an interrupt,
-    /// when rows are missing. A file that cannot be written is named on standard error.
+    /// The same if the result `is_whole`: after an interrupt, which left rows out, nothing is written.
+    pub(super) fn write_whole<N: AsRef<str>, C: AsRef<[u8]>>(
+        &self,
+        is_whole: bool,
+        files: impl FnOnce() -> Vec<(N, C)>,
+    ) -> ExitStatus {
+        match is_whole {
+            true => self.write(files),
+            false => ExitStatus::Success,
+        }
+    }
+
+    /// Writes files, given by name and content, if there is a directory for them. A file that cannot be written is named
+    /// on standard error.
     pub(super) fn write<N: AsRef<str>, C: AsRef<[u8]>>(
         &self,
         files: impl FnOnce() -> Vec<(N, C)>,
     ) -> ExitStatus {
-        let Some(directory) = self.directory.filter(|_| !INTERRUPT.requested()) else {
+        let Some(directory) = self.directory else {
             return ExitStatus::Success;
         };
         let mut files = files();

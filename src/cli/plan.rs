@@ -11,10 +11,14 @@ use crate::output::{parallel_list, planned_runs, slurm_array, start_list};
 use crate::study::{PLAN, Plan, PlannedRow};
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 const START: &str = "start.txt";
 const PARALLEL: &str = "parallel.txt";
 const SLURM: &str = "array.slurm";
+/// Time that a task on a cluster is given: so many seconds for its start, and so many times the forecast of its run.
+const STARTING: f64 = 60.0;
+const SLOWER: f64 = 10.0;
 
 /// Plan runs that are made elsewhere, for `tristack judge`
 ///
@@ -122,7 +126,13 @@ fn open_runs<'a>(plan: &'a Plan, troubles: &[Option<FailureKind>]) -> Vec<&'a Pl
 }
 
 fn lists(code: Code, open: &[&PlannedRun]) -> Vec<(&'static str, String)> {
-    let limit = |run: &PlannedRun| code.time_limit(run.steps);
+    // The limit of runs here is generous; a partition may refuse it.
+    let limit = |run: &PlannedRun| {
+        let forecast = Duration::try_from_secs_f64(STARTING + SLOWER * run.seconds).ok();
+        let forecast = forecast.filter(|_| run.seconds > 0.0);
+        let longest = code.time_limit(run.steps);
+        forecast.map_or(longest, |forecast| longest.min(forecast))
+    };
     vec![
         (START, start_list(open)),
         (PARALLEL, parallel_list(open)),

@@ -61,10 +61,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let known = known.filter_map(|(own, probed)| Some((own.name, probed.as_ref().ok()?)));
     let passports: Vec<Passport> = known.map(|(code, own)| passport(code, own)).collect();
     let filed = match &arguments.passports {
-        Some(directory) if !INTERRUPT.requested() => file(directory, &passports, command),
+        Some(directory) if is_whole(&probed) => file(directory, &passports, command),
         _ => ExitStatus::Success,
     };
-    let written = out.write(|| {
+    let written = out.write_whole(is_whole(&probed), || {
         let mut files = vec![
             ("all_codes.csv".to_owned(), tables[0].csv()),
             (ALL_CODES.to_owned(), json(&tables, command)),
@@ -101,6 +101,11 @@ const ALL_CODES: &str = "all_codes.json";
 /// The files that are written.
 fn layout() -> Layout {
     Layout::tables(ALL_CODES, &["all_codes.csv", "*.json", "*.md"])
+}
+
+/// Whether no interrupt has left a code out.
+fn is_whole(probed: &[Probed]) -> bool {
+    !INTERRUPT.requested() || probed.iter().all(Result::is_ok)
 }
 
 /// Summarizes the findings on standard error, and returns the exit status.
@@ -144,7 +149,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         },
         findings.len() - agreeing - differing
     );
-    if INTERRUPT.requested() {
+    if !is_whole(probed) {
         ExitStatus::Interrupted
     } else if differing > 0 {
         ExitStatus::Disagreement

@@ -21,14 +21,14 @@ pub(super) struct StackSet {
     /// Set of stacks [default: quick]
     #[arg(long, value_enum)]
     profile: Option<Profile>,
-    #[arg(long, help = FRICTIONS.to_owned() + OWN_FRICTIONS, value_parser = Values::<Friction>::parse, allow_negative_numbers = true)]
+    #[arg(long, help = FRICTIONS.to_owned() + OWN_FRICTIONS, value_parser = Values::<Friction>::parse, allow_hyphen_values = true)]
     mu: Option<Values<Friction>>,
     #[arg(
         long,
         help = STIFFNESSES.to_owned() + OWN_STIFFNESSES,
         value_name = "S",
         value_parser = Values::<Stiffness>::parse,
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     stiffness: Option<Values<Stiffness>>,
     #[command(flatten)]

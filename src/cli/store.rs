@@ -76,7 +76,7 @@ struct PruneArguments {
     #[command(flatten)]
     chosen: Choice,
     /// Remove the oldest entries until the store has at most this size, such as 100MB
-    #[arg(long, value_name = "SIZE", value_parser = size_option)]
+    #[arg(long, value_name = "SIZE", value_parser = size_option, allow_hyphen_values = true)]
     to: Option<u64>,
     /// Only list what would be removed
     #[arg(long)]
@@ -96,7 +96,7 @@ struct Choice {
     #[arg(long, value_delimiter = ',', value_name = "C1,C2")]
     code: Vec<String>,
     /// Entries older than an age, such as 12h, 30d or 2w, or written before a date such as 2026-01-31 (UTC)
-    #[arg(long, value_name = "AGE", value_parser = moment)]
+    #[arg(long, value_name = "AGE", value_parser = moment, allow_hyphen_values = true)]
     older_than: Option<SystemTime>,
     /// Entries that no run of today has the address of, because tristack, the code or its deck have changed since; of
     /// codes that are not installed none

@@ -96,8 +96,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let tables = [crosscheck(&judgements)];
     let rows = &arguments.rows;
     let printed = rows.print(&judgements, arguments.format, command);
-    let tested = rows.write_junit(&judgements);
-    let written = out.write(|| {
+    let is_whole = judgements.len() == stacks.len();
+    let tested = rows.write_junit(&judgements, is_whole);
+    let written = out.write_whole(is_whole, || {
         vec![
             ("sweep.csv", tables[0].csv()),
             ("sweep.json", json(&tables, command)),

@@ -5,7 +5,7 @@ use super::interrupt::interrupted_after;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, whole};
 use super::out::Out;
 use super::progress::{Reporter, during};
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{InvalidValue, PAPER_BODIES, Power};
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let tables = [trajectories(&judgements)];
     let people = || trajectories_text(&judgements);
     let printed = arguments.format.print(&tables, command, people);
-    let written = out.write(|| {
+    let written = out.write_whole(judgements.len() == planned, || {
         vec![
             ("trajectories.csv", tables[0].csv()),
             ("trajectories.json", json(&tables, command)),
@@ -117,7 +117,7 @@ fn conclude(
     let agreeing = verdicts.iter().filter(|&&own| own == Verdict::Agrees);
     let (agreeing, all) = (agreeing.count(), verdicts.len());
     tell!("{agreeing} of {all} comparisons agree");
-    if INTERRUPT.requested() {
+    if judgements.len() < planned {
         return interrupted_after(judgements.len(), planned, "codes");
     }
     let contradicted = judgements.iter().any(|own| own.grounds.is_contradicted());

@@ -8,7 +8,7 @@ use crate::series::YieldEstimates;
 use crate::theory::{Limit, quasistatic_limit};
 
 /// A run, its yield force by both estimators, and the exact limit of both.
-type Row<'a> = (&'a Run, YieldEstimates, Limit);
+type Row<'a> = (&'a Run, YieldEstimates, Option<Limit>);
 
 /// A wall that moves less than so many times as far as to the exact yield may stop before it; planned ones move 1.05 times
 /// as far.
@@ -20,7 +20,11 @@ const TRAVEL_BEYOND: f64 = 1.1;
 pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
     let rows = runs.iter().map(|run| {
         let estimates = YieldEstimates::read(&run.series, &run.case);
-        (run, estimates, exact_limit(&run.case))
+        let is_ramp = matches!(
+            run.case.protocol.preparation,
+            Preparation::GravityRamp { .. }
+        );
+        (run, estimates, is_ramp.then(|| exact_limit(&run.case)))
     });
     protocol(convention(subject()))
         .number("peak_force", "m g", |(_, found, _)| Some(found.peak?.force))
@@ -29,10 +33,11 @@ pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
         .number("slip_force", "m g", |(_, found, _)| Some(found.slip?.force))
         .means("wall force when the floor first slips; absent if it does not")
         .shown_as("slip onset", digits::<9>)
-        .number("reference_force", "m g", |(.., limit)| limit.yield_force)
-        .means("exact limit of the peak at vanishing wall speed, under the convention of this run")
+        .number("reference_force", "m g", |(.., limit)| limit.as_ref()?.yield_force)
+        .means("exact limit of the peak at vanishing wall speed, under the convention of this run; absent between side walls, \
+                whose push moves it")
         .shown_as("exact limit of the peak", digits::<9>)
-        .number("reference_onset", "m g", |(.., limit)| limit.slip_onset)
+        .number("reference_onset", "m g", |(.., limit)| limit.as_ref()?.slip_onset)
         .means("exact limit of the slip onset; below reference_force where contact 2–3 is closed then")
         .shown_as("exact limit of the onset", digits::<9>)
         .number("error", "1", error)
@@ -47,12 +52,13 @@ pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
         .rows(rows)
 }
 
+/// The limit after a gravity ramp.
 fn exact_limit(case: &Case) -> Limit {
     quasistatic_limit(&case.stack, &case.convention)
 }
 
 fn error((run, found, limit): &Row) -> Option<f64> {
-    let (onset, reference) = (found.slip?.force, limit.slip_onset?);
+    let (onset, reference) = (found.slip?.force, limit.as_ref()?.slip_onset?);
     Some((onset - reference) / run.case.stack.floor_load(reference))
 }
 

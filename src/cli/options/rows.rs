@@ -2,7 +2,7 @@
 
 use super::format::Format;
 use crate::cli::out::write;
-use crate::cli::{ExitStatus, INTERRUPT};
+use crate::cli::{ExitStatus, print};
 use crate::output::{crosscheck, crosscheck_summary, crosscheck_text, junit};
 use crate::study::yield_force::Judgement;
 use clap::Args;
@@ -20,8 +20,9 @@ pub(in crate::cli) struct RowOptions {
     /// Print how many rows of each code have which verdict and where its largest error is, instead of the rows
     #[arg(long)]
     summary: bool,
-    /// JUnit XML with a test for each row, for continuous integration: `differs` is a failure, `failed` and `no-yield`
-    /// where a yield is expected are errors, `inconclusive` and `missing` skipped
+    /// JUnit XML with a test for each row, for continuous integration: `differs` and a convention that the probe
+    /// contradicts are failures, `failed` and `no-yield` where a yield is expected are errors, `inconclusive` and
+    /// `missing` skipped
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
 }
@@ -40,17 +41,16 @@ impl RowOptions {
         let failures = judgements.iter();
         let failures = failures.filter(|row| !row.passes());
         let failures: Vec<Judgement> = failures.cloned().collect();
+        if failures.is_empty() && format == Format::Table {
+            return print(&format!("no failure among {} rows\n", judgements.len()));
+        }
         let tables = [crosscheck(&failures)];
-        format.print(&tables, command, || match failures.is_empty() {
-            true => format!("no failure among {} rows\n", judgements.len()),
-            false => crosscheck_text(&failures),
-        })
+        format.print(&tables, command, || crosscheck_text(&failures))
     }
 
-    /// Writes the verdicts of all rows as JUnit XML, if there is a file for them. Nothing is written after an
-    /// interrupt, when rows are missing.
-    pub fn write_junit(&self, judgements: &[Judgement]) -> ExitStatus {
-        match self.junit.as_deref().filter(|_| !INTERRUPT.requested()) {
+    /// Writes the verdicts of all rows as JUnit XML, if there is a file for them and the result `is_whole`.
+    pub fn write_junit(&self, judgements: &[Judgement], is_whole: bool) -> ExitStatus {
+        match self.junit.as_deref().filter(|_| is_whole) {
             Some(file) => write(file, junit::of_rows(SUITES, judgements).as_bytes()),
             None => ExitStatus::Success,
         }

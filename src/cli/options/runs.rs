@@ -43,7 +43,7 @@ pub(in crate::cli) struct RunOptions {
     pub time_limit: Option<f64>,
     /// Time that this command may take: 90s, 1h 30min, or as Slurm writes it, [D-][HH:]MM:SS. No run is begun that would
     /// not end in time, what native runs have done is kept, and the exit status is 6; the same command goes on from there
-    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    #[arg(long, value_name = "DURATION", value_parser = duration, allow_hyphen_values = true)]
     pub time_left: Option<Duration>,
 }
 

@@ -127,7 +127,7 @@ impl MaterialOptions {
 /// The parameters of one stack.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct OneStackOptions {
-    #[arg(long, help = FRICTION, value_parser = single::<Friction>, requires = "hardness", allow_negative_numbers = true)]
+    #[arg(long, help = FRICTION, value_parser = single::<Friction>, requires = "hardness", allow_hyphen_values = true)]
     mu: Option<Friction>,
     #[arg(
         long,
@@ -136,7 +136,7 @@ pub(in crate::cli) struct OneStackOptions {
         value_parser = single::<Stiffness>,
         group = "hardness",
         requires = "mu",
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     stiffness: Option<Stiffness>,
     #[command(flatten)]
@@ -159,7 +159,7 @@ impl OneStackOptions {
 /// The parameters of several stacks.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct StackListOptions {
-    #[arg(id = "mu", long = "mu", help = FRICTIONS, value_name = "MU", value_parser = Values::<Friction>::parse, allow_negative_numbers = true)]
+    #[arg(id = "mu", long = "mu", help = FRICTIONS, value_name = "MU", value_parser = Values::<Friction>::parse, allow_hyphen_values = true)]
     frictions: Values<Friction>,
     #[arg(
         id = "stiffness",
@@ -168,7 +168,7 @@ pub(in crate::cli) struct StackListOptions {
         required_unless_present = "youngs",
         value_name = "S",
         value_parser = Values::<Stiffness>::parse,
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     stiffnesses: Option<Values<Stiffness>>,
     #[command(flatten)]

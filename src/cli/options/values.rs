@@ -13,7 +13,7 @@ const MOST_VALUES: usize = 10_000;
 const DIGITS_OF_POWERS: usize = 12;
 
 /// A quantity that a command can be given several values of.
-pub(in crate::cli) trait Quantity: Sized {
+pub(in crate::cli) trait Quantity: Sized + PartialEq {
     /// One value, as an error says what is accepted.
     const ACCEPTED: &'static str;
     fn of_number(number: f64) -> Self;
@@ -21,7 +21,7 @@ pub(in crate::cli) trait Quantity: Sized {
     fn named(word: &str) -> Option<Self>;
 }
 
-/// The values of an option, in the order given.
+/// The values of an option, in the order given, each once.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli) struct Values<Q>(pub Vec<Q>);
 
@@ -34,16 +34,16 @@ impl<Q: Quantity> Values<Q> {
                 true => trouble,
                 false => format!("`{item}`: {trouble}"),
             });
-            values.extend(read.map_err(|trouble| format!("{trouble}; {}", accepted::<Q>()))?);
+            for value in read.map_err(|trouble| format!("{trouble}; {}", accepted::<Q>()))? {
+                if !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+            if values.len() > MOST_VALUES {
+                return Err(format!("these are more values; {}", accepted::<Q>()));
+            }
         }
-        match values.len() > MOST_VALUES {
-            true => Err(format!(
-                "these are {} values; {}",
-                values.len(),
-                accepted::<Q>()
-            )),
-            false => Ok(Self(values)),
-        }
+        Ok(Self(values))
     }
 }
 
@@ -145,11 +145,8 @@ fn further_values(count: f64) -> Result<u32, String> {
 /// `value` to twelve decimals, or to as many as `step` has, without round-off from the multiplication by the step
 /// (0.1 + 2 × 0.1 is not 0.3).
 fn rounded(value: f64, step: f64) -> f64 {
-    const DECIMALS: f64 = 12.0;
-    let needed = 1.0 - libm::floor(libm::log10(step));
-    if needed <= DECIMALS {
-        return (value * 1e12).round() / 1e12;
-    }
+    const FEWEST: f64 = 12.0;
+    let needed = (1.0 - libm::floor(libm::log10(step))).max(FEWEST);
     let text = format!("{value:.*}", needed.min(30.0) as usize);
     text.parse().unwrap_or(value)
 }
@@ -187,6 +184,10 @@ mod tests {
     #[test]
     fn a_range_includes_both_ends_without_rounding_debris() {
         assert_eq!(numbers("0.1:0.5:0.1"), [0.1, 0.2, 0.3, 0.4, 0.5]);
+        assert_eq!(
+            stiffnesses("46021474:46021475:1"),
+            [46_021_474.0, 46_021_475.0]
+        );
         assert_eq!(stiffnesses("1e2:1e6:x10"), [1e2, 1e3, 1e4, 1e5, 1e6]);
         assert_eq!(stiffnesses("0.1:0.9:x2"), [0.1, 0.2, 0.4, 0.8]);
         let half_decades = stiffnesses("1e2:1e4:x3.1622776601683795");
@@ -196,8 +197,8 @@ mod tests {
 
     #[test]
     fn a_list_keeps_the_order_of_its_values_ranges_and_words() {
-        let expected = [0.3, 0.1, 0.2, 2.0 - 3f64.sqrt(), 2.0 - 3f64.sqrt()];
-        let found = numbers("0.3, 0.1:0.2:0.1,critical,mu_c");
+        let expected = [0.3, 0.1, 0.2, 2.0 - 3f64.sqrt()];
+        let found = numbers("0.3, 0.1:0.3:0.1,critical,mu_c");
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-15, "{found} {expected}");

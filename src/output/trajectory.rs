@@ -2,7 +2,7 @@
 
 use super::number::{optional, small};
 use super::table::{Columns, DataTable};
-use super::text::{markdown_code, markdown_text};
+use super::text::{markdown_code, markdown_text, without_mathematics};
 use crate::model::PAPER_BODIES;
 use crate::study::Verdict;
 use crate::study::trajectory::{
@@ -175,7 +175,8 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
 fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     let mut lines = String::new();
     for judgement in judgements {
-        let notes = markdown_text(&judgement.notes().join("\n")).replace('\n', "\n  ");
+        let notes = markdown_text(&without_mathematics(&judgement.notes().join("\n")))
+            .replace('\n', "\n  ");
         if !notes.is_empty() {
             let (code, verdict) = (judgement.code, judgement.verdict());
             lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");

@@ -1,6 +1,6 @@
 //! Texts in Markdown, their mathematics between dollar signs.
 
-use super::span::{Span, Target, spans};
+use super::span::{Span, Target, spans, without_signs_of_tags};
 use crate::model::{readable, readable_lines};
 
 /// `text` in one cell of a Markdown table, as [`markdown_text`].
@@ -8,7 +8,7 @@ pub(crate) fn markdown_cell(text: &str) -> String {
     let text = readable_lines(&text.replace('\n', " "));
     // TeX knows `\|` as another sign, and code ends at no bar in the tables of people who read Markdown.
     let bar = |part: Span| match part {
-        Span::Math(tex) => format!("${}$", tex.replace('|', "\\vert ")),
+        Span::Math(tex) => format!("${}$", without_signs_of_tags(tex).replace('|', "\\vert ")),
         other => span(other).replace('|', "\\|"),
     };
     spans(&text).into_iter().map(bar).collect()
@@ -24,7 +24,7 @@ fn span(span: Span) -> String {
     match span {
         Span::Plain(text) => without_markup(text),
         Span::Code(text) => format!("`{text}`"),
-        Span::Math(tex) => format!("${tex}$"),
+        Span::Math(tex) => format!("${}$", without_signs_of_tags(tex)),
         Span::Link { text, target } => match target {
             Target::ArXiv(_) => format!("[{text}]({target})"),
             Target::Local(_) => format!("[{}]({target})", without_markup(text)),
@@ -41,6 +41,7 @@ fn without_markup(text: &str) -> String {
         match char {
             '<' if next.is_ascii_alphabetic() || "/!?".contains(next) => escaped += "&lt;",
             '&' if next.is_ascii_alphanumeric() || next == '#' => escaped += "&amp;",
+            '$' => escaped += "\\$",
             ']' if "([:".contains(next) => escaped += "\\]",
             _ => escaped.push(char),
         }

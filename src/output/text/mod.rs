@@ -11,3 +11,4 @@ mod span;
 pub(crate) use html::{html_attribute, html_text};
 pub(crate) use latex::latex_text;
 pub(crate) use markdown::{markdown_cell, markdown_code, markdown_text};
+pub(crate) use span::without_mathematics;

@@ -35,6 +35,16 @@ impl std::fmt::Display for Target<'_> {
 const FOLDERS: [&str; 2] = ["tables/", "figures/"];
 const ARXIV: &str = "arXiv:";
 
+/// A `text` from outside, such as the last words of a program, in which no dollar sign begins mathematics.
+pub(crate) fn without_mathematics(text: &str) -> String {
+    text.replace('$', "\\$")
+}
+
+/// `tex` whose relations are commands, so that no tag of HTML begins in it.
+pub(super) fn without_signs_of_tags(tex: &str) -> String {
+    tex.replace('<', "\\lt ").replace('>', "\\gt ")
+}
+
 /// The parts of `text`, in order.
 pub(super) fn spans(text: &str) -> Vec<Span<'_>> {
     let mut spans = Vec::new();
@@ -66,6 +76,7 @@ fn marked(text: &str) -> Option<(Span<'_>, usize)> {
             Some((Span::Code(inside), inside.len() + 2))
         }
         b'$' => math(text),
+        b'\\' if text[1..].starts_with('$') => Some((Span::Plain(&text[1..2]), 2)),
         b'[' => link(text),
         b'a' => paper(text),
         _ => None,

@@ -31,6 +31,19 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
+/// `text` with its words that are numbers in scientific notation, such as 1.03e-5, as TeX between dollar signs.
+pub(crate) fn powers_in_tex(text: &str) -> String {
+    let words = text.split(' ').map(|word| {
+        let number = word.trim_end_matches([',', ';', '.', ':']);
+        let is_scientific = number.contains('e') && number.parse::<f64>().is_ok();
+        match is_scientific {
+            true => format!("${}${}", power_of_ten(number), &word[number.len()..]),
+            false => word.to_owned(),
+        }
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
 /// TeX of a number in Rust's scientific notation. A mantissa of 1 without further digits is left out.
 fn power_of_ten(scientific: &str) -> String {
     let Some((mantissa, exponent)) = scientific.split_once('e') else {
@@ -153,5 +166,10 @@ mod tests {
         assert_eq!(list([]), "");
         assert_eq!(percent(0.0086, 2), "$+0.86$ %");
         assert_eq!(size(1e-12, 1e-8), "below $10^{-8}$");
+        let told = powers_in_tex("1.03e-5 exceeds 1e-5; see case e of 5");
+        assert_eq!(
+            told,
+            r"$1.03\times10^{-5}$ exceeds $10^{-5}$; see case e of 5"
+        );
     }
 }

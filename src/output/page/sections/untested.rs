@@ -3,7 +3,8 @@
 use super::super::document::{Block, Section};
 use super::Origin;
 use crate::output::number::{friction_in_tex, stiffness_in_tex};
-use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
+use crate::output::text::without_mathematics;
+use crate::paper::claims::{ClaimJudgement, ClaimVerdict, powers_in_tex};
 use crate::paper::reproduction::Reproduction;
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
@@ -72,7 +73,7 @@ fn unjudged(reproduction: &Reproduction) -> Vec<String> {
             friction_in_tex(row.mu()),
             stiffness_in_tex(row.stiffness()),
             row.verdict(),
-            row.reason()
+            powers_in_tex(&without_mathematics(&row.reason()))
         )
     })
     .collect()

@@ -657,7 +657,7 @@ fn record_replaces_nothing_but_recordings() {
         put(&reference.join(file), "mine");
     }
     let record = || {
-        let mut command = bench.process("record --codes yade --only probe");
+        let mut command = bench.process("record --codes yade --only probe --quiet");
         command.env("TRISTACK_REFERENCE", &reference);
         let output = ended(command);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -32,7 +32,7 @@ use std::path::PathBuf;
     after_help = "Examples: tristack crosscheck --codes native,liggghts --out results\n          \
     tristack crosscheck --explain yade/0.3/100\n          \
     tristack crosscheck --mu 0.3 --profile standard --only-failures --junit junit.xml\n          \
-    tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --kappa 0.6 --summary"
+    tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --summary"
 )]
 pub(super) struct Arguments {
     #[command(flatten)]

@@ -58,11 +58,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         external = Code::all();
         external.retain(|code| !code.accepts_any_convention());
     }
-    let directory = recording_directory()?;
-    for code in &external {
-        Recording::check_place(&directory, *code)?;
-    }
     let codes = selected_codes(&external)?;
+    let directory = recording_directory()?;
+    for selected in &codes {
+        Recording::check_place(&directory, selected.name)?;
+    }
     settle(&codes, &arguments.run)?;
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;

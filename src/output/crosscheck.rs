@@ -213,7 +213,22 @@ fn evidence() -> String {
 /// The codes and the rows for a terminal.
 pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
     let rows = crosscheck(judgements);
-    codes(judgements).shown().terminal() + &rows.shown().terminal() + &rows.units()
+    codes(judgements).shown().terminal()
+        + &rows.shown().terminal()
+        + &rows.units()
+        + beyond_onset(judgements)
+}
+
+/// A line for rows whose force rises beyond the onset of slip.
+fn beyond_onset(judgements: &[Judgement]) -> &'static str {
+    let rises = |row: &Judgement| row.judged_reference() != row.reference_force();
+    match judgements.iter().any(rises) {
+        true => {
+            "where the force rises beyond the onset of slip, yield force, ± and exact limit are those of the peak; error, tolerance \
+             and verdict are those of the onset (slip_onset and reference_onset in --format csv)\n"
+        }
+        false => "",
+    }
 }
 
 /// A page with the rows, their meaning, and the notes on rows that do not agree.
@@ -224,7 +239,8 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
          Made by tristack {} with {command}.\n\n\
          Yield force F = f/(m g) at vanishing wall speed, against the exact quasi-static limit under the \
          same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + n + 1, \
-         the load on the floor under n bodies and the one on top. The tolerance \
+         the load on the floor under n bodies and the one on top. Where the force rises beyond the onset of slip, F is that of the \
+         peak, and error, tolerance and verdict are those of the onset. The tolerance \
          is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {MAX_TOLERANCE:e}. Model form is the distance of the \
          limit under the code's convention from the one under the paper's.\n\n",
         title(judgements),

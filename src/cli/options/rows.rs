@@ -9,7 +9,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// The name of the tests in JUnit XML.
-const SUITES: &str = "tristack crosscheck";
+const SUITES: &str = "tristack";
 
 /// What is printed of the rows of a crosscheck.
 #[derive(Debug, Clone, Args)]

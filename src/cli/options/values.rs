@@ -225,7 +225,7 @@ mod tests {
             "",
             "1,",
             "1,,2",
-            "0:0.9:1e-4,0:0.9:1e-4",
+            "0:0.9:1e-4,1:1.9:1e-4",
         ] {
             let message = Values::<Friction>::parse(text).unwrap_err();
             assert!(message.contains("accepted are"), "{text}: {message}");

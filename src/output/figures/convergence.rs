@@ -37,7 +37,7 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
          from the exact limit under each code's own convention, over the wall speed $v$ at $\\Delta t = {}\\sqrt{{m/k_n}}$; marks side by \
          side on one band belong to the same wall speed, that in its middle. \
          What the time step $\\Delta t$ changes (c) of the peak and (d) of the slip onset at $v = {}\\,r\\sqrt{{k_n/m}}$, \
-         relative to the same code at $\\Delta t = {}\\sqrt{{m/k_n}}$. Lines join the native runs; vertical: the paper's \
+         relative to the same code at $\\Delta t = {}\\sqrt{{m/k_n}}$. Lines join the native runs, which stand at their speed; vertical: the paper's \
          settings.",
         number(stack.floor_friction),
         number(stack.stiffness),
@@ -73,14 +73,13 @@ fn speeds(study: &Convergence, symbol: &str, lowest: f64, excess: Force) -> Pane
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     for speed in speeds {
-        panel.band(TOGETHER, speed, ABREAST * codes.len() as f64);
+        panel.band(TOGETHER, speed, ABREAST * (codes.len() + 1) as f64);
     }
     setting(&mut panel, PAPER_WALL_SPEED, range);
-    let middle = 0.5 * (codes.len() as f64 - 1.0);
     for (index, code) in codes.into_iter().enumerate() {
         let own = study.wall_speeds.iter();
         let own = own.filter(|point| point.code == code);
-        let aside = ABREAST * (index as f64 - middle);
+        let aside = ABREAST * place_abreast(index);
         let mut points: Vec<Run> = own
             .map(|point| {
                 (
@@ -93,6 +92,12 @@ fn speeds(study: &Convergence, symbol: &str, lowest: f64, excess: Force) -> Pane
         codes::runs(&mut panel, THIN, code, &points);
     }
     panel
+}
+
+/// Places of marks side by side: 0 for the first, which a line joins, then 1, −1, 2, −2.
+fn place_abreast(index: usize) -> f64 {
+    let distance = index.div_ceil(2) as f64;
+    if index % 2 == 1 { distance } else { -distance }
 }
 
 fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {

@@ -39,7 +39,7 @@ pub(super) fn scaling(
                   its value for infinite stiffness. (b–d) Distance \
                   of each code with linear springs from the exact limit under its own convention, relative to $F + 3$, a panel \
                   for each friction; {}. \
-                  Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}",
+                  Dashed: the largest tolerance that a row may have. Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}",
         values("\\mu", &SCALING_FRICTIONS),
         number(FITTED_FROM),
         codes::errors_at_edges(),

@@ -35,7 +35,7 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
              every code under its own contact \
              convention, by slip onset extrapolated to vanishing wall speed. (b–d) Distance of \
              each code from the exact limit under its own convention, relative to $F + 3$, a panel for each stiffness; \
-             {}. Runs of the standard profile.{}",
+             {}. Dashed: the largest tolerance that a row may have; most are smaller. Runs of the standard profile.{}",
         values("k_n r/(mg)", &PAPER_STIFFNESSES),
         codes::errors_at_edges(),
         codes::left_out(judgements)

@@ -63,6 +63,7 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
 /// All claims.
 pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let caption = "Claims, those that do not hold first.";
+    let equations = equations(claims);
     let sorted = sorted(claims);
     let anchors = sorted
         .iter()
@@ -71,13 +72,19 @@ pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
-             is derived by running the check; the register is `reference/claims.toml`.",
+             is derived by running the check; the register is `reference/claims.toml`. A formula or number holds if it is \
+             right to what is known of it. Where the words of a claim leave room, as “agree well” or “of order” do, it \
+             holds approximately up to the deviation that is given with it: relative, or in decades of an order of \
+             magnitude.",
         ),
         Block::Claims(Claims {
             table: PageTable::new("claims", caption, &claims_table(claims), table),
             counts: VERDICTS.map(|verdict| count(claims, verdict)).to_vec(),
-            list: sorted.into_iter().map(on_page).collect(),
-            equations: equations(claims),
+            list: sorted
+                .into_iter()
+                .map(|own| on_page(own, &equations))
+                .collect(),
+            equations,
         }),
     ];
     Section::new("claims", "Claims", blocks)
@@ -106,8 +113,10 @@ fn count(claims: &[ClaimJudgement], verdict: ClaimVerdict) -> VerdictCount {
     }
 }
 
-fn on_page((number, own): Numbered) -> PageClaim {
+/// `equations` are those of the paper, each with the first claim on it, which carries its anchor.
+fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
     let claim = &own.claim;
+    let first = equations.iter().filter(|known| known.claim == claim.id);
     PageClaim {
         id: claim.id.clone(),
         number,
@@ -115,14 +124,27 @@ fn on_page((number, own): Numbered) -> PageClaim {
         statement: claim.statement.clone(),
         verdict: own.verdict.to_string(),
         words: in_words(own.verdict),
-        evidence: match claim.see.is_empty() || ends_a_sentence(&own.evidence) {
-            true => own.evidence.clone(),
-            false => format!("{}.", own.evidence),
-        },
+        evidence: evidence(own),
         erratum: own.erratum.clone(),
-        equations: claim.equations.clone(),
+        equations: first.map(|known| known.number.clone()).collect(),
         sources: claim.see.iter().map(|see| format!("[](#{see})")).collect(),
     }
+}
+
+/// The evidence, what the words of an approximate claim are taken to allow, and a full stop before its sources.
+fn evidence(own: &ClaimJudgement) -> String {
+    let allowed = own
+        .claim
+        .allowed
+        .filter(|_| own.verdict == ClaimVerdict::Approximately);
+    let is_last = own.claim.see.is_empty() && allowed.is_none();
+    let stop = if is_last || ends_a_sentence(&own.evidence) {
+        ""
+    } else {
+        "."
+    };
+    let allowed = allowed.map(|allowed| format!(" Taken as allowed by its words: {allowed}."));
+    format!("{}{stop}{}", own.evidence, allowed.unwrap_or_default())
 }
 
 fn ends_a_sentence(text: &str) -> bool {
@@ -173,6 +195,8 @@ fn claims_of(claims: Vec<Numbered>) -> DataTable {
     .means("`holds`, `approximately`, `fails` or `untestable`")
     .shown("verdict")
     .cell(|(_, own)| in_words(own.verdict).to_owned())
+    .number("allowed", "1", |(_, own)| own.claim.allowed)
+    .means("largest deviation, relative or in decades, with which it holds approximately; absent where its words allow none")
     .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")

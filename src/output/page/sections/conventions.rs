@@ -22,7 +22,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::Table(PageTable::new(
             "conventions",
             "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, share and pull \
-             are 1 for yes, 0 for no.",
+             are 1 for yes, 0 for no. Stiffness, damping and friction are those of the micro-tests, not the paper’s.",
             &probe(&found),
             probe_by_code(&found),
         )),

@@ -24,7 +24,8 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::figure(laws_figure(judgements)),
         rows(
             "law_scaling",
-            "Every row at $\\mu_c$ with Hertz contacts, [](#figure-scaling).",
+            "Every row at $\\mu_c$ with Hertz contacts, [](#figure-scaling). Yield force, ± and exact limit are those of the largest \
+             force; error, tolerance and verdict those of the onset of slip, which comes before it.",
             &laws.scaling,
         ),
     ];

@@ -11,7 +11,7 @@ use crate::study::preparation::{PreparationRow, PreparationStudy};
 pub(super) fn section(reproduction: &Reproduction) -> Section {
     let blocks = vec![
         Block::paragraph(
-            "All runs of this report begin with a gravity ramp: three just-touching cylinders, gravity raised \
+            "All other runs of this report begin with a gravity ramp: three just-touching cylinders, gravity raised \
              smoothly, which ends with $c = 0$ and is the state in which the exact limit starts. The paper pushes \
              the bottom cylinders together by side walls ($A$), lowers the top one and withdraws the walls, and \
              takes an $A$ for which $c = 0$. But $c$ vanishes for every $A$ up to $A^*$, and the yield force depends on $A$ \
@@ -27,7 +27,8 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
             "preparation",
             "Force $c$ between the bottom cylinders when the compression begins, and yield force $F$, both in $mg$; $A$ in $r$, \
              absent for the gravity ramp. Theory is the exact limit after a gravity ramp, and what becomes of it \
-             with a push, to leading order in $\\epsilon$.",
+             with a push, to leading order in $\\epsilon$; it does not hold where the floor slides while the walls are withdrawn, as \
+             after the largest pushes.",
             &preparations(&reproduction.preparation),
         ),
     ];

@@ -29,7 +29,8 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         Block::table(
             "theories",
             "The paper’s theories against the exact quasi-static limit of its own DEM: largest error relative to \
-             $F + 3$ over the frictions of Fig. 2(a). Above $\\mu_c$ they are no limit of the DEM.",
+             $F + 3$ over the frictions at which the floor slips first, up to and beyond those of Fig. 2(a). Above $\\mu_c$ the \
+             DEM does not converge to them, however stiff the cylinders are.",
             &theories(&reproduction.curves.over_friction),
         ),
         Block::table(
@@ -67,12 +68,13 @@ fn of_codes(reproduction: &Reproduction) -> String {
     let (agreeing, rows) = agreements.iter().fold((0, 0), |(agreeing, rows), own| {
         (agreeing + own.agreeing, rows + own.rows)
     });
+    let codes: Vec<&str> = agreements.iter().map(|own| own.code.as_str()).collect();
     let largest = agreements.iter().map(|own| own.largest_error);
     format!(
-        "{} codes reproduce the yield curve of Fig. 2(a): {agreeing} of {rows} yield forces agree with the \
-         exact quasi-static limit under the convention of the code; the largest error is {} of $F + 3$ \
+        "At the stacks of Fig. 2(a), {agreeing} of {rows} yield forces of {} agree with the exact quasi-static limit under the \
+         contact convention of the code, which is not the paper’s in all of them; the largest error is {} of $F + 3$ \
          ([](#figure-yield-curves), [](#table-yield_curves)).",
-        agreements.len(),
+        codes.join(", "),
         power_of_ten(largest.fold(0.0, f64::max))
     )
 }
@@ -100,14 +102,16 @@ fn of_rows(reproduction: &Reproduction) -> String {
     };
     format!(
         "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} \
-         inconclusive{named}, {} without yield, {} failed or missing.",
+         inconclusive{named}, {} without yield, {} failed or missing. Not among them: {} rows at \
+         the paper’s literal settings ([](#table-literal)), which two wall speeds cannot decide.",
         rows.len(),
         rows.len() - recorded,
         count(Verdict::Agrees),
         count(Verdict::Differs),
         count(Verdict::Inconclusive),
         count(Verdict::NoYield),
-        count(Verdict::Failed) + count(Verdict::Missing)
+        count(Verdict::Failed) + count(Verdict::Missing),
+        reproduction.literal.len()
     )
 }
 
@@ -121,8 +125,8 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     let agreeing = agreeing.filter(|exponent| exponent.verdict == Verdict::Agrees);
     Some(format!(
         "Scaling: $F + 3$ grows with the stiffness to the power {:.4} at $\\mu_c$ and {:.4} at $\\mu = 0.3$ \
-         between $10^3$ and $10^6$ (1/2 and 1 for $\\epsilon \\to 0$); {} of {} exponents fitted to runs are those of the exact \
-         limit within their uncertainty ([](#figure-scaling), [](#table-exponents)).",
+         between $10^3$ and $10^6$ (1/2 and 1 for $\\epsilon \\to 0$); {} of {} exponents fitted to runs with linear springs are those of \
+         the exact limit within their uncertainty ([](#figure-scaling), [](#table-exponents)).",
         at.exponent,
         above.exponent,
         agreeing.count(),
@@ -148,9 +152,9 @@ fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let fitted = fitted.map(|own| format!("{:.4} ({})", own.exponent, own.code));
     let fitted: Vec<String> = fitted.collect();
     Some(format!(
-        "Hertz contacts: {agreeing} of {rows} rows of {} styles agree with their exact limits, which differ by \
-         convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the exponent \
-         of $F + 3$ between $10^3$ and $10^6$ is {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
+        "Hertz contacts: the onset of slip in {agreeing} of {rows} rows of {} styles agrees with its exact limit, and these differ \
+         by convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the exponent \
+         of the largest $F + 3$, which comes later, is between $10^3$ and $10^6$ {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
          ([](#figure-laws), [](#table-law_forces)).",
         agreements.len(),
         SPREAD.0,

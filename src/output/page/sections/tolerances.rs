@@ -11,7 +11,7 @@ use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Verdict};
 
 /// The rows of one code, counted.
 pub(super) struct Agreement {
-    code: Code,
+    pub code: Code,
     pub agreeing: usize,
     pub rows: usize,
     /// Largest |error|, relative to F + 3.
@@ -47,7 +47,13 @@ impl Agreement {
 pub(super) fn section(reproduction: &Reproduction) -> Section {
     let blocks = vec![
         Block::paragraph(format!(
-            "Each code is held to the exact quasi-static limit under its own, measured convention. The \
+            "Each code is held to the exact quasi-static limit under its own, measured convention: the force at which the \
+             path of equilibria of the same stack ends, computed from the balances of forces and torques for a wall that \
+             moves infinitely slowly, without any time stepping (docs/theory.md). A row is one stack with one code, run at \
+             several wall speeds and extrapolated to vanishing speed. The yield force is the force of the wall when the floor \
+             begins to slip; with Hertz contacts the force may rise further, and then yield force, ± and exact limit are \
+             those of the largest force, while error, tolerance and verdict are those of the onset of slip. Model form is \
+             the distance of the limit under the convention of the code from the one under the paper’s, of $F + 3$. The \
              tolerance of a row is the uncertainty of its own runs (wall speed, time step, preparation, \
              sampling, round-off and print precision, each computed), but at least {} and at most \
              {} of $F + 3$; an uncertainty above that decides nothing.",
@@ -67,7 +73,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::long_table(
             true,
             "exponents",
-            "Exponents of $F + 3$ over the stiffness, fitted from $10^3$ to $10^6$, beside those of the \
+            "Exponents of the largest $F + 3$ over the stiffness, fitted from $10^3$ to $10^6$, beside those of the \
              exact limit fitted in the same way.",
             &exponents(
                 reproduction
@@ -88,9 +94,11 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         ),
         rows(
             "literal",
-            "At the paper’s literal wall speed $10^{-6}$ and time step $10^{-3}$, yield force by the peak.",
+            "At the paper’s literal wall speed $10^{-6}$ and time step $10^{-3}$, yield force by the peak. Two wall speeds \
+             say little of how well a row is known, so that none is decided; [](#figure-convergence) has further speeds.",
             &reproduction.literal,
         ),
+        Block::paragraph("What each kind of evidence does not prove:"),
         evidence(),
     ];
     let title = "Agreement of the codes with the exact limit";
@@ -164,7 +172,7 @@ pub(crate) fn exponents<'a>(exponents: impl IntoIterator<Item = &'a Exponent>) -
     .means("how many stiffnesses were fitted")
     .number("law_power", "1", |own| own.power.value())
     .means("power p of the normal force K overlapᵖ")
-    .shown("p")
+    .shown("power $p$ of the law")
     .verdict(|own| own.verdict)
     .rows(exponents)
 }

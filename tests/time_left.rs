@@ -79,7 +79,8 @@ fn a_run_for_which_no_start_has_the_time_fails_with_its_estimate() {
     let (status, rows, message) = run(&bench, &format!("{line} --time-left 5min"));
     assert_eq!(status, FAILED, "{message}");
     assert!(rows.contains(",failed"), "{rows}");
-    let found = message.contains("by estimate it takes") && message.contains("270 s can be used");
+    let found = message.contains("by estimate it takes")
+        && message.contains("270 s of --time-left are there for it");
     assert!(found, "{message}");
 }
 
@@ -108,7 +109,7 @@ fn the_start_of_a_call_counts() {
     let (needed, usable) = (needed.ceil(), (needed - 0.5).floor());
     let parts = [
         format!("by estimate it takes {needed} s"),
-        format!("{usable} s can be used"),
+        format!("{usable} s of --time-left are there for it"),
     ];
     for part in parts {
         assert!(message.contains(&part), "{message} lacks {part}");
@@ -120,7 +121,7 @@ fn the_start_of_a_call_counts() {
 fn a_run_that_no_start_comes_to_is_not_postponed_for_ever() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let (line, _) = literal_line(seconds("start") + 0.002);
+    let (line, _) = literal_line(seconds("start"));
     // The first start probes the code, which the second does not repeat.
     let starts: Vec<_> = (0..2).map(|_| run(&bench, &line)).collect();
     let (status, _, message) = &starts[1];

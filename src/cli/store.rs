@@ -158,7 +158,10 @@ fn list(arguments: &ListArguments, command: &str) -> Result<ExitStatus, CliError
         false => stored(&chosen),
     }];
     let people = || tables[0].shown().terminal() + &sum(&chosen, &root);
-    Ok(arguments.format.print(&tables, command, people))
+    Ok(match arguments.format {
+        Format::Table if chosen.is_empty() => print(&sum(&chosen, &root)),
+        format => format.print(&tables, command, people),
+    })
 }
 
 fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError> {

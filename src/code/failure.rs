@@ -35,7 +35,7 @@ pub enum FailureKind {
     #[error("interrupted")]
     Interrupted,
     /// No other start of the same command would have enough time for it either.
-    #[error("by estimate it takes {} s, and of --time-left {} s can be used; allow more, or leave --time-left out", .estimate.as_secs(), .usable.as_secs())]
+    #[error("by estimate it takes {} s with its start, and {} s of --time-left are there for it; allow more, or leave --time-left out", .estimate.as_secs(), .usable.as_secs())]
     TooLong {
         estimate: Duration,
         usable: Duration,

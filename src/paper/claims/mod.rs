@@ -19,6 +19,6 @@ mod truth;
 pub use checks::check_names;
 pub use finding::ClaimVerdict;
 pub use judgement::{ClaimJudgement, judge};
-pub(crate) use notation::{number, powers_in_tex, scientific, values};
+pub(crate) use notation::{list, number, powers_in_tex, scientific, values};
 pub use printed::PaperTheory;
 pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};

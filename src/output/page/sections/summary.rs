@@ -7,7 +7,7 @@ use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::output::DataTable;
 use crate::output::number::{digits, friction_in_tex, percent, power_of_ten, stiffness_in_tex};
 use crate::output::table::Columns;
-use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
+use crate::paper::claims::{ClaimJudgement, ClaimVerdict, list};
 use crate::paper::reproduction::{Reproduction, TheoryPoint};
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES, PAPER_WALL_SPEED};
@@ -68,13 +68,13 @@ fn of_codes(reproduction: &Reproduction) -> String {
     let (agreeing, rows) = agreements.iter().fold((0, 0), |(agreeing, rows), own| {
         (agreeing + own.agreeing, rows + own.rows)
     });
-    let codes: Vec<&str> = agreements.iter().map(|own| own.code.as_str()).collect();
+    let codes = agreements.iter().map(|own| own.code.to_string());
     let largest = agreements.iter().map(|own| own.largest_error);
     format!(
         "At the stacks of Fig. 2(a), {agreeing} of {rows} yield forces of {} agree with the exact quasi-static limit under the \
          contact convention of the code, which is not the paper’s in all of them; the largest error is {} of $F + 3$ \
          ([](#figure-yield-curves), [](#table-yield_curves)).",
-        codes.join(", "),
+        list(codes),
         power_of_ten(largest.fold(0.0, f64::max))
     )
 }
@@ -153,8 +153,8 @@ fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let fitted: Vec<String> = fitted.collect();
     Some(format!(
         "Hertz contacts: the onset of slip in {agreeing} of {rows} rows of {} styles agrees with its exact limit, and these differ \
-         by convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the exponent \
-         of the largest $F + 3$, which comes later, is between $10^3$ and $10^6$ {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
+         by convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the \
+         largest $F + 3$, which comes later, grows between $10^3$ and $10^6$ to the power {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
          ([](#figure-laws), [](#table-law_forces)).",
         agreements.len(),
         SPREAD.0,

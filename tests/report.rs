@@ -58,7 +58,7 @@ fn a_machine_without_codes_gets_the_whole_report_from_recorded_runs() {
         assert!(found, "no section on {section}");
     }
     assert!(
-        page.contains("450 of 450 yield forces agree"),
+        page.contains("450 of 450 yield forces of native"),
         "{}",
         &page[..3000]
     );

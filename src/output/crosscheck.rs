@@ -2,7 +2,7 @@
 
 use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable};
-use super::text::{markdown_code, markdown_text, without_mathematics};
+use super::text::{markdown_code, markdown_notes};
 use crate::code::Code;
 use crate::model::PAPER_BODIES;
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
@@ -295,7 +295,7 @@ fn explaining(judgements: &[Judgement]) -> String {
 fn remark(row: &Judgement) -> String {
     let (mu, stiffness) = (friction(row.mu()), row.stiffness());
     let (code, verdict) = (row.code, row.verdict());
-    let notes = markdown_text(&without_mathematics(&row.notes().join("\n"))).replace('\n', "\n  ");
+    let notes = markdown_notes(&row.notes().join("\n"));
     format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }
 

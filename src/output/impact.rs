@@ -2,7 +2,7 @@
 
 use super::number::{digits, one_digit, relative, rounded};
 use super::table::{Columns, DataTable};
-use super::text::{markdown_code, markdown_text, without_mathematics};
+use super::text::{markdown_code, markdown_notes};
 use crate::study::impact::{DIVISIONS, ImpactFinding, ImpactJudgement, NEARLY_ELASTIC};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
@@ -143,7 +143,7 @@ fn remark(row: &ImpactJudgement) -> String {
         impact.approach_speed,
         rounded(impact.convention.restitution),
     );
-    let notes = markdown_text(&without_mathematics(&row.notes().join("\n"))).replace('\n', "\n  ");
+    let notes = markdown_notes(&row.notes().join("\n"));
     format!(
         "- **{code}, {target}, speed {speed}, e_r {restitution}, {quantity}: {verdict}**\n\n  {notes}\n"
     )

@@ -2,7 +2,7 @@
 
 use super::number::{optional, small};
 use super::table::{Columns, DataTable};
-use super::text::{markdown_code, markdown_text, without_mathematics};
+use super::text::{markdown_code, markdown_notes};
 use crate::model::PAPER_BODIES;
 use crate::study::Verdict;
 use crate::study::trajectory::{
@@ -175,8 +175,7 @@ fn reasons(judgements: &[TrajectoryJudgement]) -> String {
 fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     let mut lines = String::new();
     for judgement in judgements {
-        let notes = markdown_text(&without_mathematics(&judgement.notes().join("\n")))
-            .replace('\n', "\n  ");
+        let notes = markdown_notes(&judgement.notes().join("\n"));
         if !notes.is_empty() {
             let (code, verdict) = (judgement.code, judgement.verdict());
             lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");
@@ -184,7 +183,7 @@ fn remarks(judgements: &[TrajectoryJudgement]) -> String {
         for comparison in judgement.comparisons() {
             for note in comparison.grounds.notes() {
                 let (subject, verdict) = (subject(judgement, comparison), comparison.verdict());
-                let note = markdown_text(note);
+                let note = markdown_notes(note);
                 lines += &format!("- **{subject}: {verdict}**: {note}\n");
             }
         }

@@ -1,6 +1,6 @@
 //! Texts in Markdown, their mathematics between dollar signs.
 
-use super::span::{Span, Target, spans, without_signs_of_tags};
+use super::span::{Span, Target, spans, without_mathematics, without_signs_of_tags};
 use crate::model::{readable, readable_lines};
 
 /// `text` in one cell of a Markdown table, as [`markdown_text`].
@@ -18,6 +18,11 @@ pub(crate) fn markdown_cell(text: &str) -> String {
 pub(crate) fn markdown_text(text: &str) -> String {
     let text = readable_lines(text);
     spans(&text).into_iter().map(span).collect()
+}
+
+/// Notes on a row, a line each, in an item of a list. They may hold the last words of a program.
+pub(crate) fn markdown_notes(notes: &str) -> String {
+    markdown_text(&without_mathematics(notes)).replace('\n', "\n  ")
 }
 
 fn span(span: Span) -> String {
@@ -65,6 +70,14 @@ pub(crate) fn markdown_code(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_of_a_program_are_neither_mathematics_nor_markup() {
+        let notes = markdown_notes("$<img src=x>$\nlast words");
+        assert_eq!(notes, "\\$&lt;img src=x>\\$\n  last words");
+        let formula = markdown_text("$a < b$");
+        assert_eq!(formula, "$a \\lt  b$");
+    }
 
     #[test]
     fn nothing_becomes_markup_that_is_none() {

@@ -10,5 +10,5 @@ mod span;
 
 pub(crate) use html::{html_attribute, html_text};
 pub(crate) use latex::latex_text;
-pub(crate) use markdown::{markdown_cell, markdown_code, markdown_text};
+pub(crate) use markdown::{markdown_cell, markdown_code, markdown_notes, markdown_text};
 pub(crate) use span::without_mathematics;

@@ -34,7 +34,7 @@ fn time<G: Geometry<f64>>(criterion: &mut Criterion, name: &str, mut packing: Pa
 
 /// 4005 cylinders.
 fn cylinders(criterion: &mut Criterion) {
-    let pyramid = Pyramid::touching(89, 1e5, ContactConvention::PAPER);
+    let pyramid = Pyramid::touching(89, 1e5, ContactConvention::TURNING);
     time(criterion, "cylinders", Packing::pyramid(&pyramid));
 }
 
@@ -47,7 +47,7 @@ fn spheres(criterion: &mut Criterion) {
     let spheres = heap.centres().into_iter().map(Sphere::resting).collect();
     let material = Material {
         moment_of_inertia: 0.4,
-        ..Material::new(&Stack::paper(0.5, 1e5), &ContactConvention::PAPER)
+        ..Material::new(&Stack::paper(0.5, 1e5), &ContactConvention::TURNING)
     };
     let packing = Packing::new(spheres, heap.walls(0.5, [0.0; 4]), material, 0.1);
     time(criterion, "spheres", packing);

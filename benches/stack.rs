@@ -14,7 +14,7 @@ const CASES: usize = 16;
 fn cases() -> Vec<Case> {
     let frictions = (0..CASES).map(|index| 0.3 + 1e-3 * index as f64);
     let stacks = frictions.map(|friction| Stack::paper(friction, 1e3));
-    let plans = stacks.map(|stack| plan(Code::NATIVE, &stack, ContactConvention::PAPER));
+    let plans = stacks.map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING));
     plans.map(|plan| plan.cases[MIDDLE_RUN]).collect()
 }
 

@@ -366,7 +366,7 @@ fn native_reproduction() -> Reproduction {
         .iter()
         .flat_map(|&mu| [1e2, 1e4].map(|stiffness| Stack::paper(mu, stiffness)));
     let plans: Vec<_> = stacks
-        .map(|stack| plan(Code::NATIVE, &stack, ContactConvention::PAPER))
+        .map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING))
         .collect();
     let campaign = Campaign::new(&native, &settings, &Quiet);
     let scaling = campaign.carry_out(scaling_measurements(&names));

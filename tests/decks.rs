@@ -183,7 +183,7 @@ proptest! {
     #[test]
     fn parameters_of_every_micro_test_are_plain_numbers(x in -1e3..1e3f64, spin in -1e3..1e3f64, steps in 0u64..1000) {
         let test = ContactTest {
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             stiffness_ratio: 2.5,
             floor_friction: 0.3,
             cylinder_friction: 0.7,

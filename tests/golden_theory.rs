@@ -85,7 +85,7 @@ fn small_displacement_theories_match_to_1e_10() {
     for golden in rows::<SmallDisplacementRow>("small_displacement.csv") {
         let name = format!("{golden:?}");
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let predictions = Predictions::new(&stack, &ContactConvention::PAPER);
+        let predictions = Predictions::new(&stack, &ContactConvention::TURNING);
         let root = predictions.elastic_root;
         let pairs = [
             (predictions.rigid.yield_force, golden.rigid),
@@ -164,7 +164,7 @@ fn follower_equals_the_closed_form_to_1e_9_for_arms_0() {
         let name = format!("{golden:?}");
         let limit = followed_limit(
             &stack(golden.mu, golden.stiffness, golden.kappa),
-            &ContactConvention::PAPER,
+            &ContactConvention::TURNING,
         );
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }

@@ -39,7 +39,7 @@ fn another() -> ContactConvention {
         },
         tensile_force: TensileForce::NeverPulls,
         moment_of_inertia: 0.4,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     }
 }
 
@@ -51,7 +51,7 @@ fn unlimited_damping() -> ContactConvention {
         sliding_spring: SlidingSpring::FollowsLimit,
         history_update: HistoryUpdate::Linearised,
         tensile_force: TensileForce::NeverPulls,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     }
 }
 
@@ -174,7 +174,7 @@ fn exact_values_are_those_of_known_formulas() {
     }
     // What Coulomb's law alone gives, on a floor without arms.
     for restitution in [1.0, 0.5] {
-        let mut floor = impact(ImpactTarget::Floor, ContactConvention::PAPER, restitution);
+        let mut floor = impact(ImpactTarget::Floor, ContactConvention::TURNING, restitution);
         floor.convention.tensile_force = TensileForce::NeverPulls;
         let kept = normal_impact(&floor).restitution;
         let change = floor.friction * (1.0 + kept) * floor.approach_speed;
@@ -341,7 +341,7 @@ fn a_contact_that_sticks_again_is_compared_with_a_twin() {
             ..Law::HERTZ
         },
         sliding_spring: SlidingSpring::FollowsLimit,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     let studies = plan_impacts(Code::NATIVE, fading);
     let twins = studies
@@ -359,7 +359,7 @@ fn a_contact_that_sticks_again_is_compared_with_a_twin() {
 
 #[test]
 fn bodies_that_do_not_part_are_a_violation() {
-    let study = &plan_impacts(Code::NATIVE, ContactConvention::PAPER)[0];
+    let study = &plan_impacts(Code::NATIVE, ContactConvention::TURNING)[0];
     let (verdict, finding) = judge(study, |mut test| {
         test.time_step *= 0.1;
         test

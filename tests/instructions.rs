@@ -102,7 +102,7 @@ fn case(index: usize, steps: u64) -> Case {
     let duration = TIME_STEP * steps as f64;
     Case {
         stack: Stack::paper(0.3 + 1e-3 * index as f64, 1e3),
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 100.0,

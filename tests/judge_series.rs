@@ -81,7 +81,7 @@ fn refused(bench: &Bench, line: &str, expected: &[&str]) {
 
 #[test]
 fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     let (status, tables, message) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
     assert_eq!(status, Some(0), "{message}");
     let row = &tables[0][0];
@@ -127,7 +127,7 @@ fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
 /// The same number as a crosscheck gives, which knows the speeds from its plan.
 #[test]
 fn the_force_is_that_of_a_crosscheck() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     let (_, tables, _) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
     let line = format!("crosscheck --codes native {BARE} --format json");
     let output = bench.tristack(&line).output().expect("it runs").stdout;
@@ -145,7 +145,7 @@ fn the_force_is_that_of_a_crosscheck() {
 
 #[test]
 fn the_order_of_the_files_does_not_matter_but_speeds_must_be_theirs() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     let given = speeds.strip_prefix("--speeds ").expect("speeds");
     let mut turned: Vec<&str> = given.split(',').collect();
     turned.reverse();
@@ -167,8 +167,8 @@ fn the_order_of_the_files_does_not_matter_but_speeds_must_be_theirs() {
 
 #[test]
 fn of_more_than_three_series_the_slowest_are_extrapolated() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
-    let mut fast = measurement(ContactConvention::PAPER).cases[0];
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
+    let mut fast = measurement(ContactConvention::TURNING).cases[0];
     fast.protocol.wall_speed *= 2.0;
     put(&bench, "v8.csv", &fast);
     let speeds = speeds.replace(
@@ -187,8 +187,8 @@ fn of_more_than_three_series_the_slowest_are_extrapolated() {
 
 #[test]
 fn speeds_need_not_be_halves() {
-    let (bench, _) = bench_with(ContactConvention::PAPER);
-    let mut cases = measurement(ContactConvention::PAPER).cases;
+    let (bench, _) = bench_with(ContactConvention::TURNING);
+    let mut cases = measurement(ContactConvention::TURNING).cases;
     cases[0].protocol.wall_speed *= 1.25;
     cases[2].protocol.wall_speed *= 1.1;
     put(&bench, "v4.csv", &cases[0]);
@@ -238,7 +238,7 @@ fn another_arm_is_named_on_the_command_line_and_a_wrong_one_differs_once_the_bud
 
 #[test]
 fn series_that_break_mechanics_differ_whatever_is_not_known() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     for name in FILES {
         change(&bench, name, |fields| {
             let mut fields: Vec<String> = fields.iter().map(|field| (*field).to_owned()).collect();
@@ -257,7 +257,7 @@ fn series_that_break_mechanics_differ_whatever_is_not_known() {
 
 #[test]
 fn what_is_wrong_with_files_and_options_is_said() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     let all = format!("{THREE} {speeds} {STACK}");
     let with = |from: &str, to: &str| all.replace(from, to);
     let cases: [(String, &[&str]); 9] = [
@@ -383,7 +383,7 @@ fn change_passport(bench: &Bench, change: impl Fn(&mut Value)) -> &'static str {
 
 #[test]
 fn a_passport_that_does_not_say_the_arms_is_refused() {
-    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
     bench.tristack("probe --out passports").assert().code(0);
     let line = format!("{THREE} {speeds} {BARE}");
     let torque = "convention.pair.torque_arm";

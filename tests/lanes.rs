@@ -84,7 +84,7 @@ fn alone(cases: &[Case]) -> Vec<Option<Series>> {
 fn case(floor_friction: f64, stiffness: f64, time_step: f64) -> Case {
     Case {
         stack: Stack::paper(floor_friction, stiffness),
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 40.0,
@@ -139,7 +139,7 @@ fn every_width_gives_the_bits_of_single_runs() {
 
 #[test]
 fn every_convention_has_the_same_bits_in_lanes() {
-    let mut conventions = vec![ContactConvention::PAPER; 5];
+    let mut conventions = vec![ContactConvention::TURNING; 5];
     conventions[0].coulomb_operand = CoulombOperand::Spring;
     conventions[1].sliding_spring = SlidingSpring::FollowsLimit;
     conventions[2].history_update = HistoryUpdate::Projected;

@@ -293,7 +293,7 @@ fn a_parameter_is_never_taken_for_convention() {
     let convention = ContactConvention {
         arms: Arms::reciprocal(-0.25, -0.75),
         history_update: HistoryUpdate::Projected,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     type Change = fn(ContactTest) -> ContactTest;
     let wrong: [(&str, Change); 4] = [
@@ -371,7 +371,7 @@ fn the_memory_of_a_spring_is_measured_whatever_else_a_contact_is() {
                         coulomb_operand,
                         sliding_spring,
                         history_update,
-                        ..ContactConvention::PAPER
+                        ..ContactConvention::TURNING
                     };
                     let found = findings(convention, |test| test).into_iter();
                     let of_memory = found.filter(|(name, ..)| name.ends_with("spring_memory"));

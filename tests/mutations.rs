@@ -374,7 +374,7 @@ fn beside_a_stiffness_that_grows_everything_else_is_as_declared() {
 /// Crosscheck of one stack that yields at the floor.
 fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
-    let measurements = [plan(Code::NATIVE, &stack, ContactConvention::PAPER)];
+    let measurements = [plan(Code::NATIVE, &stack, ContactConvention::TURNING)];
     let codes = [TwinEngine::selected(mutation)];
     let judgements = with_settings(|settings| {
         Campaign::new(&codes, settings, &Silent).carry_out(measurements.to_vec())
@@ -407,7 +407,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
 #[test]
 fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let stack = Stack::paper(0.3, 1e3);
-    let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[0];
+    let case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[0];
     let ratio = case.stack.stiffness_ratio;
     let twin = Twin::new(&case.convention, ratio, Mutation::None);
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
@@ -437,7 +437,7 @@ fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
     let codes = [TwinEngine::selected(Mutation::FrictionOnePercentHigh)];
     with_settings(|settings| {
         let campaign = Campaign::new(&codes, settings, &Silent);
-        let convention = ContactConvention::PAPER;
+        let convention = ContactConvention::TURNING;
         assert_not_judged(&campaign.carry_out(vec![plan(native, &stack, convention)]));
         let trajectory = plan_trajectory(native, &stack, convention);
         assert_not_judged(&campaign.carry_out(vec![trajectory]));
@@ -507,7 +507,7 @@ fn a_stiffness_that_grows_with_the_overlap_is_named() {
 fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     let wrong = ContactConvention {
         arms: Arms::reciprocal(0.0, -0.01),
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     let declared = tristack::code::Declaration {
         convention: wrong,

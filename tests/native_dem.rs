@@ -7,7 +7,7 @@ use tristack::model::{ContactConvention, PAPER_RESTITUTION, Stack, sha256_hex};
 use tristack::study::yield_force::plan;
 
 fn law() -> SpringDashpot<f64> {
-    SpringDashpot::like(0.0, &ContactConvention::PAPER, 2.5)
+    SpringDashpot::like(0.0, &ContactConvention::TURNING, 2.5)
 }
 
 fn floor(friction: f64) -> PlaneWall {
@@ -113,7 +113,7 @@ fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
 #[test]
 fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sliding() {
     for stack in [Stack::paper(0.12, 1e2), Stack::paper(0.3, 1e4)] {
-        let case = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases[1];
+        let case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[1];
         let series = compress_stack(&case, || true).expect("a finite series");
         let start = series.samples()[0];
         assert!(start.bodies[1].position[0] - start.bodies[2].position[0] > 2.0);
@@ -130,7 +130,7 @@ fn left_and_right_stay_mirror_images_up_to_the_yield() {
     let case = plan(
         Code::NATIVE,
         &Stack::paper(0.3, 1e2),
-        ContactConvention::PAPER,
+        ContactConvention::TURNING,
     )
     .cases[0];
     let series = compress_stack(&case, || true).expect("a finite series");
@@ -152,7 +152,7 @@ fn series_has_the_same_bits_everywhere() {
     let case = plan(
         Code::NATIVE,
         &Stack::paper(0.3, 1e3),
-        ContactConvention::PAPER,
+        ContactConvention::TURNING,
     )
     .cases[0];
     let series = compress_stack(&case, || true).expect("a finite series");

@@ -17,7 +17,7 @@ fn stack(mu: f64, stiffness: f64, stiffness_ratio: f64) -> Stack {
 fn limit(mu: f64, stiffness: f64, stiffness_ratio: f64) -> Limit {
     quasistatic_limit(
         &stack(mu, stiffness, stiffness_ratio),
-        &ContactConvention::PAPER,
+        &ContactConvention::TURNING,
     )
 }
 
@@ -247,7 +247,7 @@ fn a_stack_that_slid_under_its_own_weight_and_stands_has_a_peak_alone() {
         stiffness_ratio: 0.3,
         ..Stack::paper(0.12, 1e2)
     };
-    let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+    let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
     assert_eq!([limit.slip_onset, limit.wall_travel], [None; 2]);
     assert!((limit.yield_force.unwrap() - 0.608_582_4).abs() < 1e-6);
     let bench = Bench::without_codes();
@@ -286,7 +286,7 @@ proptest! {
         kappa in 0.1..1.2f64,
     ) {
         let stack = Stack { cylinder_friction: mu_d, ..stack(mu, 10f64.powf(stiffness), kappa) };
-        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
         let outcome = LoadingOutcome::of(&stack).unwrap();
         let yields = outcome.last.event == Event::FloorSlip;
         match (outcome.largest_force.filter(|_| yields), limit.yield_force) {

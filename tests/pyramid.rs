@@ -21,7 +21,7 @@ fn settle(packing: &mut Packing, pyramid: &Pyramid) {
 fn a_pyramid_stands_on_its_floor_in_equilibrium_and_symmetric() {
     let pyramid = Pyramid {
         rest_steps: 20_000,
-        ..Pyramid::touching(20, 1e4, ContactConvention::PAPER)
+        ..Pyramid::touching(20, 1e4, ContactConvention::TURNING)
     };
     let mut packing = Packing::pyramid(&pyramid);
     settle(&mut packing, &pyramid);
@@ -57,7 +57,7 @@ fn on_the_floor_alone_four_rows_stand_and_five_roll_apart() {
     for (rows, stands) in [(4, true), (5, false)] {
         let pyramid = Pyramid {
             rest_steps: 20_000,
-            ..Pyramid::touching(rows, 1e4, ContactConvention::PAPER)
+            ..Pyramid::touching(rows, 1e4, ContactConvention::TURNING)
         };
         let cylinders = pyramid.centres().into_iter();
         let floor = PlaneWall {
@@ -152,7 +152,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
         let kind = failure.expect_err("no deck").kind;
         assert!(matches!(kind, FailureKind::Unsupported(_)));
     }
-    let none = Pyramid::touching(0, 1e3, ContactConvention::PAPER);
+    let none = Pyramid::touching(0, 1e3, ContactConvention::TURNING);
     let native = Code::NATIVE.find().expect("always there");
     let failure = native.build(&[none], &context).expect_err("no rows");
     assert!(

@@ -58,7 +58,7 @@ fn a_yield_is_that_of_the_quasistatic_limit() {
     for (mu, stiffness) in [(0.1, 1e2), (0.2, 1e4), (0.3, 1e3), (0.5, 1e1 * 1e1)] {
         let stack = Stack::paper(mu, stiffness);
         let outcome = LoadingOutcome::of(&stack).unwrap();
-        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
         assert_eq!(outcome.first.event, limit.event);
         assert_eq!(outcome.failure_mode, FailureMode::Yields);
         let (force, expected) = (outcome.largest_force.unwrap(), limit.yield_force.unwrap());

@@ -58,7 +58,7 @@ impl ContactModel<f64, Space> for Wrong {
 /// The properties of a code with this mistake that are not as declared.
 fn differing(mistake: Mistake) -> Vec<String> {
     let declared = Declaration {
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         velocity_lag: 0.5,
         left_out: Vec::new(),
         in_space: true,
@@ -167,7 +167,7 @@ fn three_spheres_in_a_plane_move_as_cylinders_do() {
     for history_update in [Rotated, Projected, Linearised] {
         let convention = ContactConvention {
             history_update,
-            ..ContactConvention::PAPER
+            ..ContactConvention::TURNING
         };
         let law = SpringDashpot::like(0.0, &convention, 2.5);
         let (mut plane, mut space) = (stack::<Plane>(law), stack::<Space>(law));

@@ -70,7 +70,7 @@ proptest! {
     #[test]
     fn follower_and_closed_form_are_the_same_for_arms_0(stack in usual_stack()) {
         let closed = closed_form_limit(&stack);
-        let followed = followed_limit(&stack, &ContactConvention::PAPER);
+        let followed = followed_limit(&stack, &ContactConvention::TURNING);
         prop_assert_eq!(closed.event, followed.event);
         match (closed.floor_slip_force, followed.floor_slip_force) {
             (Some(closed), Some(followed)) => {

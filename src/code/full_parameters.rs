@@ -262,7 +262,7 @@ mod tests {
     fn case(preparation: Preparation) -> Case {
         Case {
             stack: Groups::paper(0.3, 100.0),
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             protocol: Protocol {
                 preparation,
                 time_step: 0.1,

@@ -273,7 +273,7 @@ mod tests {
         );
         std::fs::write(folder.path().join("code.toml"), manifest).unwrap();
         let definition = Definition::read(folder.path()).unwrap().remove(0);
-        definition.input_hash("", &witness_test(ContactConvention::PAPER))
+        definition.input_hash("", &witness_test(ContactConvention::TURNING))
     }
 
     #[test]

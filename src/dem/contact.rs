@@ -142,7 +142,8 @@ composite!(
 pub struct Spring<R: Real, G: Geometry<R> = Plane> {
     /// u, tangential displacement accumulated while the contact sticks.
     pub length: G::Tangent,
-    /// Normal of the contact when u was last brought up to date.
+    /// Normal of the contact when u was last brought up to date. Between cylinders whose springs nothing turns, u itself as
+    /// a vector, in place of the length along a tangent that turns.
     pub normal: G::Vector,
 }
 
@@ -153,6 +154,15 @@ impl<R: Real, G: Geometry<R>> Spring<R, G> {
         Self {
             length: G::no_tangent(number),
             normal: G::vector([number.like(0.0); 3]),
+        }
+    }
+
+    /// The same function of every component of u, of a spring that follows `update`.
+    #[inline(always)]
+    pub(super) fn change(&mut self, update: HistoryUpdate, of: impl Fn(R) -> R) {
+        self.length = self.length.with(self.length, |part, _| of(part));
+        if update == HistoryUpdate::Fixed {
+            self.normal = self.normal.with(self.normal, |part, _| of(part));
         }
     }
 }
@@ -185,7 +195,7 @@ impl<R: Real> SpringDashpot<R> {
     /// ```
     /// use tristack::dem::SpringDashpot;
     /// use tristack::model::ContactConvention;
-    /// let mut model = SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5);
+    /// let mut model = SpringDashpot::like(1.0, &ContactConvention::TURNING, 2.5);
     /// model.law.damping_normal = 0.25;
     /// assert_eq!(model.normal_force(0.5, -1.0), 0.75);
     /// ```
@@ -274,8 +284,23 @@ impl<R: Real> SpringDashpot<R> {
         let normal = self.normal_force(elastic, contact.separation_speed);
         let limit = contact.friction * normal.abs();
         let time_step = contact.time_step;
+        let arm = one + arms.torque * contact.overlap;
+        if self.history_update == HistoryUpdate::Fixed
+            && G::IS_SMALL
+            && contact.counterpart == Counterpart::Cylinder
+        {
+            // Of the plane's springs this one alone is not along the tangent: it is kept and limited as a vector.
+            let velocity = G::put_together(contact.normal, one.like(0.0), velocity);
+            let force = self.tangential_force(&mut memory.normal, limit, velocity, time_step);
+            return ContactForce {
+                normal: normal + G::along(contact.normal, force),
+                tangential: G::tangential(contact.normal, force),
+                arm,
+            };
+        }
         // In space the normal of a wall costs as much as another one to follow, and never turns.
         let is_kept = match self.history_update {
+            HistoryUpdate::Fixed => true,
             HistoryUpdate::Rotated if G::IS_SMALL => true,
             HistoryUpdate::Rotated | HistoryUpdate::Projected => {
                 !G::IS_SMALL && contact.counterpart == Counterpart::Wall
@@ -294,7 +319,7 @@ impl<R: Real> SpringDashpot<R> {
         ContactForce {
             normal,
             tangential: self.tangential_force(&mut memory.length, limit, velocity, time_step),
-            arm: one + arms.torque * contact.overlap,
+            arm,
         }
     }
 }
@@ -322,11 +347,11 @@ mod tests {
                 tangential_stiffness: 0.4,
                 damping_normal: 0.2,
                 damping_tangential: 0.1,
-                ..ContactConvention::PAPER.law(2.5)
+                ..ContactConvention::TURNING.law(2.5)
             },
             coulomb_operand,
             sliding_spring,
-            ..SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5)
+            ..SpringDashpot::like(1.0, &ContactConvention::TURNING, 2.5)
         }
     }
 

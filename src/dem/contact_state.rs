@@ -104,7 +104,7 @@ mod tests {
     };
 
     fn law() -> SpringDashpot<f64> {
-        SpringDashpot::like(1.0, &ContactConvention::PAPER, 2.5)
+        SpringDashpot::like(1.0, &ContactConvention::TURNING, 2.5)
     }
 
     fn after_one_step(touches: Touch<f64>) -> State {

@@ -94,7 +94,7 @@ impl EventRun {
             "event-run",
             env!("CARGO_PKG_VERSION"),
             *SOURCE_DIGEST,
-            ContactConvention::PAPER,
+            ContactConvention::TURNING,
             self
         ]);
         sha256_hex(parts.to_string().as_bytes())
@@ -116,7 +116,7 @@ impl EventRun {
             loading,
             until,
         } = self;
-        let law = SpringDashpot::like(0.0, &ContactConvention::PAPER, stack.stiffness_ratio);
+        let law = SpringDashpot::like(0.0, &ContactConvention::TURNING, stack.stiffness_ratio);
         let mut run = Run {
             scene: StackScene::of(&case(stack, loading), law, 0.0),
             stack: *stack,
@@ -305,7 +305,7 @@ impl Run {
 fn case(stack: &Stack, loading: &Loading) -> Case {
     Case {
         stack: *stack,
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 1.0 / loading.gravity_rate,

@@ -77,15 +77,15 @@ impl<R: Real> Tangential<R> for R {
     }
 }
 
-impl<R: Real> Tangential<R> for [R; 3] {
+impl<R: Real, const N: usize> Tangential<R> for [R; N] {
     #[inline(always)]
     fn is_below(self, limit: R) -> R::Mask {
-        dot(self, self).less(limit * limit)
+        square(self).less(limit * limit)
     }
 
     #[inline(always)]
     fn of_length(self, limit: R) -> Self {
-        let length = dot(self, self).sqrt();
+        let length = square(self).sqrt();
         let (zero, one) = (limit.like(0.0), limit.like(1.0));
         // No vector has no direction.
         let is_there = zero.less(length);
@@ -130,7 +130,7 @@ impl Facing {
 /// Where bodies move: what their vectors are, and how a contact sees them.
 pub trait Geometry<R: Real>: Copy + Debug {
     /// A place, velocity or force.
-    type Vector: Linear<R>;
+    type Vector: Tangential<R>;
     /// A rotation, angular velocity or torque.
     type Rotation: Linear<R>;
     /// A vector in the tangent plane of a contact: in the plane its component along t = (−n_y, n_x).
@@ -167,7 +167,8 @@ pub trait Geometry<R: Real>: Copy + Debug {
     /// n × f of a force in the tangent plane.
     fn torque(normal: Self::Vector, force: Self::Tangent) -> Self::Rotation;
 
-    /// A spring of a contact whose normal turns, while the bodies turn by the angle `turned`, twice the mean of both.
+    /// A spring of a contact whose normal turns, while the bodies turn by the angle `turned`, twice the mean of both. In the
+    /// plane, whose springs are numbers along the tangent, not one that nothing turns.
     fn transport(
         update: HistoryUpdate,
         spring: Self::Tangent,
@@ -266,7 +267,7 @@ impl<R: Real> Geometry<R> for Plane {
     fn transport(update: HistoryUpdate, spring: R, [from, to]: [[R; 2]; 2], _: R) -> R {
         let cosine = Self::along(from, to);
         match update {
-            HistoryUpdate::Rotated => spring,
+            HistoryUpdate::Rotated | HistoryUpdate::Fixed => spring,
             HistoryUpdate::Projected => spring * cosine,
             HistoryUpdate::Linearised => {
                 let sine = Self::tangential(from, to);
@@ -388,6 +389,7 @@ impl<R: Real> Geometry<R> for Space {
         turned: [R; 3],
     ) -> [R; 3] {
         match update {
+            HistoryUpdate::Fixed => spring,
             HistoryUpdate::Projected => Self::tangential(to, spring),
             HistoryUpdate::Rotated => {
                 let projected = Self::tangential(to, spring);
@@ -437,6 +439,15 @@ impl<R: Real> Geometry<R> for Space {
             Facing::Back => [x, y, z - normal],
         }
     }
+}
+
+#[inline(always)]
+fn square<R: Real, const N: usize>(vector: [R; N]) -> R {
+    let mut sum = vector[0] * vector[0];
+    for part in &vector[1..] {
+        sum = sum + *part * *part;
+    }
+    sum
 }
 
 #[inline(always)]

@@ -3,7 +3,7 @@
 use super::contact::{
     Contact, ContactForce, ContactModel, ConventionalModel, Counterpart, Spring, SpringDashpot,
 };
-use super::geometry::{Geometry, Linear, Plane};
+use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real, composite};
 use crate::model::{ContactConvention, ContactLaw};
 
@@ -91,16 +91,20 @@ impl<R: Real, G: Geometry<R>> ContactModel<R, G> for PowerLaw<R> {
             let shrinks = overlap.less(*last);
             let one = overlap.like(1.0);
             let factor = R::select(shrinks, (overlap / *last).sqrt(), one);
-            spring.length = spring.length.times(factor);
+            spring.change(self.pair.history_update, |part| part * factor);
             *last = overlap;
         }
         if !law.history.keeps_force() {
             return springs.exert(contact, own.secant * overlap, spring);
         }
         // As a displacement at the present stiffness it grows by k_t du.
-        spring.length = spring.length.over(own.tangential_stiffness);
+        spring.change(self.pair.history_update, |part| {
+            part / own.tangential_stiffness
+        });
         let force = springs.exert(contact, own.secant * overlap, spring);
-        spring.length = spring.length.times(own.tangential_stiffness);
+        spring.change(self.pair.history_update, |part| {
+            part * own.tangential_stiffness
+        });
         force
     }
 }

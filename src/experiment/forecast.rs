@@ -181,7 +181,7 @@ fn forecasted(
         let normal_stiffness = contact.normal_stiffness(&experiment.cylinder, overlap);
         let stack = experiment.stack(mu, normal_stiffness);
         check_stiffness(contact, stack.stiffness)?;
-        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
         let next = overlap_at_the_event(&limit, &stack);
         let settled = (next - overlap).abs() <= 1e-14 * overlap;
         overlap = next;
@@ -320,7 +320,7 @@ mod tests {
         for stiffness in [1e8, 1e10, 1e12] {
             let force = |mu| {
                 let stack = Stack::paper(mu, stiffness);
-                let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+                let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
                 assert_eq!(limit.event, Event::FloorSlip, "{stiffness} {mu}");
                 limit.yield_force.expect("the floor slips")
             };

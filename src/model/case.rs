@@ -185,7 +185,7 @@ mod tests {
     fn case() -> Case {
         Case {
             stack: Stack::paper(0.3, 100.0),
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             protocol: Protocol {
                 preparation: Preparation::GravityRamp {
                     ramp_time: 100.0,

@@ -42,6 +42,10 @@ pub enum SlidingSpring {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum HistoryUpdate {
+    /// It is a vector in space that nothing turns: it grows along the present tangent, and once the contact has turned a
+    /// part of it lies along the normal. It is not frame-indifferent: the forces between two bodies that turn together
+    /// stay where they were.
+    Fixed,
     /// It turns with the contact and keeps its length.
     Rotated,
     /// It is projected onto the new tangent, which shortens it by the factor cos dψ.
@@ -63,9 +67,10 @@ pub enum TensileForce {
 
 /// Contact convention of a code.
 ///
-/// Only law and arms move the quasi-static limit of the yield force, the arms above μ_c by 20 % and more between
-/// existing codes; the rest of a convention shows in trajectories. A key that a case file leaves out has the
-/// paper's value.
+/// Law and arms move the quasi-static limit of the yield force, the arms above μ_c by 20 % and more between existing
+/// codes, and so does a spring that nothing turns, by up to 2 %; the rest of a convention shows in trajectories. A key
+/// that a case file leaves out has the paper's value, but for `history_update`: springs turn unless a file says
+/// otherwise, as they did before there was a choice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ContactConvention {
@@ -91,14 +96,46 @@ pub struct ContactConvention {
 
 impl Default for ContactConvention {
     fn default() -> Self {
-        Self::PAPER
+        Self::TURNING
+    }
+}
+
+impl HistoryUpdate {
+    /// Every rule.
+    pub const ALL: [Self; 4] = [
+        Self::Fixed,
+        Self::Rotated,
+        Self::Projected,
+        Self::Linearised,
+    ];
+
+    /// The word in case files, manifests and on the command line.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Rotated => "rotated",
+            Self::Projected => "projected",
+            Self::Linearised => "linearised",
+        }
+    }
+
+    /// Whether the spring follows its contact as it turns. Those that do share one quasi-static limit.
+    pub const fn turns(self) -> bool {
+        !matches!(self, Self::Fixed)
     }
 }
 
 impl ContactConvention {
-    /// The paper's convention: arms 0 and 0, restitution 0.7, the whole tangential force limited, the
-    /// spring frozen while sliding and turning with the contact.
+    /// The paper's stack: arms 0 and 0, linear springs, restitution 0.7, the whole tangential force limited, the spring a
+    /// vector that is frozen while sliding and that nothing turns (the integral of v dτ in the paper, and its program).
     pub const PAPER: Self = Self {
+        history_update: HistoryUpdate::Fixed,
+        ..Self::TURNING
+    };
+
+    /// The same with a spring that turns with its contact, as most codes have it: what is meant where only arms or a law
+    /// are known.
+    pub const TURNING: Self = Self {
         arms: Arms::PAPER,
         law: Law::LINEAR,
         restitution: PAPER_RESTITUTION,
@@ -109,17 +146,20 @@ impl ContactConvention {
         moment_of_inertia: CYLINDER_INERTIA,
     };
 
-    /// The paper's convention but for the arms.
+    /// The usual convention, whose springs turn, but for the arms.
     pub const fn with_arms(arms: Arms) -> Self {
         Self {
             arms,
-            ..Self::PAPER
+            ..Self::TURNING
         }
     }
 
-    /// The paper's convention but for the law.
+    /// The usual convention, whose springs turn, but for the law.
     pub const fn with_law(law: Law) -> Self {
-        Self { law, ..Self::PAPER }
+        Self {
+            law,
+            ..Self::TURNING
+        }
     }
 
     /// The convention for a stack of cylinders or spheres: whatever codes make of cylinders, their spheres are solid.
@@ -152,9 +192,9 @@ impl ContactConvention {
             .fold(0.0, f64::max)
     }
 
-    /// Whether the quasi-static limit is known in closed form: all arms are 0, and springs linear.
+    /// Whether the quasi-static limit is known in closed form: all arms are 0, springs linear, and they turn.
     pub(crate) fn has_closed_form(&self) -> bool {
-        self.arms == Arms::PAPER && self.law.is_linear()
+        self.arms == Arms::PAPER && self.law.is_linear() && self.history_update.turns()
     }
 
     /// The first key in which this convention is not `other`, with both values.
@@ -203,9 +243,12 @@ impl fmt::Display for ContactConvention {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Arms { pair, floor } = self.arms;
         write!(formatter, "arms {pair}, {floor}")?;
-        match self.law.is_linear() {
+        if !self.law.is_linear() {
+            write!(formatter, ", {}", self.law)?;
+        }
+        match self.history_update.turns() {
             true => Ok(()),
-            false => write!(formatter, ", {}", self.law),
+            false => formatter.write_str(", spring fixed"),
         }
     }
 }
@@ -265,8 +308,18 @@ mod tests {
     }
 
     #[test]
-    fn what_a_case_leaves_out_is_the_paper_s() {
+    fn what_a_case_leaves_out_is_the_paper_s_but_its_springs_turn() {
         let convention: ContactConvention = serde_json::from_str("{}").unwrap();
-        assert_eq!(convention, ContactConvention::PAPER);
+        assert_eq!(convention, ContactConvention::TURNING);
+        let fixed: ContactConvention =
+            serde_json::from_str("{\"history_update\": \"fixed\"}").unwrap();
+        assert_eq!(fixed, ContactConvention::PAPER);
+    }
+
+    #[test]
+    fn a_rule_for_the_spring_has_the_same_word_everywhere() {
+        for rule in HistoryUpdate::ALL {
+            assert_eq!(serde_json::to_value(rule).unwrap(), rule.as_str());
+        }
     }
 }

@@ -161,7 +161,7 @@ mod tests {
     fn pyramid(rows: u32, spacing: f64) -> Pyramid {
         Pyramid {
             spacing,
-            ..Pyramid::touching(rows, 1e4, ContactConvention::PAPER)
+            ..Pyramid::touching(rows, 1e4, ContactConvention::TURNING)
         }
     }
 

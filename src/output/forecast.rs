@@ -204,7 +204,7 @@ fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
         stiffness_ratio: experiment.kappa,
         ..Stack::paper(experiment.mu, chosen.stiffness)
     };
-    let convention = ContactConvention::PAPER;
+    let convention = ContactConvention::TURNING;
     let refused = no_yield(&stack, &convention, &quasistatic_limit(&stack, &convention));
     let carries = match forecast.range.highest {
         Some(0.0) => "it carries no load".to_owned(),

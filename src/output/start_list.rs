@@ -107,7 +107,7 @@ mod tests {
 
     fn run(directory: &str, seconds: f64) -> PlannedRun {
         let test = ContactTest {
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             stiffness_ratio: 1.0,
             floor_friction: 0.5,
             cylinder_friction: 0.5,

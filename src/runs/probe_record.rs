@@ -99,7 +99,7 @@ mod tests {
             ..InitialMotion::at(0.0, 0.8)
         };
         let test = ContactTest {
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             stiffness_ratio: 0.5,
             floor_friction: 5e-4,
             cylinder_friction: 5e-4,

@@ -233,7 +233,8 @@ impl<'a> Stack<'a> {
         }
         if let Some(five) = five.filter(|five| reported.pair && self.keeps_its_contacts(five)) {
             let cylinders = self.cylinders(sample, five);
-            sides.extend(cylinders.map(|balance| (Law::ForceBalance, balance)));
+            let balances = cylinders.into_iter();
+            sides.extend(balances.map(|balance| (Law::ForceBalance, balance)));
         }
         sides
     }
@@ -415,8 +416,8 @@ impl<'a> Stack<'a> {
     }
 
     /// The balances of cylinders 1 and 2, whose contact bears the force of its overlap and, so that cylinder 2 turns
-    /// as it does, as much shear as the floor.
-    fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> [Sides; 2] {
+    /// as it does, as much shear as the floor; with a spring that nothing turns, what both say together.
+    fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> Vec<Sides> {
         let pair = PairContact::of(self.case, &self.law, five);
         let [x2, y1, y2] = pair.rates;
         let (sine, cosine) = (pair.direction[0], pair.direction[1]);
@@ -428,10 +429,23 @@ impl<'a> Stack<'a> {
             + 4.0 * self.printed();
         let bottom = self.bottom_force(sample, five);
         let bodies = f64::from(self.case.stack.bodies);
+        let pressing = sample.wall_force + self.case.stack.epsilon() + y1.acceleration;
+        let unbalanced = bottom + sample.first(&self.case.stack).tangential - x2.acceleration;
+        if !self.case.convention.history_update.turns() {
+            // What a spring that nothing turns has along the normal is remembered and not reported: it is eliminated from
+            // both balances.
+            let across = Sides {
+                step: sample.step,
+                found: pair.shear,
+                expected: pressing / bodies * sine + unbalanced * cosine,
+                bound: 2.0 * known_to + 4.0 * self.ringing(five),
+            };
+            return vec![across];
+        }
         let top = Sides {
             step: sample.step,
             found: bodies * (pair.normal * cosine + pair.shear * sine),
-            expected: sample.wall_force + self.case.stack.epsilon() + y1.acceleration,
+            expected: pressing,
             bound: bodies * known_to + 2.0 * bodies * self.ringing(five),
         };
         let side = Sides {
@@ -441,7 +455,7 @@ impl<'a> Stack<'a> {
                 + x2.acceleration,
             bound: known_to + 2.0 * self.ringing(five),
         };
-        [top, side]
+        vec![top, side]
     }
 
     /// Whether the contacts of neighbours on the floor neither open nor close in these rows.

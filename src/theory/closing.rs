@@ -2,7 +2,7 @@
 
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
-use super::path::{BottomContact, FollowedPath, followed_path};
+use super::path::{BottomContact, FollowedPath, RememberedBranch, followed_path};
 use super::sliding::{SlidingBranch, SlidingEnd};
 use crate::model::{ContactConvention, Stack};
 
@@ -32,7 +32,7 @@ pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Li
 /// limits b = e to less than they bear.
 fn floor_lacks_more(path: &FollowedPath, stack: &Stack) -> bool {
     let point = path.point(path.stations()[0]);
-    stack.floor_friction * point.pair_ratio <= stack.cylinder_friction * point.floor_ratio
+    stack.floor_friction * point.pair_friction <= stack.cylinder_friction * point.floor_ratio
 }
 
 /// A stack whose floor slips before anything else, at the parameter `slip` of its path.
@@ -49,6 +49,12 @@ impl SlidingStack<'_> {
         let onset = self.path.point(self.slip.max(self.path.stations()[0]));
         if onset.bottom_force <= 0.0 {
             return limit;
+        }
+        if !convention.history_update.turns() {
+            return match RememberedBranch::new(&self.path, self.stack, convention, self.slip) {
+                Some(branch) => self.with_end(limit, branch.end(), &branch.settled),
+                None => limit,
+            };
         }
         let branch = SlidingBranch::new(self.stack, convention);
         let settled = self.path.settled();

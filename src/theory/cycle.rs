@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn a_spring_of_constant_stiffness_gives_back_what_it_was_given() {
-        let law = ContactConvention::PAPER.law(2.5);
+        let law = ContactConvention::TURNING.law(2.5);
         for order in CycleOrder::ALL {
             assert_eq!(cycle_work(&law, [0.05, 0.2], order), 0.0);
         }

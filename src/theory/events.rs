@@ -47,6 +47,8 @@ pub struct PathPoint {
     pub outward: f64,
     /// b/a, tangential over normal force of the contact 1–2.
     pub pair_ratio: f64,
+    /// The friction that this contact needs: b/a, or |q|/a with the whole force of a spring that nothing turns.
+    pub pair_friction: f64,
     /// e/d, tangential over normal force of the floor contacts.
     pub floor_ratio: f64,
     /// c, force between the bottom cylinders.
@@ -79,7 +81,7 @@ impl PathPoint {
     pub(super) fn margin(&self, event: Event, stack: &Stack) -> f64 {
         match event {
             Event::FloorSlip => stack.floor_friction - self.floor_ratio,
-            Event::CylinderSlip => stack.cylinder_friction - self.pair_ratio,
+            Event::CylinderSlip => stack.cylinder_friction - self.pair_friction,
             Event::ContactCloses => self.outward,
             Event::WallContact => self.rise() - self.wall_overlap,
             Event::None => f64::INFINITY,
@@ -205,6 +207,7 @@ mod tests {
         floor_force: 0.03,
         outward: 0.04,
         pair_ratio: 0.5,
+        pair_friction: 0.5,
         floor_ratio: 0.25,
         bottom_force: 0.0,
         wall_force: 0.01,

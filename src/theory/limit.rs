@@ -36,7 +36,8 @@ pub struct Limit {
     pub peak_travel: Option<f64>,
     /// z at the peak.
     pub peak_z: Option<f64>,
-    /// b/a where the floor slips: so much friction the cylinders need.
+    /// b/a where the floor slips: so much friction the cylinders need, but for what a spring that nothing turns has along the
+    /// normal.
     pub pair_ratio: Option<f64>,
     /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand
     /// without sliding.

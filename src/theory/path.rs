@@ -5,14 +5,16 @@
 //! (docs/theory.md, Eqs. 47 to 52, and section 11 for laws other than the linear one).
 
 mod balance;
+mod remembered;
 
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
 use super::root::bracketed_root;
 use crate::model::{ContactConvention, Stack};
 pub(super) use balance::BottomContact;
-use balance::{Beginning, Contacts, Leg, State};
+use balance::{Beginning, Contacts, FIXED, Leg, State, TURNING};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+pub(super) use remembered::RememberedBranch;
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
 /// Start of the path on its first ray, relative to the angle that the gravity ramp turns to first order. The ray leaves
@@ -34,8 +36,8 @@ struct LegEquation<'a> {
     first_turn: f64,
 }
 
-impl ODE<f64, [f64; 6]> for LegEquation<'_> {
-    fn diff(&self, _parameter: f64, state: &[f64; 6], slope: &mut [f64; 6]) {
+impl<const N: usize> ODE<f64, [f64; N]> for LegEquation<'_> {
+    fn diff(&self, _parameter: f64, state: &[f64; N], slope: &mut [f64; N]) {
         let state = State::from_array(*state);
         let angle_per_parameter = match self.leg {
             Leg::GravityRamp => self.first_turn,
@@ -43,7 +45,7 @@ impl ODE<f64, [f64; 6]> for LegEquation<'_> {
         };
         let derivative = self.contacts.derivative(&state, self.leg, self.closed);
         *slope = derivative
-            .to_array()
+            .to_array::<N>()
             .map(|component| component * angle_per_parameter);
     }
 }
@@ -184,6 +186,16 @@ impl FollowedPath {
         state.outward(&self.contacts.ring)
     }
 
+    /// The state at a parameter; not a number where there is none.
+    fn state(&self, parameter: f64) -> State {
+        let parameter = parameter.max(START);
+        let after = self
+            .knots
+            .partition_point(|knot| knot.parameter <= parameter);
+        let knot = self.knots[after.saturating_sub(1)];
+        self.advance(knot, parameter).unwrap_or(State::lost())
+    }
+
     fn leg_at(&self, parameter: f64) -> Leg {
         if parameter <= self.settled {
             Leg::GravityRamp
@@ -202,17 +214,31 @@ impl FollowedPath {
             closed: from.closed,
             first_turn: self.first_turn,
         };
-        let method = ExplicitRungeKutta::dop853()
-            .rtol(RELATIVE_TOLERANCE)
-            .atol(RELATIVE_TOLERANCE * 1e-3 * self.contacts.epsilon);
-        let solution = IVP::ode(&equation, from.parameter, to, from.state.to_array())
-            .method(method)
-            .solve()
-            .ok()?;
-        let end = *solution.y.last()?;
-        let valid = end.iter().all(|component| component.is_finite());
-        valid.then(|| State::from_array(end))
+        let (start, epsilon) = (from.state, self.contacts.epsilon);
+        match self.contacts.springs_turn() {
+            true => integrated::<TURNING>(&equation, [from.parameter, to], start, epsilon),
+            false => integrated::<FIXED>(&equation, [from.parameter, to], start, epsilon),
+        }
     }
+}
+
+/// The state at the end of a range of the parameter that `equation` makes of `start`; `None` if there is none.
+fn integrated<const N: usize>(
+    equation: &impl ODE<f64, [f64; N]>,
+    [from, to]: [f64; 2],
+    start: State,
+    epsilon: f64,
+) -> Option<State> {
+    let method = ExplicitRungeKutta::dop853()
+        .rtol(RELATIVE_TOLERANCE)
+        .atol(RELATIVE_TOLERANCE * 1e-3 * epsilon);
+    let solution = IVP::ode(equation, from, to, start.to_array::<N>())
+        .method(method)
+        .solve()
+        .ok()?;
+    let end = *solution.y.last()?;
+    let valid = end.iter().all(|component| component.is_finite());
+    valid.then(|| State::from_array(end))
 }
 
 impl Path for FollowedPath {
@@ -225,14 +251,8 @@ impl Path for FollowedPath {
     }
 
     fn point(&self, parameter: f64) -> PathPoint {
-        let parameter = parameter.max(START);
-        let after = self
-            .knots
-            .partition_point(|knot| knot.parameter <= parameter);
-        let knot = self.knots[after.saturating_sub(1)];
-        let lost = State::from_array([f64::NAN; 6]);
-        let state = self.advance(knot, parameter).unwrap_or(lost);
-        self.contacts.point(&state, self.leg_at(parameter))
+        self.contacts
+            .point(&self.state(parameter), self.leg_at(parameter.max(START)))
     }
 }
 

@@ -64,6 +64,7 @@ impl Path for ClosedForm {
             floor_force: floor_overlap,
             outward: (geometric - 2.0 * overlap * tangent) / (1.0 + tangent * tangent),
             pair_ratio: tangent,
+            pair_friction: tangent,
             floor_ratio: overlap * tangent / floor_overlap,
             bottom_force: 0.0,
             wall_force,

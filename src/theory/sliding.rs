@@ -18,7 +18,7 @@ const MOST_STEPS: usize = 60;
 /// Distance from which the balanced state is looked for, in units of the overlap that a weight makes.
 const NEAREST: f64 = 1e-3;
 /// u where contact 2–3 opens.
-const OPENING: f64 = 1.0;
+pub(super) const OPENING: f64 = 1.0;
 
 /// The sliding branch of one stack.
 #[derive(Debug, Clone, Copy)]
@@ -39,9 +39,36 @@ pub(super) enum SlidingEnd {
     Other(Event),
 }
 
+/// The peak on the branch of the states `point` beyond that at u = `start`, or what comes before it, and its u. The wall is
+/// lowest at the peak.
+pub(super) fn end_of_branch(
+    point: impl Fn(f64) -> PathPoint,
+    start: f64,
+    stack: &Stack,
+) -> (SlidingEnd, f64) {
+    let load = |direction: f64| point(direction).floor_force;
+    if load(OPENING).is_nan() {
+        return (SlidingEnd::Other(Event::None), OPENING);
+    }
+    let highest = maximum_between(load, start, OPENING);
+    let direction = match load(highest) > load(OPENING) {
+        true => highest,
+        false => OPENING,
+    };
+    let peak = point(direction);
+    let mut others = [Event::CylinderSlip, Event::WallContact].into_iter();
+    let end = match others.find(|&event| peak.margin(event, stack) < 0.0) {
+        Some(event) => SlidingEnd::Other(event),
+        None => SlidingEnd::Peak(peak),
+    };
+    (end, direction)
+}
+
 /// Where cylinders 1 and 2 are.
 #[derive(Clone, Copy)]
 struct Place {
+    /// T − μ_c.
+    beyond: f64,
     /// T.
     tangent: f64,
     /// (1 + T²)/2.
@@ -63,6 +90,7 @@ impl Place {
         // (1 + T²) y/x₀ of cylinders that do not overlap.
         let opened = beyond * (ring.critical_friction.recip() - tangent);
         Self {
+            beyond,
             tangent,
             sum,
             difference: 0.5 * (1.0 - square),
@@ -89,24 +117,16 @@ impl SlidingBranch {
         beyond / (beyond + self.ring.neighbour_overlap(point.outward))
     }
 
-    /// The peak beyond the state at u = `start`, or what comes before it. The wall is lowest at the peak; and
-    /// cylinders that slip meanwhile with c > 0 end nothing either, as long as they would stick at the peak.
+    /// The peak beyond the state at u = `start`, or what comes before it; cylinders that slip meanwhile with c > 0 end
+    /// nothing, as long as they would stick at the peak.
     pub(super) fn end(&self, start: f64) -> SlidingEnd {
-        let load = |direction: f64| self.point(direction).floor_force;
-        if load(OPENING).is_nan() {
-            return SlidingEnd::Other(Event::None);
-        }
-        let highest = maximum_between(load, start, OPENING);
-        let peak = match load(highest) > load(OPENING) {
-            true => highest,
-            false => OPENING,
-        };
-        let peak = self.point(peak);
-        let mut others = [Event::CylinderSlip, Event::WallContact].into_iter();
-        match others.find(|&event| peak.margin(event, &self.stack) < 0.0) {
-            Some(event) => SlidingEnd::Other(event),
-            None => SlidingEnd::Peak(peak),
-        }
+        end_of_branch(|direction| self.point(direction), start, &self.stack).0
+    }
+
+    /// T − μ_c and the state in which the wall just touches, F = 0, of a stack that began to slide under its own weight.
+    pub(super) fn place_at_rest(&self) -> Option<(f64, PathPoint)> {
+        let direction = self.at_rest()?;
+        Some((self.place(direction)?.beyond, self.point(direction)))
     }
 
     /// u of the state in which the wall just touches, F = 0, of a stack that began to slide under its own weight; `None`
@@ -131,6 +151,7 @@ impl SlidingBranch {
             floor_force: load,
             outward: -0.5 * self.ring.radius * place.bottom_overlap,
             pair_ratio: shear / self.law.force(place.overlap),
+            pair_friction: shear / self.law.force(place.overlap),
             floor_ratio: self.stack.floor_friction,
             bottom_force: self.law.force(place.bottom_overlap),
             wall_force,

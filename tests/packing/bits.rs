@@ -102,7 +102,7 @@ fn a_tumbling_heap_has_the_same_bits_as_in_the_small_scene() {
         ..FLOOR
     };
     let walls = [FLOOR, side(Facing::Right, -1.0), side(Facing::Left, -13.0)];
-    let mut twins = Twins::new(heap, walls, cylinders(&ContactConvention::PAPER));
+    let mut twins = Twins::new(heap, walls, cylinders(&ContactConvention::TURNING));
     twins.assert_same_bits(1e-3, 4000);
     let top = |cylinders: &[Cylinder]| {
         let heights = cylinders.iter().map(|cylinder| cylinder.position[1]);

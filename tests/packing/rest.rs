@@ -51,7 +51,7 @@ fn the_floor_under_two_thousand_spheres_at_rest_bears_as_many_weights() {
     assert_eq!(count, 1924.0);
     let damped = ContactConvention {
         restitution: 0.3,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     let walls = heap.walls(0.5, [0.0; 4]);
     let mut packing = Packing::new(spheres, walls, solid(damped), TIME_STEP);

@@ -34,7 +34,7 @@ fn turned_wall(wall: &PlaneWall) -> PlaneWall {
 
 /// Shakes the heap up and down.
 fn shaken(spheres: Vec<Sphere>, walls: Vec<PlaneWall>) -> Packing<Space> {
-    let material = solid(ContactConvention::PAPER);
+    let material = solid(ContactConvention::TURNING);
     let mut packing = Packing::new(spheres, walls, material, TIME_STEP);
     for index in 0..STEPS {
         let falls = index / 100 % 2 == 0;

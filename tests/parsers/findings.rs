@@ -119,7 +119,7 @@ fn the_version_in_an_answer_is_readable_and_short() {
 /// Sums of steps overflowed.
 #[test]
 fn a_pyramid_that_would_take_for_ever_is_refused() {
-    let pyramid = Pyramid::touching(2, 100.0, ContactConvention::PAPER);
+    let pyramid = Pyramid::touching(2, 100.0, ContactConvention::TURNING);
     for endless in [
         Pyramid {
             ramp_steps: u64::MAX,
@@ -144,7 +144,7 @@ fn a_pyramid_that_would_take_for_ever_is_refused() {
 
 #[test]
 fn steps_that_took_less_than_no_time_are_refused() {
-    let pyramid = Pyramid::touching(1, 100.0, ContactConvention::PAPER);
+    let pyramid = Pyramid::touching(1, 100.0, ContactConvention::TURNING);
     let dump = b"ITEM: ATOMS id x y\n1 0 1\n";
     assert!(pyramid_in_log(b"Loop time of 1 on 1 procs", dump, &pyramid).is_ok());
     assert!(pyramid_in_log(b"Loop time of -1 on 1 procs", dump, &pyramid).is_err());

@@ -109,7 +109,7 @@ fn case() -> Case {
     plan(
         Code::NATIVE,
         &Stack::paper(0.3, 1e2),
-        ContactConvention::PAPER,
+        ContactConvention::TURNING,
     )
     .cases[0]
 }
@@ -140,7 +140,7 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
             ("pyramid", pyramid.all_parameters()),
         ]
     };
-    let linear = tasks(ContactConvention::PAPER).into_iter();
+    let linear = tasks(ContactConvention::TURNING).into_iter();
     let others = tasks(ContactConvention::with_law(Law::HERTZ));
     for ((kind, task), (_, other)) in linear.zip(others) {
         fits(&schema, &task);
@@ -172,7 +172,7 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
 fn rows_of_results_fit_theirs() {
     let schema = schema("result");
     let series = compress_stack(&case(), || true).expect("a finite series");
-    let motion = run_contact_test(&witness_test(ContactConvention::PAPER)).expect("a motion");
+    let motion = run_contact_test(&witness_test(ContactConvention::TURNING)).expect("a motion");
     let [row, step] = [series.to_csv(), motion.to_csv()].map(|csv| json!(records(&csv)[0]));
     fits(&schema, &row);
     fits(&schema, &step);

@@ -36,7 +36,7 @@ pub fn check(data: &[u8]) {
 }
 
 fn small_pyramid() -> Pyramid {
-    Pyramid::touching(2, 100.0, ContactConvention::PAPER)
+    Pyramid::touching(2, 100.0, ContactConvention::TURNING)
 }
 
 fn check_pyramid(files: &[u8]) {

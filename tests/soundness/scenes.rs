@@ -9,7 +9,7 @@ use tristack::model::{
 pub fn short_case() -> Case {
     Case {
         stack: Stack::paper(0.3, 100.0),
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 20.0,
@@ -43,7 +43,7 @@ pub fn case_with_shortcuts() -> Case {
 /// A cylinder that falls on the floor.
 pub fn short_test() -> ContactTest {
     ContactTest {
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         stiffness_ratio: 2.5,
         floor_friction: 0.3,
         cylinder_friction: 0.7,

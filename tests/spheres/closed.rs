@@ -29,7 +29,7 @@ fn rigid_spheres_yield_at_the_force_of_their_pyramid() {
         let expected = (weight * mu - critical) / (critical - mu);
         assert!((force - expected).abs() < 1e-12, "{bodies}");
         // Almost rigid ones: the first correction is of the order of 1/stiffness.
-        let stiff = Predictions::new(&stack(bodies, mu, 1e8), &ContactConvention::PAPER);
+        let stiff = Predictions::new(&stack(bodies, mu, 1e8), &ContactConvention::TURNING);
         let limit = stiff.quasistatic.yield_force.unwrap();
         assert!(
             (limit - expected).abs() < 1e-6,
@@ -50,7 +50,7 @@ fn stiff_spheres_slide_under_their_own_weight_below_the_critical_friction_over_t
             stack(bodies, 0.3, 1e2).ring().critical_friction / (f64::from(bodies) + 1.0);
         let at = |factor: f64| {
             let stack = stack(bodies, factor * threshold, 1e8);
-            Predictions::new(&stack, &ContactConvention::PAPER).quasistatic
+            Predictions::new(&stack, &ContactConvention::TURNING).quasistatic
         };
         let (sliding, standing) = (at(1.0 - 1e-6), at(1.0 + 1e-6));
         assert!(sliding.rest.is_none() && sliding.reason.unwrap().contains("own weight"));
@@ -93,7 +93,7 @@ fn the_first_event_is_the_one_whose_condition_is_met_first() {
                 cylinder_friction: mu_d,
                 ..stack(bodies, mu, 1e2)
             };
-            Predictions::new(&stack, &ContactConvention::PAPER).quasistatic
+            Predictions::new(&stack, &ContactConvention::TURNING).quasistatic
         };
         // Spheres slip on each other at T = μ_d.
         let slippery = stack(bodies, 0.3, 1e2).ring().critical_friction + 0.04;

@@ -109,7 +109,7 @@ fn chosen() -> [Chosen; 5] {
         convention,
         beyond: 0.03,
     };
-    let paper = ContactConvention::PAPER;
+    let paper = ContactConvention::TURNING;
     let other = ContactConvention {
         arms: Arms::reciprocal(-0.5, -1.0),
         restitution: 0.5,

@@ -4,8 +4,8 @@ use super::flag::as_flag;
 use super::numbers::number;
 use crate::code::Code;
 use crate::model::{
-    Arms, ContactArms, ContactConvention, InvalidValue, Law, Power, TangentialHistory,
-    TangentialStiffening,
+    Arms, ContactArms, ContactConvention, HistoryUpdate, InvalidValue, Law, Power,
+    TangentialHistory, TangentialStiffening,
 };
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -25,6 +25,10 @@ pub(in crate::cli) struct ConventionOptions {
     /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
     #[arg(long, value_name = "R1", value_parser = number)]
     pub floor_kinematic_arm: Option<f64>,
+    /// Change of the tangential spring when a contact turns; of these, `fixed`, a vector that nothing turns, has a yield force
+    /// of its own, and the others share one [default: that of the code]
+    #[arg(long, value_parser = history_update(), value_name = "RULE")]
+    history_update: Option<HistoryUpdate>,
     #[command(flatten)]
     pub law: LawOptions,
 }
@@ -64,6 +68,11 @@ pub(in crate::cli) fn power(text: &str) -> Result<Power, String> {
     named.map_err(|_| {
         "accepted are `linear`, `hertz`, and the powers 1, 1.25, 1.5, 1.75 and 2".to_owned()
     })
+}
+
+/// Reads `--history-update`.
+fn history_update() -> impl TypedValueParser<Value = HistoryUpdate> {
+    one_of(HistoryUpdate::ALL, HistoryUpdate::as_str)
 }
 
 /// Reads `--history`.
@@ -138,6 +147,7 @@ impl ConventionOptions {
                 floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
             },
             law: self.law.over(own.law),
+            history_update: self.history_update.unwrap_or(own.history_update),
             ..own
         };
         convention.validate().map_err(as_flag)?;

@@ -33,7 +33,7 @@ pub struct TheoryPoint {
 
 impl TheoryPoint {
     fn new(mu: f64, stiffness: f64) -> Self {
-        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
+        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::TURNING);
         Self {
             mu,
             stiffness,
@@ -130,7 +130,7 @@ fn model_form() -> Vec<ModelFormPoint> {
             for mu in frictions().into_iter().step_by(2) {
                 let stack = Stack::paper(mu, stiffness);
                 let own = quasistatic_limit(&stack, &convention);
-                let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
+                let paper = quasistatic_limit(&stack, &ContactConvention::TURNING);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
                     code,

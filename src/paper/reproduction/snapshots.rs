@@ -28,7 +28,7 @@ pub struct Snapshots {
 /// If the series is invalid, which would be an error of the native DEM.
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
-    let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+    let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
     let convention = Code::NATIVE.convention();
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
     let protocol = protocol.expect("a stack that yields is planned");

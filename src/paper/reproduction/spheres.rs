@@ -112,7 +112,7 @@ fn limit(stack: &Stack, mu: f64) -> Limit {
         floor_friction: mu,
         ..*stack
     };
-    quasistatic_limit(&stack, &ContactConvention::PAPER)
+    quasistatic_limit(&stack, &ContactConvention::TURNING)
 }
 
 /// The neighbouring doubles between `inside` and `outside` of which one `holds` and the other one does not, by bisection.
@@ -225,7 +225,7 @@ mod tests {
             assert!(below(&stiff) > 0.0 && 50.0 * below(&stiff) < below(&soft));
         }
         let cylinders = Stack::paper(CRITICAL_FRICTION, 1e4);
-        let limit = quasistatic_limit(&cylinders, &ContactConvention::PAPER);
+        let limit = quasistatic_limit(&cylinders, &ContactConvention::TURNING);
         assert_eq!(curve(2, 1e4).forces[1], limit.yield_force);
     }
 }

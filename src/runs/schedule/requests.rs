@@ -91,7 +91,7 @@ mod tests {
     fn case(friction: f64, wall_speed: f64) -> Case {
         Case {
             stack: Stack::paper(friction, 1e2),
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             protocol: Protocol {
                 preparation: Preparation::GravityRamp {
                     ramp_time: 100.0,

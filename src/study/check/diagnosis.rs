@@ -90,11 +90,18 @@ fn items_of(micro: Option<&Micro>) -> Vec<Item> {
     micro.map_or_else(none, Micro::items)
 }
 
-/// The items of a code whose law is not linear: those on its micro-tests alone, since the mistakes that are known are
-/// those of linear springs.
-pub(super) fn of_micro_tests(micro: Option<&Micro>) -> Vec<Item> {
-    let reason = "the law is not linear: mistakes are looked for, row by row, with linear springs alone; the stack is judged by \
-                  its yield force";
+/// The items of a code under a convention that the twin does not make: those on its micro-tests alone.
+pub(super) fn of_micro_tests(convention: &ContactConvention, micro: Option<&Micro>) -> Vec<Item> {
+    let reason = match convention.law.is_linear() {
+        false => {
+            "the law is not linear: mistakes are looked for, row by row, with linear springs alone; the stack is judged by \
+             its yield force"
+        }
+        true => {
+            "nothing turns the springs (`history_update = \"fixed\"`): mistakes are looked for, row by row, with springs that \
+             turn alone; the stack is judged by its yield force"
+        }
+    };
     let mut items = vec![Item::not_tested(Grade::Consistency, "stack", reason)];
     items.extend(items_of(micro));
     items

@@ -707,13 +707,13 @@ mod tests {
 
     /// What is told of the native DEM after a change of its rows.
     fn told_after(change: impl Fn(&mut MotionRow)) -> Vec<String> {
-        let mut answers = ask_native(ContactConvention::PAPER);
+        let mut answers = ask_native(ContactConvention::TURNING);
         for answer in &mut answers {
             let mut rows = answer.motion.rows().to_vec();
             rows.iter_mut().for_each(&change);
             answer.motion = Motion::new(rows, answer.test.steps).expect("as many rows as before");
         }
-        failing(&answers, ContactConvention::PAPER, true).texts
+        failing(&answers, ContactConvention::TURNING, true).texts
     }
 
     #[test]

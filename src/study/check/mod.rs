@@ -35,6 +35,7 @@ use information::{information, same_bits};
 use micro::Micro;
 use std::io;
 use std::path::Path;
+use twin::Twin;
 use unreadable::explained;
 
 /// The stack that is compressed: soft, so that every convention shows, and above the critical friction.
@@ -59,7 +60,7 @@ pub fn case(convention: ContactConvention) -> Case {
         let limit = quasistatic_limit(&stack, planned_by);
         planned_protocol(&limit, &stack, planned_by, SPEED, TIME_STEP)
     };
-    let own = protocol(&convention).or_else(|| protocol(&ContactConvention::PAPER));
+    let own = protocol(&convention).or_else(|| protocol(&ContactConvention::TURNING));
     Case {
         stack,
         convention,
@@ -128,7 +129,7 @@ impl Check<'_> {
         let installed = self.program()?;
         let case = case(self.code.convention());
         let Some(run) = self.stack(installed.as_ref(), &case) else {
-            if case.convention.law.is_linear() {
+            if Twin::makes(&case.convention) {
                 self.explain_explosion(installed.as_ref());
             }
             return None;
@@ -136,9 +137,9 @@ impl Check<'_> {
         let micro = self.micro_tests(installed.as_ref())?;
         self.report
             .items
-            .extend(match case.convention.law.is_linear() {
+            .extend(match Twin::makes(&case.convention) {
                 true => diagnosis::items(&run.series, &case, micro.as_ref()),
-                false => diagnosis::of_micro_tests(micro.as_ref()),
+                false => diagnosis::of_micro_tests(&case.convention, micro.as_ref()),
             });
         self.spheres(installed.as_ref());
         let again = self.run(installed.as_ref(), &case, "again");

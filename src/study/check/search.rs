@@ -448,7 +448,7 @@ mod tests {
 
     #[test]
     fn every_field_in_the_table_is_a_number_of_the_twin() {
-        let mut twin = Twin::of_stack(&case(ContactConvention::PAPER));
+        let mut twin = Twin::of_stack(&case(ContactConvention::TURNING));
         let fitted = sizes();
         let fields = fitted
             .iter()
@@ -472,7 +472,7 @@ mod tests {
     /// A mistake that a twin makes is the one that is found.
     #[test]
     fn a_mistake_in_the_law_is_found_among_all() {
-        let answers = ask_native(ContactConvention::PAPER);
+        let answers = ask_native(ContactConvention::TURNING);
         let told = |says: &str| {
             let faults = faults();
             let fault = faults
@@ -481,7 +481,7 @@ mod tests {
                 .expect("it is in the table");
             let motions = answers
                 .iter()
-                .map(|answer| Evidence::of_motion(answer, ContactConvention::PAPER));
+                .map(|answer| Evidence::of_motion(answer, ContactConvention::TURNING));
             let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin)));
             explanations(&wrong.collect::<Vec<_>>())
         };

@@ -191,7 +191,7 @@ mod tests {
         ] {
             let convention = ContactConvention {
                 history_update,
-                ..ContactConvention::PAPER
+                ..ContactConvention::TURNING
             };
             let run = |arrangement| {
                 let case = case(convention, arrangement).unwrap();
@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn another_friction_is_no_view_of_the_same_stack() {
-        let case = case(ContactConvention::PAPER, USUAL).unwrap();
+        let case = case(ContactConvention::TURNING, USUAL).unwrap();
         let mut other = case;
         other.stack.floor_friction *= 1.0 + 1e-6;
         let run = |case: &Case| compress_stack(case, || true).unwrap();

@@ -141,7 +141,8 @@ impl Touching {
         let cosine = before[0] * x + before[1] * y;
         let sine = before[0] * y - before[1] * x;
         match convention.history_update {
-            HistoryUpdate::Rotated => 1.0,
+            // One that nothing turns is a vector: the twin is not asked to make it (`Twin::makes`).
+            HistoryUpdate::Rotated | HistoryUpdate::Fixed => 1.0,
             HistoryUpdate::Projected => cosine,
             HistoryUpdate::Linearised => cosine + sine * sine,
         }

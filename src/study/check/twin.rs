@@ -88,6 +88,11 @@ fn contact(law: &ContactLaw, friction: f64) -> OfContact {
 }
 
 impl Twin {
+    /// Whether it can run under a convention: its springs are linear, and turn with their contacts.
+    pub fn makes(convention: &ContactConvention) -> bool {
+        convention.law.is_linear() && convention.history_update.turns()
+    }
+
     /// Whether it runs a micro-test.
     pub fn is_motion(&self) -> bool {
         matches!(self.plan, Plan::Motion(_))
@@ -541,7 +546,7 @@ mod tests {
             moment_of_inertia: 0.4,
             ..ContactConvention::with_arms(arms)
         };
-        [ContactConvention::PAPER, other]
+        [ContactConvention::TURNING, other]
     }
 
     #[test]

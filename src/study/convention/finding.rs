@@ -149,7 +149,7 @@ impl Property {
             "pair_kinematic_arm" | "pair_damping_arm" => ConventionKey::PairKinematicArm,
             "floor_torque_arm" => ConventionKey::FloorTorqueArm,
             "floor_kinematic_arm" | "floor_damping_arm" => ConventionKey::FloorKinematicArm,
-            "pair_history_update" => ConventionKey::HistoryUpdate,
+            "pair_history_update" | "pair_spring_left_behind" => ConventionKey::HistoryUpdate,
             "moment_of_inertia" => ConventionKey::MomentOfInertia,
             "velocity_lag" => ConventionKey::VelocityLag,
             name if name.ends_with("_coulomb_damping_share") => ConventionKey::CoulombOperand,

@@ -19,6 +19,8 @@ pub const SPRING_SPIN_CUBED: usize = 5;
 const COEFFICIENTS_OF_THIRD_ORDER: usize = 7;
 /// Change of an exponent over which the slope of the forces is taken.
 const EXPONENT_STEP: f64 = 1e-3;
+/// The same of what a turning contact does to its spring, which the forces depend on almost linearly.
+const TURNING_STEP: f64 = 1e-2;
 /// Steps of Gauss–Newton, in models that are almost linear.
 const ROUNDS: usize = 3;
 
@@ -35,6 +37,10 @@ pub struct Form {
     pub third_order: bool,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: f64,
+    /// Share of the part along the normal that a spring keeps when the contact turns under it: 0 of one that follows the
+    /// contact, 1 of a vector that nothing turns. The transport of the latter is −1: its part along the tangent is
+    /// projected, and gains what its part along the normal turns into.
+    pub left_behind: f64,
 }
 
 impl Form {
@@ -45,7 +51,17 @@ impl Form {
         memory: Memory::DISPLACEMENT,
         third_order: false,
         transport: 0.0,
+        left_behind: 0.0,
     };
+
+    /// The same with a spring that nothing turns.
+    pub fn fixed(self) -> Self {
+        Self {
+            transport: -1.0,
+            left_behind: 1.0,
+            ..self
+        }
+    }
 
     fn coefficients(self) -> usize {
         match self.third_order {
@@ -77,6 +93,24 @@ impl Form {
         let rows: usize = motions.iter().map(|rows| rows.len()).sum();
         let alike = (rows as f64 / motions.len() as f64).sqrt();
         Measured::new(found.value, found.uncertainty * alike)
+    }
+
+    /// The transport and the share of a spring that is left behind that fit best beside all coefficients, near those of the
+    /// form. A whole motion counts as one number in their uncertainties.
+    pub fn fit_turning(self, motions: &[&[ContactRow]], radius: f64) -> [Measured; 2] {
+        let with = |[transport, left_behind]: [f64; 2]| {
+            let form = Self {
+                transport,
+                left_behind,
+                ..self
+            };
+            form.terms(motions, radius)
+        };
+        let start = [self.transport, self.left_behind];
+        let found = fit_beside(start, TURNING_STEP, ROUNDS, self.columns(motions), with).others;
+        let rows: usize = motions.iter().map(|rows| rows.len()).sum();
+        let alike = (rows as f64 / motions.len() as f64).sqrt();
+        found.map(|own| Measured::new(own.value, own.uncertainty * alike))
     }
 
     /// The exponent that fits best beside all coefficients, near that of the form.
@@ -112,26 +146,44 @@ impl Form {
         self.memory.rescaled(before, row) * carried(before, row, self.transport)
     }
 
+    /// Parts along tangent and normal of what the spring remembers, after the contact has turned between two rows.
+    fn turned(self, [along, lift]: [f64; 2], before: &ContactRow, row: &ContactRow) -> [f64; 2] {
+        let factor = self.carried(before, row);
+        if self.left_behind == 0.0 {
+            return [along * factor, 0.0];
+        }
+        let ([old_x, old_y], [x, y]) = (before.normal, row.normal);
+        let sine = self.memory.rescaled(before, row) * (old_x * y - old_y * x);
+        let cosine = self.memory.rescaled(before, row) * (old_x * x + old_y * y);
+        [
+            along * factor - self.left_behind * sine * lift,
+            cosine * lift + sine * along,
+        ]
+    }
+
     /// Terms and force of every row.
     pub fn terms(self, motions: &[&[ContactRow]], radius: f64) -> Vec<(Vec<f64>, f64)> {
         let coefficients = self.coefficients();
         let mut rows = Vec::new();
         for (index, motion) in motions.iter().enumerate() {
-            let mut growth = [0.0; 5];
-            let mut initial = 1.0;
+            let mut springs = [[0.0; 2]; 5];
+            let mut initial = [1.0, 0.0];
             let mut before: Option<&ContactRow> = None;
             for row in *motion {
-                let factor = before.map_or(1.0, |before| self.carried(before, row));
+                let turned = |spring: [f64; 2]| {
+                    before.map_or(spring, |before| self.turned(spring, before, row))
+                };
                 let speeds = speeds(row);
                 let entering = row.time_step * self.remembered(row);
-                for (sum, speed) in growth.iter_mut().zip(speeds) {
-                    *sum = *sum * factor - speed * entering;
+                for (spring, speed) in springs.iter_mut().zip(speeds) {
+                    let [along, lift] = turned(*spring);
+                    *spring = [along - speed * entering, lift];
                 }
-                initial *= factor;
+                initial = turned(initial);
                 let stiffer = self.exerted(row);
                 let damped = self.damping.at(row.overlap);
                 let [across, spin, spin_overlap, cubed, cubed_overlap] =
-                    growth.map(|spring| spring * stiffer);
+                    springs.map(|[along, _]| along * stiffer);
                 // Translation and spin are coupled by the contact force itself; the damping of each cannot
                 // be told apart, and belongs to the radius of the torque.
                 let damping = -(speeds[0] + radius * speeds[1]) * damped;
@@ -140,7 +192,7 @@ impl Form {
                 terms.extend([cubed, cubed_overlap]);
                 terms.truncate(coefficients);
                 terms.resize(coefficients + motions.len(), 0.0);
-                terms[coefficients + index] = initial * stiffer;
+                terms[coefficients + index] = initial[0] * stiffer;
                 rows.push((terms, row.tangential_force));
                 before = Some(row);
             }

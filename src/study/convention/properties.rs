@@ -24,12 +24,16 @@ pub const SLIDING_SPRINGS: [(SlidingSpring, f64); 2] = [
     (SlidingSpring::Frozen, 1.0),
     (SlidingSpring::FollowsLimit, 0.0),
 ];
-/// The same: the change of a spring's length in units of 1 − cos dψ.
+/// The same: the change of a spring's length in units of 1 − cos dψ, of those that turn with their contacts. Where nothing
+/// turns the spring its part along the tangent changes as that of a projected one, beside [`LEFT_BEHIND`].
 pub const HISTORY_UPDATES: [(HistoryUpdate, f64); 3] = [
     (HistoryUpdate::Rotated, 0.0),
     (HistoryUpdate::Projected, -1.0),
     (HistoryUpdate::Linearised, 1.0),
 ];
+/// Name of the share of a spring along the normal that is kept when the contact turns, without the kind of contact: 1 where
+/// nothing turns it, and not told of springs that turn.
+pub const LEFT_BEHIND: &str = "spring_left_behind";
 /// The same: the part of a pulling force that is exerted.
 pub const TENSILE_FORCES: [(TensileForce, f64); 2] = [
     (TensileForce::MayPull, 1.0),
@@ -180,8 +184,21 @@ pub fn tangential_properties(
         ContactKind::Pair => convention.arms.pair,
         ContactKind::Floor | ContactKind::Wall => convention.arms.floor,
     };
-    let update = shown(&HISTORY_UPDATES, &convention.history_update);
+    let is_fixed = !convention.history_update.turns();
+    let update = match is_fixed {
+        true => shown(&HISTORY_UPDATES, &HistoryUpdate::Projected),
+        false => shown(&HISTORY_UPDATES, &convention.history_update),
+    };
     let turns = (kind == ContactKind::Pair).then_some(("history_update", law.transport, update));
+    let none = is_fixed.then(|| match law.transport.uncertainty.is_finite() {
+        true => Measured::new(0.0, 0.0),
+        false => Measured::UNKNOWN,
+    });
+    let left_behind = law
+        .left_behind
+        .or(none)
+        .filter(|_| kind == ContactKind::Pair);
+    let left_behind = left_behind.map(|own| (LEFT_BEHIND, own, share(is_fixed)));
     let rows = [
         ("tangential_stiffness", law.stiffness, stiffness),
         ("tangential_damping", law.damping, damping),
@@ -191,7 +208,8 @@ pub fn tangential_properties(
         ("damping_arm", law.damping_arm, arms.kinematic),
     ];
     let power = law.exponent.map(|power| (TANGENTIAL_EXPONENT, power, 0.0));
-    let rows = power.into_iter().chain(rows).chain(turns);
+    let rows = power.into_iter().chain(rows);
+    let rows = rows.chain(turns).chain(left_behind);
     let third_order = law.third_order.map(|own| Property {
         declared: None,
         ..Property::at(kind, CUBED_TURN, own, 0.0)

@@ -1,10 +1,10 @@
 //! The convention that the properties of a code show, where its manifest says nothing.
 
 use super::finding::{Property, TOLERANCE};
-use super::properties::{HISTORY_UPDATES, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
+use super::properties::{HISTORY_UPDATES, LEFT_BEHIND, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
 use super::regression::Measured;
 use crate::code::{ConventionKey, Declaration, Settled};
-use crate::model::ARM_RANGE;
+use crate::model::{ARM_RANGE, HistoryUpdate};
 
 /// Finest decimal that a measured number keeps. Rounding by half of it moves the yield force by less than a hundredth of
 /// the least tolerance.
@@ -38,7 +38,7 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
             convention.sliding_spring = alternative(&SLIDING_SPRINGS, properties)?;
         }
         ConventionKey::HistoryUpdate => {
-            convention.history_update = alternative(&HISTORY_UPDATES, properties)?;
+            convention.history_update = history_update(properties)?;
         }
         ConventionKey::TensileForce => {
             convention.tensile_force = alternative(&TENSILE_FORCES, properties)?;
@@ -103,6 +103,22 @@ fn in_range(measured: Measured, [least, most]: [f64; 2]) -> Measured {
     }
 }
 
+/// What the contact does to its spring as it turns. Whether the spring is left behind is told only where that is seen or
+/// declared.
+fn history_update(properties: &[&Property]) -> Result<HistoryUpdate, String> {
+    let is_share = |own: &&Property| own.name.ends_with(LEFT_BEHIND);
+    let (shares, turns): (Vec<&Property>, Vec<&Property>) =
+        properties.iter().copied().partition(is_share);
+    let is_fixed = match shares.is_empty() {
+        true => false,
+        false => alternative(&[(true, 1.0), (false, 0.0)], &shares)?,
+    };
+    match is_fixed {
+        true => Ok(HistoryUpdate::Fixed),
+        false => alternative(&HISTORY_UPDATES, &turns),
+    }
+}
+
 /// The only one of `alternatives` that `properties` are consistent with.
 fn alternative<T: Copy>(alternatives: &[(T, f64)], properties: &[&Property]) -> Result<T, String> {
     let known = known(properties)?;
@@ -160,7 +176,7 @@ mod tests {
     /// What is settled of one key, and why it is not.
     fn settled_by(key: ConventionKey, properties: &[Property]) -> Settled {
         let declaration = Declaration {
-            convention: ContactConvention::PAPER,
+            convention: ContactConvention::TURNING,
             velocity_lag: 0.5,
             left_out: vec![key],
             in_space: false,

@@ -6,13 +6,15 @@
 //! behind it follows, m, in units of a length or of a force, as the law remembers it; from one step to the next it
 //! changes by what the surfaces move, and by its transport from the old normal n₀ to the new one n₁:
 //!
-//! m' = m − n₁ (n₁·m) + a L + b Q + c T + …, with L the change that gives m its length back, Q = (n₁ − n₀)(n₁·m) + n₁ (n₀·m)
-//! the difference of the vector product m − m × (n₀ × n₁), and T = (dt/2) (n₀·Σω) n₀ × m a turn with half the sum of the
-//! spins. Projection has a = b = c = 0. While a contact sticks, regressions give a, b and c and the weight of each
-//! component of the spins in the motion of the surfaces.
+//! m' = m − n₁ (n₁·m) + a L + b Q + c T + d N + …, with L the change that gives m its length back, Q = (n₁ − n₀)(n₁·m) +
+//! n₁ (n₀·m) the difference of the vector product m − m × (n₀ × n₁), T = (dt/2) (n₀·Σω) n₀ × m a turn with half the sum of the
+//! spins, and N = n₁ (n₁·m) what a spring that nothing turns keeps along the normal. Projection has a = b = c = d = 0. While
+//! a contact sticks, regressions give a, b, c and d and the weight of each component of the spins in the motion of the
+//! surfaces; d is looked for where it is declared, or found.
 
 use super::experiments::ContactKind;
-use super::finding::Property;
+use super::finding::{Property, TOLERANCE};
+use super::properties::LEFT_BEHIND;
 use super::regression::{Measured, fit_rows};
 use crate::code::{ConventionKey, Declaration};
 use crate::model::{
@@ -36,6 +38,11 @@ const LEAST: f64 = 1e-6;
 const SURELY_STICKS: f64 = 0.5;
 /// Part of the elastic normal force above which no rule about pulling forces matters.
 const SURELY_PRESSED: f64 = 0.3;
+
+/// Ways in which a spring may follow its contact beside projection.
+const TRANSPORTS: usize = 4;
+/// Those, and the spins about three axes.
+const TERMS: usize = TRANSPORTS + 3;
 
 /// Most fits of what springs change. Each leaves a part of the error of a wrong spin.
 const MOST_FITS: usize = 40;
@@ -451,12 +458,13 @@ impl Law {
         }
     }
 
-    /// a, b and c of the declared convention.
-    fn transport(&self) -> [f64; 3] {
+    /// a, b, c and d of the declared convention.
+    fn transport(&self) -> [f64; TRANSPORTS] {
         match self.convention.history_update {
-            HistoryUpdate::Projected => [0.0, 0.0, 0.0],
-            HistoryUpdate::Rotated => [1.0, 0.0, 0.0],
-            HistoryUpdate::Linearised => [0.0, 1.0, 1.0],
+            HistoryUpdate::Projected => [0.0, 0.0, 0.0, 0.0],
+            HistoryUpdate::Rotated => [1.0, 0.0, 0.0, 0.0],
+            HistoryUpdate::Linearised => [0.0, 1.0, 1.0, 0.0],
+            HistoryUpdate::Fixed => [0.0, 0.0, 0.0, 1.0],
         }
     }
 
@@ -469,24 +477,14 @@ impl Law {
         let series = series.iter();
         let series = series.map(|rows| self.pressed(rows).take_while(sticks).collect());
         let series: Vec<Vec<Read>> = series.collect();
-        let mut spins = [1.0; 3];
-        let mut found = [Measured::UNKNOWN; 6];
-        for _ in 0..MOST_FITS {
-            found = self.fit_changes(&series, spins);
-            let next = std::array::from_fn(|axis| {
-                let Measured { value, uncertainty } = found[3 + axis];
-                if uncertainty.is_finite() { value } else { 1.0 }
-            });
-            if next == spins {
-                break;
-            }
-            spins = next;
-        }
+        let (found, spins, is_left) = self.fit_springs(&series);
         let turning: Vec<_> = series.iter().flatten().flat_map(torques).collect();
         let names = ["spring_length_kept", "spring_by_product", "spring_twisted"];
-        let names = names.into_iter().chain(["spin_x", "spin_y", "spin_z"]);
+        let names = names.into_iter().chain([LEFT_BEHIND]);
+        let names = names.chain(["spin_x", "spin_y", "spin_z"]);
         let declared = self.transport().into_iter().chain([1.0; 3]);
         let own = names.zip(found).zip(declared);
+        let own = own.filter(|((name, _), _)| is_left || *name != LEFT_BEHIND);
         let torques = ["torque_x", "torque_y", "torque_z"].into_iter();
         let torques = torques.zip(fit_known(&turning)).zip([1.0; 3]);
         let properties = own.chain(torques);
@@ -500,10 +498,43 @@ impl Law {
         (properties.collect(), spins)
     }
 
-    /// a, b, c and the weights of the spins, from what springs change in a step. The springs that are transported follow from
-    /// the `spins` as they were found before; that matters only where those are wrong, and less with every iteration.
-    fn fit_changes(&self, series: &[Vec<Read>], spins: [f64; 3]) -> [Measured; 6] {
-        let mut changes: Vec<([f64; 6], f64)> = Vec::new();
+    /// What [`Self::fit_changes`] finds with the spins that fit best, those, and whether springs may be left behind by their
+    /// contacts: only where that is declared, or is seen, does it count.
+    fn fit_springs(&self, series: &[Vec<Read>]) -> ([Measured; TERMS], [f64; 3], bool) {
+        let fitted = |may_be_left| {
+            let mut spins = [1.0; 3];
+            let mut found = [Measured::UNKNOWN; TERMS];
+            for _ in 0..MOST_FITS {
+                found = self.fit_changes(series, spins, may_be_left);
+                let next = std::array::from_fn(|axis| {
+                    let Measured { value, uncertainty } = found[TRANSPORTS + axis];
+                    if uncertainty.is_finite() { value } else { 1.0 }
+                });
+                if next == spins {
+                    break;
+                }
+                spins = next;
+            }
+            (found, spins, may_be_left)
+        };
+        let with = fitted(true);
+        let Measured { value, uncertainty } = with.0[TRANSPORTS - 1];
+        let is_seen = value.abs() > uncertainty.max(TOLERANCE);
+        match self.convention.history_update == HistoryUpdate::Fixed || is_seen {
+            true => with,
+            false => fitted(false),
+        }
+    }
+
+    /// a, b, c, d and the weights of the spins, from what springs change in a step. The springs that are transported follow
+    /// from the `spins` as they were found before; that matters only where those are wrong, and less with every iteration.
+    fn fit_changes(
+        &self,
+        series: &[Vec<Read>],
+        spins: [f64; 3],
+        may_be_left: bool,
+    ) -> [Measured; TERMS] {
+        let mut changes: Vec<([f64; TERMS], f64)> = Vec::new();
         for read in series {
             for two in read.windows(2) {
                 let [before, now] = two else { continue };
@@ -524,9 +555,10 @@ impl Law {
                     let damping = combine(before, -1.0, self.damped(now, now.rolled[axis]));
                     combine(self.added(now.rolled[axis], now), 1.0, damping)
                 });
-                let [lengthened, product, twisted] = effects;
+                let [lengthened, product, twisted, left] = effects;
+                let left = left.map(|part| part * f64::from(u8::from(may_be_left)));
                 let terms = [
-                    lengthened, product, twisted, by_spin[0], by_spin[1], by_spin[2],
+                    lengthened, product, twisted, left, by_spin[0], by_spin[1], by_spin[2],
                 ];
                 changes.extend((0..3).map(|axis| (terms.map(|term| term[axis]), found[axis])));
             }
@@ -602,7 +634,7 @@ impl Law {
 }
 
 /// A spring projected onto the new tangent plane, and what each other transport adds to that.
-fn transported(spring: Vector, before: &Read, now: &Read) -> (Vector, [Vector; 3]) {
+fn transported(spring: Vector, before: &Read, now: &Read) -> (Vector, [Vector; TRANSPORTS]) {
     let (old, new) = (before.row.normal, now.row.normal);
     let along = dot(new, spring);
     let projected = combine(spring, -along, new);
@@ -619,7 +651,8 @@ fn transported(spring: Vector, before: &Read, now: &Read) -> (Vector, [Vector; 3
     let product = combine(product, kept, new);
     let twist = 0.5 * TIME_STEP * dot(old, now.row.spin);
     let twisted = cross(old, combine(spring, kept, new)).map(|part| part * twist);
-    (projected, [lengthened, product, twisted])
+    let left = new.map(|part| part * along);
+    (projected, [lengthened, product, twisted, left])
 }
 
 /// Each component of the torque on a body beside −R n × f.
@@ -661,7 +694,7 @@ fn combine(left: Vector, factor: f64, right: Vector) -> Vector {
 }
 
 /// start + Σ weight · vector.
-fn weighted(start: Vector, weights: [f64; 3], vectors: [Vector; 3]) -> Vector {
+fn weighted<const N: usize>(start: Vector, weights: [f64; N], vectors: [Vector; N]) -> Vector {
     let terms = weights.into_iter().zip(vectors);
     terms.fold(start, |sum, (weight, vector)| combine(sum, weight, vector))
 }
@@ -717,10 +750,9 @@ mod tests {
     }
 
     fn conventions() -> Vec<ContactConvention> {
-        use HistoryUpdate::{Linearised, Projected, Rotated};
         let mut all = Vec::new();
         for law in [ContactLaws::LINEAR, ContactLaws::HERTZ] {
-            for history_update in [Projected, Rotated, Linearised] {
+            for history_update in HistoryUpdate::ALL {
                 for (coulomb_operand, sliding_spring) in [
                     (CoulombOperand::Spring, SlidingSpring::FollowsLimit),
                     (
@@ -754,7 +786,7 @@ mod tests {
     fn another_transport_of_the_spring_is_named() {
         let with = |history_update| ContactConvention {
             history_update,
-            ..ContactConvention::PAPER
+            ..ContactConvention::TURNING
         };
         let projected = with(HistoryUpdate::Projected);
         let found = read_as(with(HistoryUpdate::Rotated), projected);

@@ -40,6 +40,8 @@ pub struct TangentialLaw {
     pub damping_arm: Measured,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: Measured,
+    /// Share of the spring along the normal that is kept when the contact turns, where it is seen ([`Form::left_behind`]).
+    pub left_behind: Option<Measured>,
     /// The form of the best fit.
     form: Form,
 }
@@ -78,7 +80,33 @@ impl TangentialLaw {
             let transport = law.fit_transport(sticking(turning));
             law = law.with_transport(transport, &motions, form, arms);
         }
-        law
+        let turned: Vec<&[ContactRow]> =
+            motions.iter().copied().chain([sticking(turning)]).collect();
+        law.unless_left_behind(&turned, law.form, |form| {
+            Self::fitted(&motions, form, law.exponent, arms)
+        })
+    }
+
+    /// This law, or the one that is `fitted` with a spring that nothing turns, where that explains what this one leaves of
+    /// the forces in `motions`, some of which turn.
+    fn unless_left_behind(
+        self,
+        motions: &[&[ContactRow]],
+        form: Form,
+        fitted: impl FnOnce(Form) -> Self,
+    ) -> Self {
+        let radius = self.radius.value;
+        let left = |form: Form| Some(form.deviations(motions, radius)?.0);
+        let explains = left(form.fixed()).zip(left(form));
+        if !explains.is_some_and(|(with, without)| with < EXPLAINED * without) {
+            return self;
+        }
+        let [transport, left_behind] = form.fixed().fit_turning(motions, radius);
+        Self {
+            transport,
+            left_behind: Some(left_behind),
+            ..fitted(form.fixed())
+        }
     }
 
     /// The same beside a normal force that is not linear, whose stiffness has the growth `normal`.
@@ -118,7 +146,8 @@ impl TangentialLaw {
         }
         let turning = turning.map(sticking).into_iter();
         let all: Vec<&[ContactRow]> = motions.iter().copied().chain(turning).collect();
-        fitted(law.form, &all)
+        let law = fitted(law.form, &all);
+        law.unless_left_behind(&all, law.form, |form| fitted(form, &all))
     }
 
     /// The law of the same form that fits with `transport`.
@@ -173,6 +202,7 @@ impl TangentialLaw {
             third_order: form.third_order.then(third_order),
             damping_arm: found[DAMPING_SPIN_OVERLAP].over(found[DAMPING]),
             transport: Measured::new(0.0, 0.0),
+            left_behind: None,
         }
         .with_common_radius(found[SPRING_SPIN].over(found[SPRING]))
     }

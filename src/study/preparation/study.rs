@@ -154,7 +154,7 @@ pub fn study_preparation(
     Ok(studies
         .map(|((stack, found), count)| PreparationStudy {
             stack: *stack,
-            exact_force: quasistatic_limit(stack, &ContactConvention::PAPER).yield_force,
+            exact_force: quasistatic_limit(stack, &ContactConvention::TURNING).yield_force,
             predicted_critical_push: critical_push(stack),
             critical_push: found,
             rows: rows.by_ref().take(count).collect(),

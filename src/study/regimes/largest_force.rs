@@ -142,7 +142,7 @@ fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
     std::array::from_fn(|run| match run {
         COARSE_TIME_STEP_RUN => Loading {
             time_step: (2.0 * middle.time_step)
-                .min(stack.longest_time_step(&ContactConvention::PAPER)),
+                .min(stack.longest_time_step(&ContactConvention::TURNING)),
             ..middle
         },
         SHORT_RAMP_RUN => Loading {

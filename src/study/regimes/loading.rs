@@ -28,6 +28,6 @@ pub(super) fn loading(
         gravity_rate: GRAVITY_RATE,
         wall_speed: speed * travel.min(overlap),
         wall_travel: further * travel + (further - 1.0) * overlap,
-        time_step: TIME_STEP.min(stack.longest_time_step(&ContactConvention::PAPER)),
+        time_step: TIME_STEP.min(stack.longest_time_step(&ContactConvention::TURNING)),
     }
 }

@@ -220,7 +220,7 @@ mod tests {
         let plan = plan_trajectory(
             Code::NATIVE,
             &Stack::paper(0.05, 100.0),
-            ContactConvention::PAPER,
+            ContactConvention::TURNING,
         );
         assert!(plan.cases.is_empty() && plan.twins.is_empty());
     }

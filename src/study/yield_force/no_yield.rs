@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
         let (lowest, highest) =
-            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::PAPER).unwrap();
+            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::TURNING).unwrap();
         assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
         // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
         assert!((highest - 0.53994).abs() < 2e-5);

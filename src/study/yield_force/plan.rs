@@ -172,7 +172,7 @@ pub(crate) fn planned(
 ) -> Measurement {
     let convention = convention.of_bodies(stack);
     let mut limit = known_limit(stack, &convention);
-    let paper = known_limit(stack, &ContactConvention::PAPER);
+    let paper = known_limit(stack, &ContactConvention::TURNING);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)
@@ -376,7 +376,7 @@ mod tests {
     #[test]
     fn each_further_run_differs_from_the_middle_one_in_one_thing() {
         let stack = Stack::paper(0.3, 1e3);
-        let cases = plan(Code::NATIVE, &stack, ContactConvention::PAPER).cases;
+        let cases = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases;
         let middle = cases[MIDDLE_RUN];
         let mut coarse = cases[COARSE_TIME_STEP_RUN];
         assert_eq!(coarse.protocol.time_step, 2.0 * TIME_STEP);
@@ -420,7 +420,7 @@ mod tests {
                 stiffness_ratio: 1.2,
                 ..Stack::paper(0.35, stiffness)
             };
-            plan(Code::NATIVE, &stack, ContactConvention::PAPER)
+            plan(Code::NATIVE, &stack, ContactConvention::TURNING)
         };
         let [slowed, rough] = [1e5, 1e6].map(planned);
         assert!(slowed.is_gentle && !rough.is_gentle);
@@ -438,7 +438,7 @@ mod tests {
                 stiffness_ratio: kappa,
                 ..Stack::paper(0.3, stiffness)
             };
-            let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
+            let measurement = plan(Code::NATIVE, &stack, ContactConvention::TURNING);
             let limit = &measurement.limit;
             assert!(limit.rises_after_onset() && !measurement.cases.is_empty());
             for case in &measurement.cases {
@@ -459,7 +459,7 @@ mod tests {
     #[test]
     fn shortcuts_save_most_of_the_steps_and_two_runs_go_without_them() {
         let stack = Stack::paper(0.3, 1e2);
-        let measurement = plan(Code::NATIVE, &stack, ContactConvention::PAPER);
+        let measurement = plan(Code::NATIVE, &stack, ContactConvention::TURNING);
         let shortened = measurement.clone().shortened();
         let plain = shortened.roles.plain.unwrap();
         for (position, plain) in plain.into_iter().zip(&measurement.cases) {
@@ -473,7 +473,7 @@ mod tests {
             });
             assert!(short < 0.5 * plain, "{short} {plain}");
         }
-        let literal = plan_literal(Code::NATIVE, &stack, ContactConvention::PAPER);
+        let literal = plan_literal(Code::NATIVE, &stack, ContactConvention::TURNING);
         assert_eq!(literal.clone().shortened(), literal);
         let yade = plan(
             Code::named("yade").unwrap(),
@@ -488,7 +488,7 @@ mod tests {
         let measurement = plan(
             Code::NATIVE,
             &Stack::paper(0.05, 1e2),
-            ContactConvention::PAPER,
+            ContactConvention::TURNING,
         );
         assert!(measurement.cases.is_empty());
     }

@@ -115,7 +115,7 @@ mod tests {
 
     /// Largest e/d in any step of a touch at `speed`, without sliding.
     fn overshoot(stack: &Stack, speed: f64) -> f64 {
-        let mut case = trial(stack, &ContactConvention::PAPER);
+        let mut case = trial(stack, &ContactConvention::TURNING);
         case.protocol.sampling.coarse_interval = case.protocol.time_step;
         case.protocol.sampling.fine_interval = case.protocol.time_step;
         case.protocol.wall_travel *= speed / case.protocol.wall_speed;
@@ -134,7 +134,7 @@ mod tests {
     fn at_the_limit_of_gentle_speeds_the_floor_just_does_not_slide() {
         for (mu, kappa) in [(0.3, 1.1), (0.35, 1.2), (0.4, 1.6), (0.3, 2.5)] {
             let stack = stack(mu, kappa);
-            let speed = max_touch_speed(&stack, &ContactConvention::PAPER);
+            let speed = max_touch_speed(&stack, &ContactConvention::TURNING);
             assert!(overshoot(&stack, speed) < mu, "{mu} {kappa}");
             assert!(
                 overshoot(&stack, 1.02 * speed / MARGIN) > mu,
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_rough_floor_below_a_soft_tangential_spring_bears_any_speed() {
-        let speed = max_touch_speed(&stack(0.5, 2.5), &ContactConvention::PAPER);
+        let speed = max_touch_speed(&stack(0.5, 2.5), &ContactConvention::TURNING);
         assert_eq!(speed, f64::INFINITY);
     }
 }

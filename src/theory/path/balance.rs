@@ -12,6 +12,9 @@
 //! A spring that remembers its displacement gains force as its overlap grows: b′ and e′ have the further parts
 //! b (ln k_c)′ and e (ln k_f)′ then (Eq. 81).
 //!
+//! A spring that nothing turns is a vector q = b t + p n, which grows along the present t alone. As n and t turn by dψ,
+//! b gains p dψ and p loses b dψ, and a + p takes the place of a in both balances of forces (Eqs. 107 to 109).
+//!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
 //! carries c = N(−2y/x₀), and nothing tangential: by mirror symmetry its surfaces do not move against each
 //! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are. A sphere has
@@ -20,7 +23,7 @@
 use super::super::events::{PathPoint, half_angle_tangent, outward_displacement};
 use super::super::root::bracketed_root;
 use crate::model::{Arms, ContactArms, ContactConvention, ContactLaw, Ring, Stack};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 /// The state that is integrated.
 #[derive(Debug, Clone, Copy)]
@@ -37,37 +40,47 @@ pub(super) struct State {
     pair_shear: f64,
     /// e, tangential force of the floor contact.
     floor_shear: f64,
+    /// p, part of the force of the tangential spring 1–2 along the normal; 0 of a spring that turns with its contact.
+    pair_lift: f64,
 }
 
+/// Numbers of a state if springs turn with their contacts.
+pub(super) const TURNING: usize = 6;
+/// Numbers of a state if nothing turns the springs.
+pub(super) const FIXED: usize = 7;
+
 impl State {
-    pub(super) fn from_array(state: [f64; 6]) -> Self {
-        let [
-            turned,
-            load,
-            pair_overlap,
-            rotation,
-            pair_shear,
-            floor_shear,
-        ] = state;
+    /// The state of these numbers, in the order of the fields; those that are left out are 0.
+    pub(super) fn from_array<const N: usize>(numbers: [f64; N]) -> Self {
+        let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
         Self {
-            turned,
-            load,
-            pair_overlap,
-            rotation,
-            pair_shear,
-            floor_shear,
+            turned: number(0),
+            load: number(1),
+            pair_overlap: number(2),
+            rotation: number(3),
+            pair_shear: number(4),
+            floor_shear: number(5),
+            pair_lift: number(6),
         }
     }
 
-    pub(super) fn to_array(self) -> [f64; 6] {
-        [
+    /// The first numbers of the state.
+    pub(super) fn to_array<const N: usize>(self) -> [f64; N] {
+        let numbers: [f64; FIXED] = [
             self.turned,
             self.load,
             self.pair_overlap,
             self.rotation,
             self.pair_shear,
             self.floor_shear,
-        ]
+            self.pair_lift,
+        ];
+        std::array::from_fn(|index| numbers[index])
+    }
+
+    /// A state that is no equilibrium.
+    pub(super) fn lost() -> Self {
+        Self::from_array([f64::NAN; FIXED])
     }
 
     /// y = x₂ − x₀.
@@ -103,6 +116,15 @@ impl Leg {
     }
 }
 
+/// What the parameter of a sliding branch is.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Progress {
+    /// The logarithm of the load L.
+    Load,
+    /// The direction u of the state, which is given.
+    Direction(f64),
+}
+
 /// Treatment of the contact between the bottom cylinders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BottomContact {
@@ -131,6 +153,9 @@ pub(super) struct Contacts {
     arms: Arms,
     pub(super) epsilon: f64,
     pub(super) bottom: BottomContact,
+    /// Turn of the tangential spring 1–2 relative to its contact, per turn of the contact: 0 if it turns with the contact,
+    /// 1 if nothing turns it.
+    left_behind: f64,
 }
 
 /// One of the two contacts with friction, in one state.
@@ -143,7 +168,9 @@ struct Pressed {
     stiffness: f64,
     /// k_t.
     tangential: f64,
-    /// Change of the tangential force with the overlap while the surfaces do not move.
+    /// Relative change of the force of the tangential spring with the overlap while the surfaces do not move.
+    memory_rate: f64,
+    /// The same of the tangential force.
     memory: f64,
 }
 
@@ -151,10 +178,10 @@ impl Pressed {
     fn new(law: &ContactLaw, arms: ContactArms, overlap: f64, shear: f64, unloads: bool) -> Self {
         let kept = match law.history.keeps_force() {
             true => 0.0,
-            false => shear * law.tangential_steepening(overlap),
+            false => law.tangential_steepening(overlap),
         };
         let lost = match law.history.is_rescaled() && unloads {
-            true => 0.5 * shear / overlap,
+            true => 0.5 / overlap,
             false => 0.0,
         };
         Self {
@@ -162,7 +189,8 @@ impl Pressed {
             radius: 1.0 + arms.kinematic * overlap,
             stiffness: law.stiffness(overlap),
             tangential: law.at(overlap).tangential_stiffness,
-            memory: kept + lost,
+            memory_rate: kept + lost,
+            memory: shear * kept + shear * lost,
         }
     }
 }
@@ -180,7 +208,13 @@ impl Contacts {
             arms: convention.arms,
             epsilon: stack.epsilon(),
             bottom,
+            left_behind: f64::from(u8::from(!convention.history_update.turns())),
         }
+    }
+
+    /// Whether springs turn with their contacts.
+    pub(super) fn springs_turn(&self) -> bool {
+        self.left_behind == 0.0
     }
 
     /// The beginning of the path, at `fraction` of the angle turned under gravity: on the ray along which all lengths are
@@ -201,12 +235,18 @@ impl Contacts {
                 rotation: (2.0 - upper_stretch) * turned,
                 pair_shear: ray.shear * force,
                 floor_shear: ray.shear * force,
+                pair_lift: self.lift_on_ray(ray.shear * force, turned),
             },
         }
     }
 
+    /// p = −∫b dψ where b has grown with the power p of the angle turned.
+    fn lift_on_ray(&self, shear: f64, turned: f64) -> f64 {
+        -self.left_behind * shear * turned / (1.0 + self.law.power.value())
+    }
+
     /// Derivative of the state with respect to ψ, with contact 2–3 closed or open (docs/theory.md,
-    /// Eqs. 37 to 39, 52 and 81).
+    /// Eqs. 37 to 39, 52, 81 and 108).
     pub(super) fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
         let (slope, loads) = self.slope(state, leg, closed, [false; 2]);
         let unloads = loads.map(|loads| !loads);
@@ -230,17 +270,15 @@ impl Contacts {
         let floor_overlap = self
             .wall
             .overlap(leg.floor_force(state.load, self.epsilon, ring));
-        let (b, e) = (state.pair_shear, state.floor_shear);
+        let (b, e, p) = (state.pair_shear, state.floor_shear, state.pair_lift);
+        let left_behind = self.left_behind;
         let Arms { pair, floor } = self.arms;
         let upper = Pressed::new(&self.law, pair, state.pair_overlap, b, unload[0]);
         let lower = Pressed::new(&self.wall, floor, floor_overlap, e, unload[1]);
         let a = self.law.force(state.pair_overlap);
-        // What the neighbours push less per distance that the body moves outwards.
+        let lift_memory = p * upper.memory_rate;
         let bottom_stiffness = match closed {
-            true => {
-                let overlap = ring.neighbour_overlap(state.outward(ring));
-                -ring.push * ring.neighbour_overlap(1.0) * self.law.stiffness(overlap)
-            }
+            true => self.bottom_stiffness(state),
             false => 0.0,
         };
         let sinking = leg.floor_force_slope(ring) / lower.stiffness;
@@ -251,19 +289,24 @@ impl Contacts {
             -upper.tangential * upper.lever * upper.radius
                 - lower.tangential * lower.lever * lower.radius,
             -(e * floor.torque + lower.lever * lower.memory) * sinking,
-            (upper.stiffness + lower.tangential + bottom_stiffness) * sin - upper.memory * cos,
+            (upper.stiffness + lower.tangential + bottom_stiffness + lift_memory) * sin
+                - upper.memory * cos,
             -upper.tangential * upper.radius * cos + lower.tangential * lower.radius,
             lower.memory * sinking,
-            -ring.bodies * upper.stiffness * cos - ring.bodies * upper.memory * sin,
+            -ring.bodies * (upper.stiffness + lift_memory) * cos - ring.bodies * upper.memory * sin,
             -ring.bodies * upper.tangential * upper.radius * sin,
             -1.0,
         );
+        // What turns with the contact changes the balances by turning.
+        let turning = a + p * (1.0 - left_behind);
+        let turning_shear = b * (1.0 - left_behind);
         let known = Vector3::new(
-            (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance,
+            (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance
+                + left_behind * p * upper.lever,
             (upper.tangential + lower.tangential + bottom_stiffness) * distance * cos
-                - a * cos
-                - b * sin,
-            ring.bodies * (upper.tangential * distance * sin - a * sin + b * cos),
+                - turning * cos
+                - turning_shear * sin,
+            ring.bodies * (upper.tangential * distance * sin - turning * sin + turning_shear * cos),
         );
         let solution = system
             .lu()
@@ -277,12 +320,150 @@ impl Contacts {
             pair_overlap: -distance_slope,
             rotation: rotation_slope,
             pair_shear: upper.tangential * (distance - upper.radius * rotation_slope)
-                - upper.memory * distance_slope,
+                - upper.memory * distance_slope
+                + left_behind * p,
             floor_shear: lower.tangential
                 * (distance_slope * sin + distance * cos + lower.radius * rotation_slope)
                 + lower.memory * floor_overlap_slope,
+            pair_lift: -left_behind * b - lift_memory * distance_slope,
         };
         (slope, [distance_slope <= 0.0, floor_overlap_slope >= 0.0])
+    }
+
+    /// |q|/a, the friction that the contact 1–2 needs; of a spring that turns, b/a.
+    fn pair_friction(&self, state: &State) -> f64 {
+        let shear = match self.springs_turn() {
+            true => state.pair_shear,
+            false => libm::hypot(state.pair_shear, state.pair_lift),
+        };
+        shear / self.law.force(state.pair_overlap)
+    }
+
+    /// T − μ_c of a state, free of cancellation.
+    fn beyond(&self, state: &State) -> f64 {
+        let (critical, half) = (self.ring.critical_friction, libm::tan(0.5 * state.turned));
+        half * (1.0 + critical * critical) / (1.0 - critical * half)
+    }
+
+    /// u of a state: (T − μ_c) : (−2y/x₀) = u : 1 − u.
+    pub(super) fn direction(&self, state: &State) -> f64 {
+        let beyond = self.beyond(state);
+        beyond / (beyond + self.ring.neighbour_overlap(state.outward(&self.ring)))
+    }
+
+    /// The state in which a floor slides that has slid from the start, at T = μ_c + `beyond`, from what events need of it.
+    pub(super) fn sliding_state(&self, beyond: f64, point: &PathPoint) -> State {
+        let critical = self.ring.critical_friction;
+        let turned = 2.0 * libm::atan(beyond / (1.0 + critical * (critical + beyond)));
+        let shear = point.pair_ratio * self.law.force(point.pair_overlap);
+        State {
+            turned,
+            load: point.floor_force / Leg::GravityRamp.floor_force_slope(&self.ring),
+            pair_overlap: point.pair_overlap,
+            rotation: 0.0,
+            pair_shear: shear,
+            floor_shear: point.floor_ratio * point.floor_force,
+            pair_lift: self.lift_on_ray(shear, turned),
+        }
+    }
+
+    /// Derivative of the state while the floor slides outwards with e = μ d, contact 2–3 being closed (docs/theory.md,
+    /// Eq. 110). The rotation, which the floor does not hold any more, is not followed.
+    pub(super) fn sliding_derivative(
+        &self,
+        state: &State,
+        leg: Leg,
+        floor_friction: f64,
+        progress: Progress,
+    ) -> State {
+        let (slope, unloads) = self.sliding_slope(state, leg, floor_friction, progress, false);
+        match self.law.history.is_rescaled() && unloads {
+            true => {
+                self.sliding_slope(state, leg, floor_friction, progress, true)
+                    .0
+            }
+            false => slope,
+        }
+    }
+
+    /// The same if the pair `unloads` or not, and whether its overlap falls along it.
+    fn sliding_slope(
+        &self,
+        state: &State,
+        leg: Leg,
+        floor_friction: f64,
+        progress: Progress,
+        unloads: bool,
+    ) -> (State, bool) {
+        let ring = &self.ring;
+        let (sin, cos) = libm::sincos(ring.angle + state.turned);
+        let distance = 2.0 - state.pair_overlap;
+        let (b, p) = (state.pair_shear, state.pair_lift);
+        let floor_force = leg.floor_force(state.load, self.epsilon, ring);
+        let floor_overlap = self.wall.overlap(floor_force);
+        let Arms { pair, floor } = self.arms;
+        let upper = Pressed::new(&self.law, pair, state.pair_overlap, b, unloads);
+        let lower = Pressed::new(&self.wall, floor, floor_overlap, state.floor_shear, false);
+        let pressing = self.law.force(state.pair_overlap) + p;
+        let stiffness = upper.stiffness + p * upper.memory_rate;
+        let bottom_stiffness = self.bottom_stiffness(state);
+        let shear_slope = floor_friction * leg.floor_force_slope(ring);
+        let left_shear = b * (1.0 - self.left_behind);
+
+        // Columns: ψ′, ρ′, b′, L′. Rows: torque on 2, horizontal force on 2, vertical force on 1, and how far the
+        // parameter is.
+        let torque = [
+            0.0,
+            -b * pair.torque,
+            upper.lever,
+            -shear_slope * (lower.lever + floor_force * floor.torque / lower.stiffness),
+        ];
+        let horizontal = [
+            bottom_stiffness * distance * cos - pressing * cos - left_shear * sin,
+            (stiffness + bottom_stiffness) * sin,
+            cos,
+            shear_slope,
+        ];
+        let vertical = [
+            ring.bodies * (left_shear * cos - pressing * sin),
+            -ring.bodies * stiffness * cos,
+            ring.bodies * sin,
+            -1.0,
+        ];
+        let (advance, amount) = match progress {
+            Progress::Load => ([0.0, 0.0, 0.0, 1.0], state.load),
+            Progress::Direction(direction) => {
+                let tangent = ring.critical_friction + self.beyond(state);
+                let closing = direction * ring.neighbour_overlap(1.0);
+                let turn = 0.5 * (1.0 + tangent * tangent) * (1.0 - direction);
+                let advance = [turn - closing * distance * cos, -closing * sin, 0.0, 0.0];
+                let overlap = ring.neighbour_overlap(state.outward(ring));
+                (advance, overlap + self.beyond(state))
+            }
+        };
+        let system = Matrix4::from_row_slice(&[torque, horizontal, vertical, advance].concat());
+        let solution = system
+            .lu()
+            .solve(&Vector4::new(0.0, 0.0, 0.0, amount))
+            .unwrap_or(Vector4::repeat(f64::NAN));
+        let (turn, distance_slope, shear, load) = (solution.x, solution.y, solution.z, solution.w);
+        let slope = State {
+            turned: turn,
+            load,
+            pair_overlap: -distance_slope,
+            rotation: 0.0,
+            pair_shear: shear,
+            floor_shear: shear_slope * load,
+            pair_lift: -self.left_behind * b * turn - p * upper.memory_rate * distance_slope,
+        };
+        (slope, distance_slope > 0.0)
+    }
+
+    /// What the neighbours push less per distance that the body moves outwards.
+    fn bottom_stiffness(&self, state: &State) -> f64 {
+        let ring = &self.ring;
+        let overlap = ring.neighbour_overlap(state.outward(ring));
+        -ring.push * ring.neighbour_overlap(1.0) * self.law.stiffness(overlap)
     }
 
     pub(super) fn point(&self, state: &State, leg: Leg) -> PathPoint {
@@ -300,6 +481,7 @@ impl Contacts {
             floor_force,
             outward,
             pair_ratio: state.pair_shear / law.force(state.pair_overlap),
+            pair_friction: self.pair_friction(state),
             floor_ratio: state.floor_shear / floor_force,
             bottom_force: match self.bottom {
                 BottomContact::Ignored => 0.0,

@@ -28,7 +28,7 @@ impl EquilibriumPath {
     pub fn new(stack: &Stack) -> Self {
         let open = ClosedForm::whole(stack);
         let path = if locate(&open, Event::ContactCloses, stack).is_some() {
-            let convention = ContactConvention::PAPER;
+            let convention = ContactConvention::TURNING;
             PathKind::Closing(followed_path(stack, &convention, BottomContact::Followed))
         } else {
             PathKind::Open(open)
@@ -48,13 +48,13 @@ impl EquilibriumPath {
 
     /// b/a when the stack rests under its own weight: the cylinder friction that this takes.
     pub fn settled_pair_ratio(&self) -> f64 {
-        self.point(self.settled()).pair_ratio
+        self.point(self.settled()).pair_friction
     }
 
     /// b/a when the top wall reaches the bottom cylinders: with more cylinder friction than this it gets
     /// that far. `None` if the path ends before.
     pub fn wall_contact_pair_ratio(&self) -> Option<f64> {
-        Some(self.point(self.wall_contact?).pair_ratio)
+        Some(self.point(self.wall_contact?).pair_friction)
     }
 
     /// y when gravity is complete; negative where contact 2–3 is closed then.

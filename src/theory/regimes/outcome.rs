@@ -181,7 +181,7 @@ fn last_event(path: &EquilibriumPath, stack: &Stack) -> Option<(Event, f64)> {
 fn weaker_contact(path: &EquilibriumPath, stack: &Stack) -> Event {
     let point = path.point(path.beginning());
     let floor = stack.floor_friction / point.floor_ratio;
-    let pair = stack.cylinder_friction / point.pair_ratio;
+    let pair = stack.cylinder_friction / point.pair_friction;
     if floor <= pair {
         Event::FloorSlip
     } else {

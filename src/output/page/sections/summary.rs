@@ -230,7 +230,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::PAPER));
+    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::TURNING));
     let mut columns = Columns::<Predictions>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",

@@ -130,7 +130,8 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("small-displacements", |_| {
         let stiffness = 1e8;
         let displacements = [0.2, 0.3, 0.5].map(|mu| {
-            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
+            let limit =
+                quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::TURNING);
             (mu, limit.z.unwrap_or(f64::NAN))
         });
         let listed = displacements

@@ -70,7 +70,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let side = |mu: f64| {
             followed_limit(
                 &stack(paper, mu, paper.lowest_stiffness),
-                &ContactConvention::PAPER,
+                &ContactConvention::TURNING,
             )
             .event
         };

@@ -1,0 +1,168 @@
+//! The sliding branch of springs that nothing turns, while contact 2–3 is closed.
+//!
+//! Springs that turn leave the sliding states without memory ([`SlidingBranch`]). A spring that nothing turns keeps the part
+//! p along the normal that it has collected, so that the branch is integrated: the floor bears e = μ d, the contact 1–2
+//! sticks, and p loses b dψ as before (docs/theory.md, Eq. 110). Under its own weight the stack slides along the logarithm
+//! of its load, under the wall along the direction u of its state, from that of the onset to 1, where the contact opens.
+
+use super::super::events::{Event, Path, PathPoint};
+use super::super::sliding::{OPENING, SlidingBranch, SlidingEnd, end_of_branch};
+use super::balance::{Contacts, FIXED, Leg, Progress, State};
+use super::{FollowedPath, integrated};
+use crate::model::{ContactConvention, Stack};
+use differential_equations::prelude::ODE;
+
+/// Load from which a stack slides that slips from the start, relative to its weight.
+const FIRST_LOAD: f64 = 1e-8;
+/// Largest distance of places, in the logarithm of the load, at which a sliding stack is looked at.
+const LOAD_SPACING: f64 = 0.25;
+/// Places between the onset and the opening of the contact at which the state is kept.
+const KNOTS: usize = 32;
+
+/// The states of one stack that slides on the floor.
+pub(in crate::theory) struct RememberedBranch<'a> {
+    contacts: &'a Contacts,
+    stack: &'a Stack,
+    /// Directions u and states, from the one under the wall at which the branch begins.
+    knots: Vec<(f64, State)>,
+    /// The state in which the wall just touches.
+    pub(in crate::theory) settled: PathPoint,
+}
+
+/// The stack while its floor slides.
+struct SlidingEquation<'a> {
+    contacts: &'a Contacts,
+    floor_friction: f64,
+    leg: Leg,
+}
+
+impl ODE<f64, [f64; FIXED]> for SlidingEquation<'_> {
+    fn diff(&self, parameter: f64, state: &[f64; FIXED], slope: &mut [f64; FIXED]) {
+        let state = State::from_array(*state);
+        let progress = match self.leg {
+            Leg::GravityRamp => Progress::Load,
+            Leg::Wall => Progress::Direction(parameter),
+        };
+        let derivative =
+            self.contacts
+                .sliding_derivative(&state, self.leg, self.floor_friction, progress);
+        *slope = derivative.to_array();
+    }
+}
+
+impl SlidingEquation<'_> {
+    fn advance(&self, state: State, range: [f64; 2]) -> Option<State> {
+        match range[0] == range[1] {
+            true => Some(state),
+            false => integrated(self, range, state, self.contacts.epsilon),
+        }
+    }
+}
+
+impl<'a> RememberedBranch<'a> {
+    /// The branch of `stack`, whose floor slips at the parameter `slip` of its `path`; `None` if contact 2–3 opens before
+    /// gravity is complete.
+    pub(in crate::theory) fn new(
+        path: &'a FollowedPath,
+        stack: &'a Stack,
+        convention: &ContactConvention,
+        slip: f64,
+    ) -> Option<Self> {
+        let contacts = &path.contacts;
+        let settled = path.settled();
+        let (start, settled) = if slip >= settled {
+            (path.state(slip), path.point(settled))
+        } else {
+            let start = match slip > 0.0 {
+                true => path.state(slip),
+                false => slid_from_the_start(contacts, stack, convention)?,
+            };
+            let rest = slid_under_own_weight(contacts, stack, start)?;
+            (rest, contacts.point(&rest, Leg::Wall))
+        };
+        let first = contacts.direction(&start);
+        let sliding = SlidingEquation {
+            contacts,
+            floor_friction: stack.floor_friction,
+            leg: Leg::Wall,
+        };
+        let mut knots = vec![(first, start)];
+        for index in 1..KNOTS {
+            let to = first + (OPENING - first) * index as f64 / KNOTS as f64;
+            let (from, state) = knots[index - 1];
+            // A branch that ends before its contact opens has no state at its end either.
+            let Some(state) = sliding.advance(state, [from, to]) else {
+                break;
+            };
+            knots.push((to, state));
+        }
+        Some(Self {
+            contacts,
+            stack,
+            knots,
+            settled,
+        })
+    }
+
+    /// The peak, or what comes before it. Where the cylinders slip on the way, no path is known beyond: a spring remembers
+    /// how long it has slid.
+    pub(in crate::theory) fn end(&self) -> SlidingEnd {
+        let (start, _) = self.knots[0];
+        let (end, peak) = end_of_branch(|direction| self.point(direction), start, self.stack);
+        let slips = |(_, state): &(f64, State)| {
+            let point = self.contacts.point(state, Leg::Wall);
+            point.margin(Event::CylinderSlip, self.stack) < 0.0
+        };
+        let mut before = self.knots.iter().filter(|(direction, _)| *direction < peak);
+        match before.any(slips) {
+            true => SlidingEnd::Other(Event::CylinderSlip),
+            false => end,
+        }
+    }
+
+    /// The state at u = `direction` under the wall; not a number where there is none.
+    fn point(&self, direction: f64) -> PathPoint {
+        let after = self.knots.partition_point(|(at, _)| *at <= direction);
+        let (from, state) = self.knots[after.saturating_sub(1)];
+        let sliding = SlidingEquation {
+            contacts: self.contacts,
+            floor_friction: self.stack.floor_friction,
+            leg: Leg::Wall,
+        };
+        let state = sliding.advance(state, [from, direction]);
+        self.contacts
+            .point(&state.unwrap_or(State::lost()), Leg::Wall)
+    }
+}
+
+/// The state at a small load of a stack whose floor slides from the start, where no spring has been left behind yet: there
+/// all springs are alike.
+fn slid_from_the_start(
+    contacts: &Contacts,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<State> {
+    let light = Stack {
+        stiffness: stack.stiffness / FIRST_LOAD,
+        ..*stack
+    };
+    let branch = SlidingBranch::new(&light, convention);
+    let (beyond, point) = branch.place_at_rest()?;
+    Some(contacts.sliding_state(beyond, &point))
+}
+
+/// The state at rest of a stack that slides from `start` on while its weight grows; `None` if contact 2–3 opens meanwhile.
+fn slid_under_own_weight(contacts: &Contacts, stack: &Stack, start: State) -> Option<State> {
+    let sliding = SlidingEquation {
+        contacts,
+        floor_friction: stack.floor_friction,
+        leg: Leg::GravityRamp,
+    };
+    let [first, last] = [start.load, contacts.epsilon].map(libm::log);
+    let count = ((last - first) / LOAD_SPACING).ceil().max(1.0) as usize;
+    let place = |index: usize| first + (last - first) * index as f64 / count as f64;
+    (0..count).try_fold(start, |state, index| {
+        let next = sliding.advance(state, [place(index), place(index + 1)])?;
+        (next.outward(&contacts.ring) < 0.0).then_some(next)
+    })
+}

@@ -1,0 +1,377 @@
+//! The exact limit where nothing turns the tangential spring, against the bodies themselves moved in small steps, and the
+//! native DEM against the limit. Parameters are chosen here; no number is taken from elsewhere, but for those of one table
+//! that another program gave.
+
+#[path = "fixed_spring/march.rs"]
+mod march;
+
+use march::{Bodies, State, extrapolated};
+use std::thread;
+use tristack::code::Code;
+use tristack::dem::compress_stack;
+use tristack::model::{
+    Arms, Case, ContactArms, ContactConvention, HistoryUpdate, Law, Power, Stack, TangentialHistory,
+};
+use tristack::series::{Mechanics, YieldEstimates};
+use tristack::study::yield_force::plan;
+use tristack::theory::{Event, Limit, quasistatic_limit};
+
+/// A stack and its contacts, as plain numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem {
+    bodies: u8,
+    mu: f64,
+    mu_d: f64,
+    stiffness: f64,
+    kappa: f64,
+    power: Power,
+    keeps_force: bool,
+    floor_ratio: f64,
+    /// Torque and kinematic arm of pairs, then of the floor.
+    arms: [f64; 4],
+}
+
+const PLAIN: Problem = Problem {
+    bodies: 2,
+    mu: 0.31,
+    mu_d: 0.7,
+    stiffness: 137.0,
+    kappa: 2.3,
+    power: Power::Linear,
+    keeps_force: false,
+    floor_ratio: 1.0,
+    arms: [0.0; 4],
+};
+
+impl Problem {
+    fn count(&self) -> f64 {
+        f64::from(self.bodies)
+    }
+
+    fn weight(&self) -> f64 {
+        self.stiffness.recip()
+    }
+
+    /// Distance of a bottom body from the axis, and height of the top one over it, without weight.
+    fn ring(&self) -> (f64, f64) {
+        let radius = (std::f64::consts::PI / self.count()).sin().recip();
+        (radius, (4.0 - radius * radius).sqrt())
+    }
+
+    /// Outward part of the forces of all neighbours on a body, over that of one.
+    fn push(&self) -> f64 {
+        match self.bodies {
+            2 => 1.0,
+            _ => 2.0 * (std::f64::consts::PI / self.count()).sin(),
+        }
+    }
+
+    fn stack(&self) -> Stack {
+        Stack {
+            bodies: self.bodies,
+            stiffness_ratio: self.kappa,
+            cylinder_friction: self.mu_d,
+            ..Stack::paper(self.mu, self.stiffness)
+        }
+    }
+
+    fn convention(&self) -> ContactConvention {
+        let arms = |[torque, kinematic]: [f64; 2]| ContactArms { torque, kinematic };
+        let [pair_torque, pair_kinematic, floor_torque, floor_kinematic] = self.arms;
+        ContactConvention {
+            arms: Arms {
+                pair: arms([pair_torque, pair_kinematic]),
+                floor: arms([floor_torque, floor_kinematic]),
+            },
+            law: Law {
+                floor_ratio: self.floor_ratio,
+                history: match self.keeps_force {
+                    true => TangentialHistory::Force,
+                    false => TangentialHistory::Displacement,
+                },
+                ..Law::of_power(self.power)
+            },
+            history_update: HistoryUpdate::Fixed,
+            ..ContactConvention::PAPER
+        }
+    }
+
+    fn limit(&self) -> Limit {
+        quasistatic_limit(&self.stack(), &self.convention())
+    }
+
+    /// Distance of two forces, in F + n + 1.
+    fn apart(&self, one: f64, other: f64) -> f64 {
+        (one - other).abs() / (other + self.count() + 1.0)
+    }
+}
+
+const ARMS: [f64; 4] = [-0.5, -0.2, -0.8, 0.3];
+
+#[test]
+fn onset_is_that_of_the_bodies_where_the_bottom_is_open() {
+    let hertz = Problem {
+        power: Power::Hertz,
+        floor_ratio: 1.3,
+        kappa: 4.3,
+        ..PLAIN
+    };
+    let problems = [
+        PLAIN,
+        Problem { mu: 0.21, ..PLAIN },
+        Problem {
+            arms: ARMS,
+            ..PLAIN
+        },
+        Problem {
+            floor_ratio: 1.7,
+            mu: 0.44,
+            ..PLAIN
+        },
+        hertz,
+        Problem {
+            keeps_force: true,
+            arms: ARMS,
+            ..hertz
+        },
+        Problem {
+            bodies: 3,
+            mu: 0.37,
+            arms: ARMS,
+            ..PLAIN
+        },
+        Problem {
+            bodies: 5,
+            mu: 0.61,
+            ..PLAIN
+        },
+    ];
+    for own in problems {
+        let limit = own.limit();
+        assert_eq!(limit.event, Event::FloorSlip, "{own:?}");
+        let exact = limit.yield_force.unwrap();
+        let bodies = Bodies::new(own, false, false);
+        let stepped = |steps| {
+            let settled = bodies.settled(steps);
+            let excess = |state: &State| bodies.floor_excess(state);
+            bodies.force_where((0.0, &settled), exact, steps, excess).0
+        };
+        let force = extrapolated(stepped, 16);
+        let apart = own.apart(force, exact);
+        println!("{own:?}: {force} {exact} {apart:e}");
+        assert!(apart < 1e-10, "{own:?}: {force} {exact} {apart:e}");
+    }
+}
+
+/// With so much friction between the cylinders their contact slides when the whole spring is too long for it, not its
+/// part along the tangent.
+#[test]
+fn cylinders_slip_where_the_whole_spring_reaches_the_limit() {
+    for own in [
+        Problem {
+            mu: 0.9,
+            mu_d: 0.38,
+            ..PLAIN
+        },
+        Problem {
+            mu: 0.9,
+            mu_d: 0.45,
+            arms: ARMS,
+            ..PLAIN
+        },
+    ] {
+        let limit = own.limit();
+        assert_eq!(limit.event, Event::CylinderSlip, "{own:?}");
+        let bodies = Bodies::new(own, false, false);
+        let stepped = |steps| {
+            let settled = bodies.settled(steps);
+            let excess = |state: &State| bodies.pair_excess(state);
+            let near = Problem {
+                mu: 0.9 * own.mu_d,
+                ..own
+            };
+            let near = near.limit().yield_force.unwrap();
+            let (_, state) = bodies.force_where((0.0, &settled), near, steps, excess);
+            let forces = bodies.forces(&state);
+            forces.floor_shear / forces.floor_normal
+        };
+        // With so much friction at the floor it would slip at once with the cylinders.
+        let mu = extrapolated(stepped, 16);
+        for (factor, event) in [
+            (1.0 - 1e-9, Event::FloorSlip),
+            (1.0 + 1e-9, Event::CylinderSlip),
+        ] {
+            let near = Problem {
+                mu: mu * factor,
+                ..own
+            };
+            assert_eq!(near.limit().event, event, "{own:?}: {mu}");
+        }
+    }
+}
+
+#[test]
+fn onset_and_peak_are_those_of_the_bodies_where_the_bottom_is_closed() {
+    let soft = Problem {
+        kappa: 0.62,
+        mu: 0.23,
+        ..PLAIN
+    };
+    let hertz = Problem {
+        power: Power::Hertz,
+        floor_ratio: 1.3,
+        kappa: 1.25,
+        ..soft
+    };
+    for own in [
+        soft,
+        Problem { arms: ARMS, ..soft },
+        Problem {
+            bodies: 3,
+            kappa: 0.5,
+            mu: 0.25,
+            ..soft
+        },
+        hertz,
+        Problem {
+            keeps_force: true,
+            kappa: 0.9,
+            ..hertz
+        },
+    ] {
+        let limit = own.limit();
+        assert_eq!(limit.event, Event::ContactCloses, "{own:?}");
+        let (onset, peak) = (limit.slip_onset.unwrap(), limit.peak_force.unwrap());
+        assert!(peak > onset, "{own:?}");
+        let sticking = Bodies::new(own, true, false);
+        let sliding = Bodies::new(own, true, true);
+        let slipped = |steps| {
+            let settled = sticking.settled(steps);
+            let excess = |state: &State| sticking.floor_excess(state);
+            sticking.force_where((0.0, &settled), onset, steps, excess)
+        };
+        let force = extrapolated(|steps| slipped(steps).0, 16);
+        let apart = own.apart(force, onset);
+        println!("{own:?}: onset {force} {onset} {apart:e}");
+        assert!(apart < 1e-8, "{own:?}: onset {force} {onset} {apart:e}");
+        let highest = |steps| {
+            let start = slipped(steps).1;
+            let states = sliding.spread(&start, 0.0, steps);
+            vertex(&states) * own.stiffness
+        };
+        let force = extrapolated(highest, 32);
+        let apart = own.apart(force, peak);
+        println!("{own:?}: peak {force} {peak} {apart:e}");
+        assert!(apart < 1e-8, "{own:?}: peak {force} {peak} {apart:e}");
+    }
+}
+
+/// The largest force of the wall: that of the last state if it grows until then, else the vertex of the polynomial of
+/// fourth order through the five states about the highest.
+fn vertex(states: &[State]) -> f64 {
+    let force = |index: usize| states[index].unknowns[4];
+    let last = states.len() - 1;
+    let highest = (0..=last).max_by(|&one, &other| force(one).total_cmp(&force(other)));
+    let highest = highest.unwrap();
+    if highest == last {
+        return force(last);
+    }
+    let first = highest.saturating_sub(2).min(last - 4);
+    let at = |place: f64| {
+        let basis = |own: usize| {
+            let others = (0..5).filter(|other| *other != own);
+            let parts = others.map(|other| (place - other as f64) / (own as f64 - other as f64));
+            parts.product::<f64>()
+        };
+        (0..5)
+            .map(|own| basis(own) * force(first + own))
+            .sum::<f64>()
+    };
+    let (mut low, mut high) = (0.0, 4.0);
+    for _ in 0..100 {
+        let third = (high - low) / 3.0;
+        match at(low + third) < at(high - third) {
+            true => low += third,
+            false => high -= third,
+        }
+    }
+    at(0.5 * (low + high))
+}
+
+/// Of springs that turn, the rule by which they do does not show in the limit.
+#[test]
+fn every_rule_but_the_fixed_spring_has_one_limit() {
+    let stack = Stack::paper(0.3, 100.0);
+    let force = |history_update| {
+        let convention = ContactConvention {
+            history_update,
+            ..ContactConvention::PAPER
+        };
+        quasistatic_limit(&stack, &convention).yield_force.unwrap()
+    };
+    use HistoryUpdate::{Fixed, Linearised, Projected, Rotated};
+    assert_eq!([Projected, Linearised].map(force), [force(Rotated); 2]);
+    assert!((force(Rotated) - 30.227_048_117).abs() < 1e-9);
+    assert!((force(Fixed) - 30.112_860_110).abs() < 1e-9);
+}
+
+/// Slip onset and peak of a case, whose series obeys mechanics.
+fn measured(case: &Case) -> [f64; 2] {
+    let series = compress_stack(case, || true).expect("a finite series");
+    let mechanics = Mechanics::read(&series, case);
+    let violations: Vec<_> = mechanics.violations().collect();
+    assert!(violations.is_empty(), "{case:?} {violations:?}");
+    let estimates = YieldEstimates::read(&series, case);
+    assert_eq!(estimates.departure, None);
+    [estimates.slip, estimates.peak].map(|estimate| estimate.expect("an estimate").force)
+}
+
+#[test]
+fn onset_of_the_native_dem_is_the_limit() {
+    for own in [
+        Problem {
+            stiffness: 100.0,
+            mu: 0.3,
+            kappa: 2.5,
+            ..PLAIN
+        },
+        Problem {
+            arms: ARMS,
+            mu: 0.27,
+            ..PLAIN
+        },
+        Problem {
+            kappa: 0.62,
+            mu: 0.23,
+            ..PLAIN
+        },
+        Problem {
+            bodies: 3,
+            mu: 0.37,
+            ..PLAIN
+        },
+        Problem {
+            power: Power::Hertz,
+            kappa: 4.3,
+            floor_ratio: 1.3,
+            ..PLAIN
+        },
+    ] {
+        let measurement = plan(Code::NATIVE, &own.stack(), own.convention());
+        let cases = &measurement.cases[..3];
+        let forces: Vec<[f64; 2]> = thread::scope(|scope| {
+            let runs: Vec<_> = cases
+                .iter()
+                .map(|case| scope.spawn(|| measured(case)))
+                .collect();
+            runs.into_iter()
+                .map(|run| run.join().expect("a run"))
+                .collect()
+        });
+        let at_rest = forces[0][0] / 3.0 - 2.0 * forces[1][0] + 8.0 / 3.0 * forces[2][0];
+        let exact = measurement.limit.slip_onset.unwrap();
+        let apart = own.apart(at_rest, exact);
+        println!("{own:?}: {at_rest} {exact} {apart:e}");
+        assert!(apart < 1e-6, "{own:?}: {at_rest} {exact} {apart:e}");
+    }
+}

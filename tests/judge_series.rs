@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Bench, json};
+use common::{Bench, code_folder, json};
 use serde_json::Value;
 use std::fs;
 use tristack::code::Code;
@@ -23,7 +23,10 @@ fn measurement(convention: ContactConvention) -> Measurement {
 
 /// A bench with the five series of a measurement, and their first three speeds.
 fn bench_with(convention: ContactConvention) -> (Bench, String) {
-    let bench = Bench::without_codes();
+    with_series(Bench::without_codes(), convention)
+}
+
+fn with_series(bench: Bench, convention: ContactConvention) -> (Bench, String) {
     let cases = measurement(convention).cases;
     for (name, case) in FILES.iter().zip(&cases) {
         put(&bench, name, case);
@@ -367,6 +370,101 @@ fn arms_are_taken_from_a_passport_with_their_uncertainty() {
         message.contains("its arms are measured as -0.5, -0.5"),
         "{message}"
     );
+}
+
+/// The limits of both springs at the stack of [`STACK`].
+const TURNING_LIMIT: f64 = 30.227_048_1;
+const FIXED_LIMIT: f64 = 30.112_860_1;
+
+fn reference(tables: &[Vec<Value>]) -> f64 {
+    tables[0][0]["reference_force"].as_f64().expect("a limit")
+}
+
+#[test]
+fn a_spring_taken_for_the_other_one_differs() {
+    for (own, limit) in [
+        (ContactConvention::TURNING, TURNING_LIMIT),
+        (ContactConvention::PAPER, FIXED_LIMIT),
+    ] {
+        let (bench, speeds) = bench_with(own);
+        for taken in ["fixed", "rotated", "projected", "linearised"] {
+            let line = format!("{THREE} {speeds} {STACK} {FURTHER} --history-update {taken}");
+            let (status, tables, message) = judged(&bench, &line);
+            let is_fixed = own == ContactConvention::PAPER;
+            let is_right = is_fixed == (taken == "fixed");
+            let expected = if is_right { 0 } else { 2 };
+            assert_eq!(status, Some(expected), "{own} as {taken}: {message}");
+            assert_eq!(tables[0][0]["history_update"], taken);
+            if is_right {
+                assert!((reference(&tables) - limit).abs() < 1e-7);
+            }
+        }
+    }
+}
+
+/// The pair contact of the Python example with a spring that is a vector which nothing turns.
+const FIXED_PAIR: &str = "        tx, ty = -ny, nx
+        overlap = 2.0 * RADIUS - distance
+        if overlap <= 0.0:
+            self.spring, self.normal, self.tangential = (0.0, 0.0), 0.0, 0.0
+            return
+        self.normal = self.kn * overlap - self.cn * (nx * vx + ny * vy)
+        ux, uy = self.spring[0] + sliding * self.dt * tx, self.spring[1] + sliding * self.dt * ty
+        qx, qy = -self.kt * ux - self.ct * sliding * tx, -self.kt * uy - self.ct * sliding * ty
+        size, limit = sqrt(qx * qx + qy * qy), self.friction * abs(self.normal)
+        if size < limit:
+            self.spring = (ux, uy)
+        else:
+            qx, qy = qx * limit / size, qy * limit / size
+        self.tangential = qx * tx + qy * ty
+        fx, fy = self.normal * nx + qx, self.normal * ny + qy
+";
+
+/// The Python example as `mydem`, whose manifest leaves out what a turning contact does to its spring; with `fixed` nothing
+/// turns it.
+fn example(bench: &Bench, fixed: bool) {
+    let folder = code_folder("examples/python", &bench.path("mydem"), |manifest| {
+        manifest.replace("history_update = \"rotated\"\n", "")
+    });
+    if fixed {
+        let path = folder.join("mydem.py");
+        let script = fs::read_to_string(&path).expect("the example");
+        let (before, rest) = script
+            .split_once("        self.press(2.0 * RADIUS - distance")
+            .expect("a pair");
+        let (_, after) = rest
+            .split_once("        torque = -RADIUS * self.tangential")
+            .expect("its torque");
+        let before = before.replace(
+            "    def press(",
+            "    spring = (0.0, 0.0)\n\n    def press(",
+        );
+        let script =
+            format!("{before}{FIXED_PAIR}        torque = -RADIUS * self.tangential{after}");
+        fs::write(path, script).expect("it can be written");
+    }
+}
+
+/// Of two copies of one code, in one of which nothing turns the spring, the probe says which is which, and each is judged by
+/// its own limit.
+#[test]
+fn a_passport_says_whether_springs_turn() {
+    for (fixed, own, limit) in [
+        (false, ContactConvention::TURNING, TURNING_LIMIT),
+        (true, ContactConvention::PAPER, FIXED_LIMIT),
+    ] {
+        let (bench, speeds) = with_series(Bench::with_system_programs(), own);
+        example(&bench, fixed);
+        let probe = "probe --codes ./mydem --out passports";
+        bench.tristack(probe).assert().code(0);
+        let text = fs::read_to_string(bench.path("passports/mydem.json")).expect("a passport");
+        let word = if fixed { "fixed" } else { "rotated" };
+        assert!(text.contains(&format!("\"{word}\"")), "{text}");
+        let line = format!("{THREE} {speeds} {BARE} {FURTHER} --passport passports/mydem.json");
+        let (status, tables, message) = judged(&bench, &line);
+        assert_eq!(status, Some(0), "{message}");
+        assert!((reference(&tables) - limit).abs() < 1e-6, "{tables:?}");
+    }
 }
 
 /// The name of a copy of the passport of YADE with what `change` makes of its keys and properties.

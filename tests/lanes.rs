@@ -139,12 +139,13 @@ fn every_width_gives_the_bits_of_single_runs() {
 
 #[test]
 fn every_convention_has_the_same_bits_in_lanes() {
-    let mut conventions = vec![ContactConvention::TURNING; 5];
+    let mut conventions = vec![ContactConvention::TURNING; 6];
     conventions[0].coulomb_operand = CoulombOperand::Spring;
     conventions[1].sliding_spring = SlidingSpring::FollowsLimit;
     conventions[2].history_update = HistoryUpdate::Projected;
     conventions[3].history_update = HistoryUpdate::Linearised;
     conventions[4].tensile_force = TensileForce::NeverPulls;
+    conventions[5].history_update = HistoryUpdate::Fixed;
     for convention in conventions {
         let cases: Vec<Case> = [0.2, 0.25, 0.3]
             .map(|friction| Case {

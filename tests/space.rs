@@ -163,8 +163,7 @@ where
 /// Every convention, through yield and collapse, although no stack is symmetric there to the last digit.
 #[test]
 fn three_spheres_in_a_plane_move_as_cylinders_do() {
-    use HistoryUpdate::{Linearised, Projected, Rotated};
-    for history_update in [Rotated, Projected, Linearised] {
+    for history_update in HistoryUpdate::ALL {
         let convention = ContactConvention {
             history_update,
             ..ContactConvention::TURNING

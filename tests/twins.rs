@@ -59,7 +59,6 @@ fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)
         ("inertia", convention),
         ("operand", convention),
         ("sliding spring", convention),
-        ("transport", convention),
         ("separating force", convention),
     ];
     all[0].1.arms.pair.torque += 1e-3;
@@ -73,14 +72,20 @@ fn wrong(convention: ContactConvention) -> Vec<(&'static str, ContactConvention)
         CoulombOperand::SpringAndDamping => CoulombOperand::Spring,
     };
     all[7].1.sliding_spring = SlidingSpring::Frozen;
-    all[8].1.history_update = match convention.history_update {
-        HistoryUpdate::Linearised => HistoryUpdate::Projected,
-        _ => HistoryUpdate::Linearised,
-    };
-    all[9].1.tensile_force = match convention.tensile_force {
+    all[8].1.tensile_force = match convention.tensile_force {
         TensileForce::MayPull => TensileForce::NeverPulls,
         TensileForce::NeverPulls => TensileForce::MayPull,
     };
+    let others = HistoryUpdate::ALL
+        .into_iter()
+        .filter(|update| *update != convention.history_update);
+    all.extend(others.map(|history_update| {
+        let other = ContactConvention {
+            history_update,
+            ..convention
+        };
+        (history_update.as_str(), other)
+    }));
     all
 }
 

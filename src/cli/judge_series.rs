@@ -6,7 +6,7 @@ use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::{FileError, Layout, Links, read_bounded};
-use crate::model::{ContactConvention, ContactLaw, InvalidValue, Stack, shown};
+use crate::model::{ContactLaw, InvalidValue, Stack, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text, junit};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
@@ -93,14 +93,19 @@ pub(super) fn run(
             faster.join(", ")
         );
     }
-    let arms = judged.measurement.convention.arms;
+    let convention = judged.measurement.convention;
+    let arms = convention.arms;
+    let springs = match convention.history_update.turns() {
+        true => "springs that turn with their contacts",
+        false => "springs that nothing turns",
+    };
     let measured = match arguments.passport {
         Some(_) => "measured ",
         None => "",
     };
     tell!(
-        "assumed: the stack was prepared by a gravity ramp, and its contacts have the {measured}arms {}, {}; others move the \
-         limit (docs/theory.md, 2.3 and 8.4), and other arms the balance of forces as well",
+        "assumed: the stack was prepared by a gravity ramp, and its contacts have the {measured}arms {}, {} and {springs}; \
+         others move the limit (docs/theory.md, 2.3 and 8.4), and other arms the balance of forces as well",
         arms.pair,
         arms.floor
     );
@@ -113,7 +118,7 @@ pub(super) fn run(
 fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     let measured = arguments.passport.as_deref().map(passport).transpose()?;
     let convention = match measured {
-        Some(measured) => ContactConvention::with_arms(measured.arms),
+        Some(measured) => measured.convention,
         None => {
             arguments.convention.check_named_arms()?;
             arguments.convention.of(Code::NATIVE)?

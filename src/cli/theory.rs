@@ -26,9 +26,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments.convention.of(Code::NATIVE)?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
-    let predictions: Vec<Predictions> = stacks
-        .iter()
-        .map(|stack| Predictions::new(stack, &convention))
+    let predictions: Vec<Predictions> = Predictions::of_each(&stacks, &convention)
         .take_while(|_| !INTERRUPT.requested())
         .collect();
     let people = || theories_by_stack(&predictions);

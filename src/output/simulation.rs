@@ -112,8 +112,6 @@ fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
         .means("force that Coulomb's limit is compared with")
         .word("sliding_spring", move |row| own(row).sliding_spring)
         .means("treatment of the tangential spring of a sliding contact")
-        .word("history_update", move |row| own(row).history_update)
-        .means("treatment of the tangential spring of a turning contact")
         .word("tensile_force", move |row| own(row).tensile_force)
         .means("normal force of a contact that separates")
         .number("moment_of_inertia", "m r²", move |row| {

@@ -2,20 +2,23 @@
 
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
-use super::path::{BottomContact, FollowedPath, RememberedBranch, followed_path};
+use super::path::{FollowedPath, RememberedBranch};
 use super::sliding::{SlidingBranch, SlidingEnd};
 use crate::model::{ContactConvention, Stack};
 
-/// The limit of `stack` along the path on which contact 2–3 closes and may open again, and along the sliding branch
+/// The limit of `stack` along its `path`, on which contact 2–3 closes and may open again, and along the sliding branch
 /// if the floor slips while it is closed.
-pub(super) fn closing_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    let path = followed_path(stack, convention, BottomContact::Followed);
-    let slip = locate(&path, Event::FloorSlip, stack);
-    let ends = match slip == Some(0.0) && floor_lacks_more(&path, stack) {
+pub(super) fn closing_limit(
+    path: &FollowedPath,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Limit {
+    let slip = locate(path, Event::FloorSlip, stack);
+    let ends = match slip == Some(0.0) && floor_lacks_more(path, stack) {
         true => [Event::WallContact; 2],
         false => [Event::CylinderSlip, Event::WallContact],
     };
-    let limit = Limit::before(ends, &path, slip, stack);
+    let limit = Limit::before(ends, path, slip, stack);
     let limit = match slip.filter(|_| limit.event == Event::FloorSlip) {
         Some(slip) => SlidingStack { stack, path, slip }.limit(limit, convention),
         None => limit,
@@ -38,7 +41,7 @@ fn floor_lacks_more(path: &FollowedPath, stack: &Stack) -> bool {
 /// A stack whose floor slips before anything else, at the parameter `slip` of its path.
 struct SlidingStack<'a> {
     stack: &'a Stack,
-    path: FollowedPath,
+    path: &'a FollowedPath,
     slip: f64,
 }
 
@@ -51,7 +54,7 @@ impl SlidingStack<'_> {
             return limit;
         }
         if !convention.history_update.turns() {
-            return match RememberedBranch::new(&self.path, self.stack, convention, self.slip) {
+            return match RememberedBranch::new(self.path, self.stack, convention, self.slip) {
                 Some(branch) => self.with_end(limit, branch.end(), &branch.settled),
                 None => limit,
             };

@@ -102,15 +102,17 @@ pub trait Path {
 
 /// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
 pub(crate) fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
-    let [located] = locate_each(path, [event], stack);
+    let [located] = locate_until(path, [event], stack, f64::INFINITY);
     located
 }
 
-/// The same for several events, with one search of the stations, which takes most of the time.
-pub(super) fn locate_each<const N: usize>(
+/// The same for several events, with one search of the stations up to `end`, beyond which none is looked for that is not in
+/// the same stretch.
+pub(super) fn locate_until<const N: usize>(
     path: &(impl Path + ?Sized),
     events: [Event; N],
     stack: &Stack,
+    end: f64,
 ) -> [Option<f64>; N] {
     let stations = path.stations();
     let mut passed = [None; N];
@@ -121,7 +123,7 @@ pub(super) fn locate_each<const N: usize>(
                 *passed = Some(index);
             }
         }
-        if passed.iter().all(Option::is_some) {
+        if parameter >= end || passed.iter().all(Option::is_some) {
             break;
         }
     }

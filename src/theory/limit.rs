@@ -1,6 +1,6 @@
 //! The quasi-static limit as a result: the yield force, or what happens instead.
 
-use super::events::{Event, Path, PathPoint, locate_each};
+use super::events::{Event, Path, PathPoint, locate_until};
 use crate::model::Stack;
 
 /// The quasi-static limit of a stack.
@@ -129,7 +129,8 @@ fn first_event<const N: usize>(
     slip: Option<f64>,
     stack: &Stack,
 ) -> Event {
-    let located = locate_each(path, others, stack).into_iter().zip(others);
+    let located = locate_until(path, others, stack, slip.unwrap_or(f64::INFINITY));
+    let located = located.into_iter().zip(others);
     let candidates = located.chain([(slip, Event::FloorSlip)]);
     candidates
         .filter_map(|(parameter, event)| parameter.map(|parameter| (parameter, event)))

@@ -2,6 +2,7 @@
 
 mod arms;
 mod closing;
+mod curve;
 mod cycle;
 mod events;
 mod floor_slip;
@@ -18,7 +19,7 @@ mod sliding;
 mod small_displacement;
 
 pub use arms::limit_uncertainty;
-use closing::closing_limit;
+pub use curve::LimitCurve;
 pub use cycle::{CycleOrder, cycle_work};
 pub use events::Event;
 pub use floor_slip::{floor_slip_force, floor_slip_forces};
@@ -40,18 +41,9 @@ pub(crate) use small_displacement::{elastic_root, naive_load, perturbation_load}
 
 use crate::model::{ContactConvention, Stack};
 
-/// The exact quasi-static limit of `stack` under `convention`: by the closed form where there is one, by the
-/// path follower otherwise. Both leave c = 0; where the bottom cylinders touch before the floor slips, the path
-/// is followed with c > 0.
+/// The exact quasi-static limit of `stack` under `convention` ([`LimitCurve`], for one stack).
 pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    let limit = match convention.has_closed_form() {
-        true => closed_form_limit(stack),
-        false => followed_limit(stack, convention),
-    };
-    match limit.event {
-        Event::ContactCloses => closing_limit(stack, convention),
-        _ => limit,
-    }
+    LimitCurve::new(stack, convention).limit(stack)
 }
 
 #[cfg(test)]

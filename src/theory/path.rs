@@ -259,11 +259,20 @@ impl Path for FollowedPath {
 /// The quasi-static limit of `stack` under any convention.
 pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     let path = followed_path(stack, convention, BottomContact::Ignored);
-    let slip = locate(&path, Event::FloorSlip, stack);
+    limit_on(&path, stack, convention)
+}
+
+/// The same on the `path` of the stack.
+pub(super) fn limit_on(
+    path: &FollowedPath,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Limit {
+    let slip = locate(path, Event::FloorSlip, stack);
     Limit {
         time_scale: stack.time_scale(convention),
         needs_slow_ramp: convention.law.needs_slow_ramp(),
-        ..Limit::of(&path, slip, stack)
+        ..Limit::of(path, slip, stack)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Every theory for one stack, side by side.
 
 use super::{
-    ElasticRoot, Limit, RigidYield, elastic_root, naive_load, perturbation_load, quasistatic_limit,
+    ElasticRoot, Limit, LimitCurve, RigidYield, elastic_root, naive_load, perturbation_load,
     rigid_yield,
 };
 use crate::model::{ContactConvention, Stack};
@@ -48,6 +48,23 @@ pub struct Predictions {
 impl Predictions {
     /// Every theory for `stack` under `convention`.
     pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
+        Self::on(&LimitCurve::new(stack, convention), stack, convention)
+    }
+
+    /// Every theory for each of `stacks`, with one path of equilibria for neighbours that differ in their frictions alone.
+    pub fn of_each<'a>(
+        stacks: impl IntoIterator<Item = &'a Stack>,
+        convention: &ContactConvention,
+    ) -> impl Iterator<Item = Self> {
+        let mut curve: Option<LimitCurve> = None;
+        stacks.into_iter().map(move |stack| {
+            let kept = curve.take().filter(|own| own.holds(stack, convention));
+            let kept = kept.unwrap_or_else(|| LimitCurve::new(stack, convention));
+            Self::on(curve.insert(kept), stack, convention)
+        })
+    }
+
+    fn on(curve: &LimitCurve, stack: &Stack, convention: &ContactConvention) -> Self {
         let elastic_root = elastic_root(stack);
         Self {
             stack: *stack,
@@ -65,7 +82,7 @@ impl Predictions {
                 "the equation has no root with F >= 0",
             ),
             elastic_root,
-            quasistatic: quasistatic_limit(stack, convention),
+            quasistatic: curve.limit(stack),
         }
     }
 }

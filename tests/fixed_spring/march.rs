@@ -226,21 +226,18 @@ impl Bodies {
         old
     }
 
-    /// The states on the way to where the bottom bodies are this far outward.
-    pub fn spread(&self, start: &State, outward: f64, steps: usize) -> Vec<State> {
+    /// The state in which the bottom bodies are this far outward.
+    pub fn spread(&self, start: &State, outward: f64, steps: usize) -> State {
         let from = start.unknowns[0];
-        let mut states = vec![*start];
+        let [mut before, mut old] = [*start; 2];
         for step in 1..=steps {
             let to = from + (outward - from) * step as f64 / steps as f64;
-            let old = states[step - 1];
-            let mut guess = match step {
-                1 => old.unknowns,
-                _ => 2.0 * old.unknowns - states[step - 2].unknowns,
-            };
+            let mut guess = 2.0 * old.unknowns - before.unknowns;
             guess[0] = to;
-            states.push(self.step(&old, guess, Drive::Outward(to)));
+            let next = self.step(&old, guess, Drive::Outward(to));
+            before = std::mem::replace(&mut old, next);
         }
-        states
+        old
     }
 
     /// The force of the wall in m g at which `value` vanishes beyond `start`, and the state there; by secants from `near`.

@@ -273,6 +273,11 @@ impl<'a, R: 'a> Columns<'a, R> {
             arm(row, |arms| arms.floor.kinematic)
         })
         .means(kinematic)
+        .text("history_update", move |row| {
+            let convention: Option<ContactConvention> = convention(row).into();
+            convention.map(|convention| convention.history_update.as_str())
+        })
+        .means("treatment of the tangential spring of a turning contact")
     }
 
     /// The contact law.

@@ -1,16 +1,16 @@
-//! The arms of a code as its passport has them.
+//! What moves the limit of a code, as its passport has it: arms, and whether springs turn.
 
 use super::filed::{FiledPassport, KeyRow, UnreadablePassport};
 use crate::code::ConventionKey;
-use crate::model::{Arms, ContactConvention, InvalidValue};
+use crate::model::{Arms, ContactConvention, HistoryUpdate, InvalidValue};
 use crate::study::Verdict;
 use thiserror::Error;
 
-/// The arms of a code, and what is not known of them.
+/// The arms of a code, what is not known of them, and whether its springs turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredArms {
-    /// Their coefficients.
-    pub arms: Arms,
+    /// The convention with their coefficients.
+    pub convention: ContactConvention,
     /// The uncertainties of these.
     pub uncertainty: Arms,
 }
@@ -63,7 +63,20 @@ impl MeasuredArms {
             key.set_arm(&mut arms, value);
             key.set_arm(&mut uncertainty, open);
         }
-        ContactConvention::with_arms(arms).validate()?;
-        Ok(Self { arms, uncertainty })
+        // Springs turn unless they are seen not to; by which rule they do does not matter.
+        let update = passport.key(ConventionKey::HistoryUpdate.as_str());
+        let measured = update.and_then(|own| own.measured.as_deref());
+        let convention = ContactConvention {
+            history_update: match measured == Some(HistoryUpdate::Fixed.as_str()) {
+                true => HistoryUpdate::Fixed,
+                false => HistoryUpdate::Rotated,
+            },
+            ..ContactConvention::with_arms(arms)
+        };
+        convention.validate()?;
+        Ok(Self {
+            convention,
+            uncertainty,
+        })
     }
 }

@@ -181,6 +181,7 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
     let force = |arms: Arms| {
         let convention = ContactConvention {
             law,
+            history_update: measured.convention.history_update,
             ..ContactConvention::with_arms(arms)
         };
         quasistatic_limit(&stack, &convention).yield_force

@@ -13,11 +13,11 @@ use std::process::Stdio;
 use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
 use tristack::dem::run_contact_test;
 use tristack::model::{
-    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, SlidingSpring, Stack,
+    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, SlidingSpring, Stack,
 };
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::series::Motion;
-use tristack::study::convention::{probe, probe_all, settle_by};
+use tristack::study::convention::{Finding, probe, probe_all, settle_by};
 use tristack::study::trajectory::{TrajectoryJudgement, plan_trajectory, trajectory_stack};
 use tristack::study::yield_force::{Judgement, plan};
 use tristack::study::{Campaign, Verdict};
@@ -285,6 +285,62 @@ fn findings(
         )
     });
     findings.collect()
+}
+
+/// What is measured of a native code that follows one rule for the spring of a turning contact and declares another.
+fn turning(own: HistoryUpdate, declared: HistoryUpdate, law: Law) -> Vec<Finding> {
+    let with = |history_update| ContactConvention {
+        history_update,
+        ..ContactConvention::with_law(law)
+    };
+    let declared = Declaration {
+        convention: with(declared),
+        in_space: false,
+        ..Code::NATIVE.declaration()
+    };
+    let properties = probe(&declared, |tests| {
+        let motions = tests.iter().map(|test| {
+            let convention = ContactConvention {
+                history_update: own,
+                ..test.convention
+            };
+            run_contact_test(&ContactTest {
+                convention,
+                ..*test
+            })
+        });
+        motions.collect::<Result<Vec<Motion>, _>>()
+    });
+    let properties = properties.expect("finite motions").into_iter();
+    properties.map(|own| own.judge(Code::NATIVE, "")).collect()
+}
+
+/// In a single step a fixed spring and a projected one have the same part along the tangent.
+#[test]
+fn each_rule_for_the_spring_is_told_from_every_other() {
+    const NAMES: [&str; 2] = ["pair_history_update", "pair_spring_left_behind"];
+    for law in [Law::LINEAR, Law::HERTZ] {
+        for own in HistoryUpdate::ALL {
+            for declared in HistoryUpdate::ALL {
+                let found = turning(own, declared, law);
+                let differs: Vec<&Finding> = found
+                    .iter()
+                    .filter(|one| one.verdict == Verdict::Differs)
+                    .collect();
+                let is_named = differs
+                    .iter()
+                    .any(|one| NAMES.contains(&one.property.as_str()));
+                assert_eq!(
+                    is_named,
+                    own != declared,
+                    "{own:?} {declared:?} {differs:#?}"
+                );
+                if own == declared {
+                    assert_eq!(differs.len(), 0, "{law} {own:?} {differs:#?}");
+                }
+            }
+        }
+    }
 }
 
 /// Whatever a code means by a contact: what it was asked for is never taken for what it means.

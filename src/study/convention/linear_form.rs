@@ -152,9 +152,8 @@ impl Form {
         if self.left_behind == 0.0 {
             return [along * factor, 0.0];
         }
-        let ([old_x, old_y], [x, y]) = (before.normal, row.normal);
-        let sine = self.memory.rescaled(before, row) * (old_x * y - old_y * x);
-        let cosine = self.memory.rescaled(before, row) * (old_x * x + old_y * y);
+        let sine = self.memory.rescaled(before, row) * sine(before, row);
+        let cosine = self.memory.rescaled(before, row) * (1.0 - versine(before, row));
         [
             along * factor - self.left_behind * sine * lift,
             cosine * lift + sine * along,
@@ -167,7 +166,10 @@ impl Form {
         let mut rows = Vec::new();
         for (index, motion) in motions.iter().enumerate() {
             let mut springs = [[0.0; 2]; 5];
-            let mut initial = [1.0, 0.0];
+            // The first row has the springs of two steps. As far as both are alike, half of it has turned once.
+            let turn = motion.first().zip(motion.get(1));
+            let turn = turn.map_or(0.0, |(first, second)| sine(first, second));
+            let mut initial = [1.0, 0.5 * self.left_behind * turn];
             let mut before: Option<&ContactRow> = None;
             for row in *motion {
                 let turned = |spring: [f64; 2]| {
@@ -231,6 +233,11 @@ pub fn sticking(rows: &[ContactRow]) -> &[ContactRow] {
 pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> &[ContactRow] {
     let end = rows.iter().position(|row| !wanted(row));
     &rows[..end.unwrap_or(rows.len())]
+}
+
+/// sin dψ between two rows.
+fn sine(before: &ContactRow, row: &ContactRow) -> f64 {
+    before.normal[0] * row.normal[1] - before.normal[1] * row.normal[0]
 }
 
 /// 1 − cos dψ between two rows.

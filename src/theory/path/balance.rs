@@ -13,7 +13,7 @@
 //! b (ln k_c)′ and e (ln k_f)′ then (Eq. 81).
 //!
 //! A spring that nothing turns is a vector q = b t + p n, which grows along the present t alone. As n and t turn by dψ,
-//! b gains p dψ and p loses b dψ, and a + p takes the place of a in both balances of forces (Eqs. 107 to 109).
+//! b gains p dψ and p loses b dψ, and a + p takes the place of a in both balances of forces (Eqs. 109 to 111).
 //!
 //! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
 //! carries c = N(−2y/x₀), and nothing tangential: by mirror symmetry its surfaces do not move against each
@@ -246,7 +246,7 @@ impl Contacts {
     }
 
     /// Derivative of the state with respect to ψ, with contact 2–3 closed or open (docs/theory.md,
-    /// Eqs. 37 to 39, 52, 81 and 108).
+    /// Eqs. 37 to 39, 52, 81 and 111).
     pub(super) fn derivative(&self, state: &State, leg: Leg, closed: bool) -> State {
         let (slope, loads) = self.slope(state, leg, closed, [false; 2]);
         let unloads = loads.map(|loads| !loads);
@@ -368,7 +368,7 @@ impl Contacts {
     }
 
     /// Derivative of the state while the floor slides outwards with e = μ d, contact 2–3 being closed (docs/theory.md,
-    /// Eq. 110). The rotation, which the floor does not hold any more, is not followed.
+    /// Eq. 112). The rotation, which the floor does not hold any more, is not followed.
     pub(super) fn sliding_derivative(
         &self,
         state: &State,

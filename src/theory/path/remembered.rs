@@ -2,7 +2,7 @@
 //!
 //! Springs that turn leave the sliding states without memory ([`SlidingBranch`]). A spring that nothing turns keeps the part
 //! p along the normal that it has collected, so that the branch is integrated: the floor bears e = μ d, the contact 1–2
-//! sticks, and p loses b dψ as before (docs/theory.md, Eq. 110). Under its own weight the stack slides along the logarithm
+//! sticks, and p loses b dψ as before (docs/theory.md, Eq. 112). Under its own weight the stack slides along the logarithm
 //! of its load, under the wall along the direction u of its state, from that of the onset to 1, where the contact opens.
 
 use super::super::events::{Event, Path, PathPoint};

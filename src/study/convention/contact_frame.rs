@@ -10,6 +10,8 @@ use crate::series::{Motion, MotionRow};
 pub struct ContactRow {
     /// Unit normal, towards cylinder 1.
     pub normal: [f64; 2],
+    /// That of the step before.
+    pub last_normal: [f64; 2],
     pub overlap: f64,
     /// Normal velocity, positive when separating.
     pub separation_speed: f64,
@@ -49,10 +51,14 @@ pub fn contact_rows(
     motion: &Motion,
     clock: &Clock,
 ) -> Vec<ContactRow> {
-    let rows = motion.rows()[1..].iter();
-    rows.map(|row| contact_row(kind, test, row, clock))
-        .take_while(|row| row.overlap > 0.0)
-        .collect()
+    let read = |row| contact_row(kind, test, row, clock);
+    let two = motion.rows().windows(2);
+    two.map(|two| ContactRow {
+        last_normal: read(&two[0]).normal,
+        ..read(&two[1])
+    })
+    .take_while(|row| row.overlap > 0.0)
+    .collect()
 }
 
 fn contact_row(
@@ -85,6 +91,7 @@ fn contact_row(
     let across = |vector: [f64; 2]| normal[0] * vector[1] - normal[1] * vector[0];
     ContactRow {
         normal,
+        last_normal: normal,
         overlap,
         separation_speed: along(relative),
         tangential_speed: across(relative),

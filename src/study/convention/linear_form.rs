@@ -152,7 +152,7 @@ impl Form {
         if self.left_behind == 0.0 {
             return [along * factor, 0.0];
         }
-        let sine = self.memory.rescaled(before, row) * sine(before, row);
+        let sine = self.memory.rescaled(before, row) * sine(row);
         let cosine = self.memory.rescaled(before, row) * (1.0 - versine(before, row));
         [
             along * factor - self.left_behind * sine * lift,
@@ -166,10 +166,9 @@ impl Form {
         let mut rows = Vec::new();
         for (index, motion) in motions.iter().enumerate() {
             let mut springs = [[0.0; 2]; 5];
-            // The first row has the springs of two steps. As far as both are alike, half of it has turned once.
-            let turn = motion.first().zip(motion.get(1));
-            let turn = turn.map_or(0.0, |(first, second)| sine(first, second));
-            let mut initial = [1.0, 0.5 * self.left_behind * turn];
+            // What a spring has before the first row it has from the step before, whose contact has turned once since.
+            let turn = motion.first().map_or(0.0, sine);
+            let mut initial = [1.0, self.left_behind * turn];
             let mut before: Option<&ContactRow> = None;
             for row in *motion {
                 let turned = |spring: [f64; 2]| {
@@ -235,9 +234,10 @@ pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> 
     &rows[..end.unwrap_or(rows.len())]
 }
 
-/// sin dψ between two rows.
-fn sine(before: &ContactRow, row: &ContactRow) -> f64 {
-    before.normal[0] * row.normal[1] - before.normal[1] * row.normal[0]
+/// sin dψ of the step that leads to a row.
+fn sine(row: &ContactRow) -> f64 {
+    let ([old_x, old_y], [x, y]) = (row.last_normal, row.normal);
+    old_x * y - old_y * x
 }
 
 /// 1 − cos dψ between two rows.

@@ -38,6 +38,37 @@ fn decks_are_the_ones_that_were_recorded() {
     assert_snapshot!(hashes.join("\n"));
 }
 
+/// What a deck of LAMMPS does once the stack is prepared, without comments.
+fn after_preparation(deck: &str) -> Vec<String> {
+    let (_, after) = deck.split_once("# ---- (c)").expect("a compression");
+    let lines = after.lines().skip(1);
+    let code = lines.map(|line| line.split('#').next().unwrap_or_default().trim().to_owned());
+    code.filter(|line| !line.is_empty()).collect()
+}
+
+/// The start of every run computes forces with another velocity than the step before, which a rescaled spring remembers.
+#[test]
+fn lammps_prepares_hertz_contacts_and_spheres_in_one_run() {
+    let linear = include_str!("../lammps_inputs/stack.in");
+    let hertz = include_str!("../lammps_inputs/hertz/stack.in");
+    let spheres = include_str!("../lammps_inputs/spheres.in");
+    for deck in [hertz, spheres] {
+        let runs = deck.lines().filter(|line| line.starts_with("run "));
+        assert_eq!(
+            runs.map(|line| line.split_whitespace().last())
+                .collect::<Vec<_>>(),
+            [Some("${prepared}"), Some("${compression_steps}")]
+        );
+    }
+    // The rest of the deck is that of linear springs, whose recorded runs keep it as it is.
+    let mut own = after_preparation(hertz);
+    assert_eq!(
+        own.remove(0),
+        "fix             gravity all gravity ${gravity} vector 0 -1 0"
+    );
+    assert_eq!(own, after_preparation(linear));
+}
+
 /// The examples beside the decks name every parameter that the program would give.
 #[test]
 fn examples_for_running_by_hand_are_complete() {

@@ -31,7 +31,7 @@ pub(super) static BUILT_IN: [BuiltIn; 7] = [
         "spheres_probe.in" "spheres_contacts.in"),
     folder!("liggghts_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in"),
     folder!("yade_scripts/hertz", "code.toml" "law.py" "probe.py"),
-    folder!("lammps_inputs/hertz", "code.toml" "contacts.in" "top_wall.in" "drive.in" "spheres_contacts.in"),
+    folder!("lammps_inputs/hertz", "code.toml" "stack.in" "contacts.in" "top_wall.in" "drive.in" "spheres_contacts.in"),
 ];
 
 /// A folder with a manifest.

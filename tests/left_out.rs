@@ -13,7 +13,8 @@ use std::process::Stdio;
 use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
 use tristack::dem::run_contact_test;
 use tristack::model::{
-    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, SlidingSpring, Stack,
+    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, Power, SlidingSpring,
+    Stack,
 };
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::series::Motion;
@@ -198,7 +199,7 @@ fn after_settling(
     let campaign = Campaign::new(&codes, &settings, &Silent);
     let stack = Stack::paper(0.3, 1e2);
     let mut force = campaign.carry_out(vec![plan(code, &stack, code.convention())]);
-    let trajectory = plan_trajectory(code, &trajectory_stack(2), code.convention());
+    let trajectory = plan_trajectory(code, &trajectory_stack(2, Power::Linear), code.convention());
     let mut trajectory = campaign.carry_out(vec![trajectory]);
     (force.swap_remove(0), trajectory.swap_remove(0))
 }

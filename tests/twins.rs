@@ -43,7 +43,7 @@ fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
         },
         SelectedCode::find(Code::NATIVE),
     ];
-    let plan = plan_trajectory(code, &trajectory_stack(2), declared);
+    let plan = plan_trajectory(code, &trajectory_stack(2, Power::Linear), declared);
     let mut judgements = Campaign::new(&codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }

@@ -8,7 +8,7 @@ use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::{InvalidValue, PAPER_BODIES, Power};
+use crate::model::{InvalidValue, PAPER_BODIES};
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
 use crate::runs::SelectedCode;
 use crate::study::trajectory::{
@@ -23,7 +23,8 @@ use std::path::PathBuf;
 /// Compresses one stack at the wall speed 1e-3 r sqrt(k_n/m) with every code, at three time steps each half the
 /// one before, and with native twins under the code's own contact convention. Compares wall force, positions and
 /// angle row by row, through yield and collapse, and judges whether the differences fall with the time step as
-/// they must. Recorded runs stand in for codes that are not installed.
+/// they must. The law of a code chooses stiffness ratio and duration of the gravity ramp. Recorded runs stand in for
+/// codes that are not installed, those of linear springs.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack trajectories --codes liggghts,lammps --out trajectories")]
 pub(super) struct Arguments {
@@ -77,20 +78,21 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 
 /// The plans for the codes, each under its declared convention.
 pub(super) fn plans(names: impl Iterator<Item = Code>, bodies: u8) -> Vec<Trajectory> {
-    let stack = trajectory_stack(bodies);
-    names
-        .map(|name| plan_trajectory(name, &stack, name.convention()))
-        .collect()
+    let plan = |name: Code| {
+        let convention = name.convention();
+        let stack = trajectory_stack(bodies, convention.law.power);
+        plan_trajectory(name, &stack, convention)
+    };
+    names.map(plan).collect()
 }
 
 fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
     if !named.contains(&Code::NATIVE) {
         return Ok(());
     }
-    let others = Code::of_power(Power::Linear)
-        .into_iter()
-        .skip(1)
-        .map(Code::as_str);
+    let mut others = Code::all();
+    others.retain(|&code| code != Code::NATIVE);
+    let others = others.into_iter().map(Code::as_str);
     Err(InvalidValue {
         key: "--codes".to_owned(),
         value: Code::NATIVE.to_string(),

@@ -3,7 +3,7 @@
 use super::number::{optional, small};
 use super::table::{Columns, DataTable};
 use super::text::{markdown_code, markdown_notes};
-use crate::model::PAPER_BODIES;
+use crate::model::{PAPER_BODIES, Power, Stack};
 use crate::study::Verdict;
 use crate::study::trajectory::{
     Comparison, Distance, FORCE_TOLERANCE, ORDER_TOLERANCE, TrajectoryJudgement, WALL_SPEED,
@@ -113,14 +113,15 @@ pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command:
 
 fn meaning(judgements: &[TrajectoryJudgement]) -> String {
     let stack = judgements.first().map(|judgement| judgement.study.stack);
-    let stack = stack.unwrap_or_else(|| trajectory_stack(PAPER_BODIES));
+    let stack = stack.unwrap_or_else(|| trajectory_stack(PAPER_BODIES, Power::Linear));
+    let kappas = kappas(judgements, &stack);
     let [coarse, middle, fine] = time_steps(&stack);
     let (quantities, branches) = match stack.bodies {
         PAPER_BODIES => (OF_CYLINDERS, BRANCHES_OF_CYLINDERS),
         _ => (OF_SPHERES, BRANCHES_OF_SPHERES),
     };
     format!(
-        "One stack ({} bodies on the floor, mu = {}, stiffness = {}, kappa = {}), prepared by a gravity ramp and compressed at \
+        "One stack ({} bodies on the floor, mu = {}, stiffness = {}, kappa = {kappas}), prepared by a gravity ramp and compressed at \
          the finite wall speed {WALL_SPEED:e}, by each code and by a twin: the native DEM with the contact \
          convention of that code (torque arms, Coulomb operand, spring of a sliding contact, transport of the \
          spring, inertia). Compared are whole series, row by row: the wall force f in units of its peak, {quantities}.\n\n\
@@ -137,8 +138,24 @@ fn meaning(judgements: &[TrajectoryJudgement]) -> String {
          change of the twin itself when its own time step is halved. In the collapse the full twin is closer than the one \
          with rotated springs. And up to the peak f is within \
          {FORCE_TOLERANCE:e} of its peak at the finest time step.\n\n",
-        stack.bodies, stack.floor_friction, stack.stiffness, stack.stiffness_ratio
+        stack.bodies, stack.floor_friction, stack.stiffness
     )
+}
+
+/// Every stiffness ratio that occurs, in the order of the codes: each law has its usual one.
+fn kappas(judgements: &[TrajectoryJudgement], stack: &Stack) -> String {
+    let mut kappas = vec![stack.stiffness_ratio];
+    for judgement in judgements {
+        let kappa = judgement.study.stack.stiffness_ratio;
+        if !kappas.contains(&kappa) {
+            kappas.push(kappa);
+        }
+    }
+    let written: Vec<String> = kappas.iter().map(f64::to_string).collect();
+    match written.len() {
+        1 => written.concat(),
+        _ => format!("{} by the law of the code", written.join(" or ")),
+    }
 }
 
 const OF_CYLINDERS: &str = "x2 and y1 in r, theta2 in radians";

@@ -251,8 +251,11 @@ fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
 fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
     let names = codes.iter().map(|selected| selected.name);
     let external = names.filter(|name| !name.accepts_any_convention());
-    let planned = external
-        .map(|code| plan_trajectory(code, &trajectory_stack(PAPER_BODIES), code.convention()));
+    let planned = external.map(|code| {
+        let convention = code.convention();
+        let stack = trajectory_stack(PAPER_BODIES, convention.law.power);
+        plan_trajectory(code, &stack, convention)
+    });
     planned.collect()
 }
 

@@ -2,9 +2,11 @@
 
 use crate::code::Code;
 use crate::model::{
-    Case, ContactConvention, HistoryUpdate, PAPER_BODIES, Preparation, Protocol, Sampling, Stack,
+    Case, ContactConvention, HistoryUpdate, PAPER_BODIES, Power, Preparation, Protocol, Sampling,
+    Stack,
 };
-use crate::theory::quasistatic_limit;
+use crate::study::yield_force::{REST_TIME, ramp_time};
+use crate::theory::{Limit, quasistatic_limit};
 use serde::{Deserialize, Serialize};
 
 /// Wall speed in r √(k_n/m): fast enough for inertia and damping to show, slow enough for a yield.
@@ -26,8 +28,6 @@ pub fn time_steps(stack: &Stack) -> [f64; 3] {
 /// to stay linear, and some hundred times the effect of rounding.
 pub(super) const DISTURBANCE: f64 = 1e-9;
 
-const RAMP_TIME: f64 = 100.0;
-const REST_TIME: f64 = 100.0;
 /// Time between rows, in whole steps of every time step; some 370 rows a run.
 const INTERVAL: f64 = 2.0;
 /// Time that the wall goes on beyond the quasi-static yield: the force peaks some 10 later, the wall loses
@@ -37,11 +37,13 @@ const TIME_BEYOND_YIELD: f64 = 60.0;
 /// By how much one sphere of a ring is displaced, so that no symmetry is left.
 const DISPLACEMENT: f64 = 1e-3;
 
-/// The stack whose trajectories are compared, with so many bodies on the floor: cylinders above critical friction, where torque arms matter most, and
-/// soft enough for positions and angles to move far.
-pub fn trajectory_stack(bodies: u8) -> Stack {
+/// The stack whose trajectories are compared, with so many bodies on the floor and contacts of this power: cylinders above
+/// critical friction, where torque arms matter most, and soft enough for positions and angles to move far. A code may
+/// accept no other stiffness ratios than those of its law, so that the law gives it.
+pub fn trajectory_stack(bodies: u8, power: Power) -> Stack {
     let mut stack = Stack {
         bodies,
+        stiffness_ratio: Stack::usual_stiffness_ratio(power),
         ..Stack::paper(0.3, 100.0)
     };
     if bodies != PAPER_BODIES {
@@ -158,11 +160,9 @@ fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
     };
     // Whole rows: a plan must not see the last digits of the limit, which may differ between machines.
     let rows = ((travel / WALL_SPEED + TIME_BEYOND_YIELD) / INTERVAL).ceil();
+    let preparation = preparation(&limit);
     let protocol = |time_step| Protocol {
-        preparation: Preparation::GravityRamp {
-            ramp_time: RAMP_TIME,
-            rest_time: REST_TIME,
-        },
+        preparation,
         time_step,
         wall_speed: WALL_SPEED,
         wall_travel: (rows * INTERVAL).round() / (1.0 / WALL_SPEED).round(),
@@ -176,20 +176,34 @@ fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
     time_steps(stack).map(protocol).to_vec()
 }
 
+/// Ramp and rest of a yield force that is measured at this wall speed, as long as the law needs them: Hertz contacts still
+/// move at the end of the ramp of linear springs. In whole rows, so that they last as long at every time step.
+fn preparation(limit: &Limit) -> Preparation {
+    let whole_rows = |time: f64| (time / INTERVAL).ceil() * INTERVAL;
+    Preparation::GravityRamp {
+        ramp_time: whole_rows(ramp_time(limit, WALL_SPEED)),
+        rest_time: whole_rows(REST_TIME * limit.time_scale),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Power;
 
     fn planned(code: Code) -> Trajectory {
-        plan_trajectory(code, &trajectory_stack(2), code.convention())
+        let convention = code.convention();
+        let stack = trajectory_stack(2, convention.law.power);
+        plan_trajectory(code, &stack, convention)
     }
 
     #[test]
     fn every_planned_case_is_valid_and_has_rows_at_the_same_times() {
-        for code in Code::of_power(Power::Linear) {
+        for code in Code::all() {
             let plan = planned(code);
             let all = plan.twins.iter().flat_map(TwinRuns::all);
+            assert!(!plan.cases.is_empty(), "{code}");
+            code.check_stiffness_ratio(plan.stack.stiffness_ratio)
+                .unwrap();
             for case in plan.cases.iter().chain(all) {
                 case.validate().unwrap();
                 let schedule = case.protocol.schedule();
@@ -198,6 +212,29 @@ mod tests {
                 assert_eq!(schedule.rows(), plan.cases[0].protocol.schedule().rows());
                 assert!(schedule.rows() < 500);
             }
+        }
+    }
+
+    #[test]
+    fn hertz_contacts_are_loaded_as_slowly_as_for_a_yield_force() {
+        for code in Code::all() {
+            let case = planned(code).cases[0];
+            let Preparation::GravityRamp {
+                ramp_time,
+                rest_time,
+            } = case.protocol.preparation
+            else {
+                panic!("{code}");
+            };
+            if case.convention.law.is_linear() {
+                // The recorded series depend on it.
+                assert_eq!([ramp_time, rest_time], [100.0, 100.0], "{code}");
+                continue;
+            }
+            let limit = quasistatic_limit(&case.stack, &case.convention);
+            assert!(limit.time_scale > 1.5, "{code}");
+            assert!(ramp_time >= 1000.0 * limit.time_scale, "{code}");
+            assert!(rest_time >= 100.0 * limit.time_scale, "{code}");
         }
     }
 

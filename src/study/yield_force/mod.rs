@@ -27,7 +27,9 @@ pub use no_yield::NoYield;
 pub(crate) use no_yield::no_yield;
 pub(crate) use peak::peak_allowance;
 pub use plan::{Measurement, Method, plan, protocol_at_speed};
-pub(crate) use plan::{PAPER_TIME_STEP, PAPER_WALL_SPEED, planned, planned_protocol};
+pub(crate) use plan::{
+    PAPER_TIME_STEP, PAPER_WALL_SPEED, REST_TIME, planned, planned_protocol, ramp_time,
+};
 pub(crate) use profile::PAPER_STIFFNESSES;
 pub use profile::Profile;
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};

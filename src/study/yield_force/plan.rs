@@ -20,7 +20,8 @@ pub(super) const RAMP_TIME: f64 = 100.0;
 /// How many times as long a ramp takes that is applied to contacts without stiffness when they just touch: their first
 /// overlaps follow slowly, and what the dampers keep of that falls with the duration.
 const SOFT_RAMP: f64 = 10.0;
-pub(super) const REST_TIME: f64 = 100.0;
+/// Duration of the rest after it, in time scales of the stack.
+pub(crate) const REST_TIME: f64 = 100.0;
 /// The same for spheres: oscillations that the ramp leaves behind then fall below rounding, so that a start is at rest
 /// without a bound that depends on their phase.
 const REST_TIME_OF_SPHERES: f64 = 300.0;
@@ -325,7 +326,7 @@ fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
 
 /// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached only
 /// if that slows down with the wall.
-fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
+pub(crate) fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
     let is_soft = limit.time_scale > 1.0;
     let usual = RAMP_TIME * limit.time_scale * if is_soft { SOFT_RAMP } else { 1.0 };
     match limit.peak_travel {

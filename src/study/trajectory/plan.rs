@@ -28,7 +28,7 @@ pub fn time_steps(stack: &Stack) -> [f64; 3] {
 /// to stay linear, and some hundred times the effect of rounding.
 pub(super) const DISTURBANCE: f64 = 1e-9;
 
-/// Time between rows, in whole steps of every time step; some 370 rows a run.
+/// Time between rows, in whole steps of every time step; 370 to 700 rows a run.
 const INTERVAL: f64 = 2.0;
 /// Time that the wall goes on beyond the quasi-static yield: the force peaks some 10 later, the wall loses
 /// cylinder 1 after another 22, and cylinder 1 lands after another 10.
@@ -210,7 +210,7 @@ mod tests {
                 let interval = schedule.fine_every as f64 * case.protocol.time_step;
                 assert!((interval - INTERVAL).abs() < 1e-12);
                 assert_eq!(schedule.rows(), plan.cases[0].protocol.schedule().rows());
-                assert!(schedule.rows() < 500);
+                assert!(schedule.rows() < 1000);
             }
         }
     }
@@ -226,7 +226,7 @@ mod tests {
             else {
                 panic!("{code}");
             };
-            if case.convention.law.is_linear() {
+            if case.convention.law.power == Power::Linear {
                 // The recorded series depend on it.
                 assert_eq!([ramp_time, rest_time], [100.0, 100.0], "{code}");
                 continue;

@@ -331,14 +331,25 @@ fn each_rule_for_the_spring_is_told_from_every_other() {
                 let is_named = differs
                     .iter()
                     .any(|one| NAMES.contains(&one.property.as_str()));
-                assert_eq!(
-                    is_named,
-                    own != declared,
-                    "{own:?} {declared:?} {differs:#?}"
-                );
-                if own == declared {
-                    assert_eq!(differs.len(), 0, "{law} {own:?} {differs:#?}");
+                if own != declared {
+                    assert!(is_named, "{law}: {own:?} as {declared:?}: {differs:#?}");
+                    continue;
                 }
+                // A linear rotation is measured with an error of second order in the turn of a step, and held to a millionth.
+                let is_rounded = |one: &&&Finding| {
+                    let apart = one
+                        .measured
+                        .zip(one.declared)
+                        .map(|(own, other)| (own - other).abs());
+                    one.property == NAMES[0] && apart.is_some_and(|apart| apart < 1e-6)
+                };
+                // Beside Hertz's law the pair's normal force is measured while its spring is stretched, and a fixed spring
+                // shows in it: such a code is not told from one whose law is another.
+                if !law.is_linear() && own == HistoryUpdate::Fixed {
+                    continue;
+                }
+                let wrong: Vec<_> = differs.iter().filter(|one| !is_rounded(one)).collect();
+                assert_eq!(wrong.len(), 0, "{law}: {own:?}: {wrong:#?}");
             }
         }
     }

@@ -82,31 +82,34 @@ impl TangentialLaw {
         }
         let turned: Vec<&[ContactRow]> =
             motions.iter().copied().chain([sticking(turning)]).collect();
-        law.unless_left_behind(&turned, law.form, |form| {
-            Self::fitted(&motions, form, law.exponent, arms)
-        })
+        let fixed = Self::fitted(&motions, law.form.fixed(), law.exponent, arms);
+        fixed.if_left_behind(&turned).unwrap_or(law)
     }
 
-    /// This law, or the one that is `fitted` with a spring that nothing turns, where that explains what this one leaves of
-    /// the forces in `motions`, some of which turn.
-    fn unless_left_behind(
-        self,
-        motions: &[&[ContactRow]],
-        form: Form,
-        fitted: impl FnOnce(Form) -> Self,
-    ) -> Self {
+    /// This law of a spring that nothing turns, with what the `motions` that turn say of that, if it explains what none that
+    /// follows its contact does: springs that are kept whole, or projected, leave more of the forces.
+    fn if_left_behind(self, motions: &[&[ContactRow]]) -> Option<Self> {
         let radius = self.radius.value;
-        let left = |form: Form| Some(form.deviations(motions, radius)?.0);
-        let explains = left(form.fixed()).zip(left(form));
-        if !explains.is_some_and(|(with, without)| with < EXPLAINED * without) {
-            return self;
-        }
-        let [transport, left_behind] = form.fixed().fit_turning(motions, radius);
-        Self {
-            transport,
-            left_behind: Some(left_behind),
-            ..fitted(form.fixed())
-        }
+        let left = |transport: f64, left_behind: f64| {
+            let form = Form {
+                transport,
+                left_behind,
+                ..self.form
+            };
+            Some(form.deviations(motions, radius)?.0)
+        };
+        let with = left(-1.0, 1.0)?;
+        let explains = [left(0.0, 0.0)?, left(-1.0, 0.0)?]
+            .iter()
+            .all(|without| with < EXPLAINED * without);
+        explains.then(|| {
+            let [transport, left_behind] = self.form.fit_turning(motions, radius);
+            Self {
+                transport,
+                left_behind: Some(left_behind),
+                ..self
+            }
+        })
     }
 
     /// The same beside a normal force that is not linear, whose stiffness has the growth `normal`.
@@ -146,8 +149,8 @@ impl TangentialLaw {
         }
         let turning = turning.map(sticking).into_iter();
         let all: Vec<&[ContactRow]> = motions.iter().copied().chain(turning).collect();
-        let law = fitted(law.form, &all);
-        law.unless_left_behind(&all, law.form, |form| fitted(form, &all))
+        let [law, fixed] = [law.form, law.form.fixed()].map(|form| fitted(form, &all));
+        fixed.if_left_behind(&all).unwrap_or(law)
     }
 
     /// The law of the same form that fits with `transport`.

@@ -10,7 +10,7 @@ use crate::model::{
     Arms, Case, ContactConvention, ContactLaw, Preparation, Protocol, Sampling, Stack,
 };
 use crate::runs::RunSummary;
-use crate::series::{Mechanics, Sample, Series};
+use crate::series::{Law, Sample, Series};
 use crate::study::{Grounds, Study};
 use crate::theory::limit_uncertainty;
 
@@ -134,7 +134,8 @@ fn measurement(
     })
 }
 
-/// What `input` shows. How it began is not known.
+/// What `input` shows. Where the wall was when it began to move is not known, so that its force is not held to its
+/// overlap.
 fn summary(
     stack: &Stack,
     convention: ContactConvention,
@@ -156,7 +157,9 @@ fn summary(
         series: input.series.clone(),
         provenance: Provenance::now(identity, String::new(), Vec::new(), steps, 0.0),
     });
-    summary.mechanics = Some(Mechanics::read_without_beginning(&input.series, &case));
+    if let Some(mechanics) = &mut summary.mechanics {
+        mechanics.0.remove(&Law::WallOverlap);
+    }
     summary
 }
 

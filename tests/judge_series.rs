@@ -456,7 +456,10 @@ fn a_passport_says_whether_springs_turn() {
         let (bench, speeds) = with_series(Bench::with_system_programs(), own);
         example(&bench, fixed);
         let probe = "probe --codes ./mydem --out passports";
-        bench.tristack(probe).assert().code(0);
+        let status = bench.tristack(probe).output().expect("it runs").status;
+        // What a pair does while it slides is not decided where a part of its spring lies along the normal.
+        let undecided = fixed && status.code() == Some(4);
+        assert!(status.success() || undecided, "{status}");
         let text = fs::read_to_string(bench.path("passports/mydem.json")).expect("a passport");
         let word = if fixed { "fixed" } else { "rotated" };
         assert!(text.contains(&format!("\"{word}\"")), "{text}");

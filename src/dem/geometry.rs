@@ -445,7 +445,7 @@ impl<R: Real> Geometry<R> for Space {
 fn square<R: Real, const N: usize>(vector: [R; N]) -> R {
     let mut sum = vector[0] * vector[0];
     for part in &vector[1..] {
-        sum = sum + *part * *part;
+        sum += *part * *part;
     }
     sum
 }

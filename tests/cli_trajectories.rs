@@ -76,7 +76,7 @@ fn csv_has_the_agreed_columns() {
         text.lines().next(),
         Some(
             "code,version,source,stiffness,mu,mu_d,kappa,bodies,pair_torque_arm,pair_kinematic_arm,floor_torque_arm,\
-             floor_kinematic_arm,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
+             floor_kinematic_arm,history_update,twin,quantity,branch,time_step,largest,rms,first_above_1e-6,\
              first_above_1e-4,first_above_1e-2,order,documented_order,round_off,step_error,verdict"
         )
     );

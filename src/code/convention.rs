@@ -67,7 +67,8 @@ impl ConventionKey {
         }
     }
 
-    /// Whether it moves the quasi-static limit, as the arms alone do (docs/theory.md, section 2.3).
+    /// Whether any value of it moves the quasi-static limit, as those of the arms do (docs/theory.md, section 2.3). Of the rules
+    /// for a turning spring one alone does, which the probe tells by a property of its own.
     pub fn moves_limit(self) -> bool {
         Self::ARMS.contains(&self)
     }

@@ -20,6 +20,7 @@ pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
         include_str!("../series/drop.rs"),
         include_str!("../series/estimate.rs"),
         include_str!("../series/mechanics.rs"),
+        include_str!("../series/oscillator.rs"),
         include_str!("../series/pair_contact.rs"),
         include_str!("../series/polynomial.rs"),
         include_str!("../series/reported.rs"),

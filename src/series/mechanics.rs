@@ -8,11 +8,12 @@
 use super::differences::{COORDINATE, FiveRows, Rates};
 use super::digits::Rounding;
 use super::estimate::sticking_rows;
+use super::oscillator::Oscillator;
 use super::pair_contact::PairContact;
 use super::reported::{of_pair, reports};
 use super::sample::Sample;
 use super::samples::Series;
-use crate::model::{Case, ContactLaw, Preparation, Schedule, Stack as Groups};
+use crate::model::{Case, ContactLaw, Power, Preparation, Schedule, Stack as Groups};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -85,8 +86,25 @@ pub struct Mechanics(pub BTreeMap<Law, Deviation>);
 impl Mechanics {
     /// Holds `series` to every law up to the row at which the floor begins to slide.
     pub fn read(series: &Series, case: &Case) -> Self {
+        Self::of_stack(&Stack::of(case, series.samples()), series)
+    }
+
+    /// The same of a series whose beginning nobody knows: when the wall touched, where it was, and how the stack came to
+    /// rest. So the wall force is not held to an overlap, and rows alone say how far floor and wall may be out of
+    /// balance.
+    pub(crate) fn read_without_beginning(series: &Series, case: &Case) -> Self {
+        let stack = Stack {
+            oscillator: None,
+            ..Stack::of(case, series.samples())
+        };
+        let mut mechanics = Self::of_stack(&stack, series);
+        mechanics.0.remove(&Law::WallOverlap);
+        mechanics
+    }
+
+    fn of_stack(stack: &Stack<'_>, series: &Series) -> Self {
+        let case = stack.case;
         let samples = sticking_rows(series.samples(), &case.stack);
-        let stack = Stack::of(case, series.samples());
         let mut worst: BTreeMap<Law, (f64, Sides)> = BTreeMap::new();
         for row in 1..samples.len() {
             for (law, sides) in stack.sides(samples, row) {
@@ -144,6 +162,12 @@ fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
+/// Phase between two rows up to which five of them show an oscillation: three rows in a period.
+const SHOWN_PHASE: f64 = 2.0 * PI / 3.0;
+
+/// Steps after which the wall has touched even where it begins to move a step late and forces belong to the step before.
+const LATE_TOUCH: u64 = 2;
+
 /// The positions and angles that a series holds.
 #[derive(Debug, Clone, Copy)]
 struct Reported {
@@ -190,6 +214,12 @@ struct Stack<'a> {
     schedule: Schedule,
     rounding: Rounding,
     reported: Reported,
+    /// The sum of the heights, where it is an oscillator; as long as every wall presses.
+    oscillator: Option<Oscillator>,
+    /// Step of the first row in which floor or wall has let go of a body.
+    lets_go: u64,
+    /// Time by which the wall has surely touched.
+    touched: f64,
     /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
     is_smooth: bool,
 }
@@ -197,16 +227,23 @@ struct Stack<'a> {
 impl<'a> Stack<'a> {
     fn of(case: &'a Case, samples: &[Sample]) -> Self {
         let (convention, ratio) = (&case.convention, case.stack.stiffness_ratio);
+        let (law, wall_law) = (convention.law(ratio), convention.wall_law(ratio));
+        let schedule = case.protocol.schedule();
+        let mut later = samples.iter().skip(1);
+        let touching = later.find(|sample| sample.wall_force > 0.0);
         Self {
             case,
-            law: convention.law(ratio),
-            wall_law: convention.wall_law(ratio),
+            law,
+            wall_law,
+            oscillator: Oscillator::of(case, [&law, &wall_law], &schedule),
+            lets_go: lets_go(samples, &case.stack),
+            touched: touching.map_or(0.0, |sample| sample.time),
             start: samples
                 .first()
                 .map_or(0.0, |first| first.top(&case.stack)[1]),
             frequency: case.stack.highest_frequency(convention),
             softness: case.stack.time_scale(convention).powi(2),
-            schedule: case.protocol.schedule(),
+            schedule,
             rounding: Rounding::read(samples),
             reported: Reported::of(samples, &case.stack),
             is_smooth: matches!(case.protocol.preparation, Preparation::GravityRamp { .. }),
@@ -274,20 +311,77 @@ impl<'a> Stack<'a> {
                 + rates.len() as f64 * five.rounding() * (self.frequency + five.interval().recip()))
     }
 
-    /// The largest force by which the floor and the wall are out of balance in `five` rows.
+    /// The largest force by which the floor and the wall are out of balance in `five` rows, and may be between them.
     fn ringing(&self, five: FiveRows<'_>) -> f64 {
         let unbalanced = five.rows.iter().map(|sample| self.unbalanced(sample).abs());
-        unbalanced.fold(0.0, f64::max)
+        unbalanced.fold(self.unseen(five), f64::max)
     }
 
     fn unbalanced(&self, sample: &Sample) -> f64 {
         sample.borne(&self.case.stack) - self.case.stack.floor_force(sample.wall_force)
     }
 
-    /// What is out of balance accelerates the cylinders: an oscillation of frequency ω that bends by b between rows at a
-    /// distance h has the acceleration ω² b/(4 sin² (ωh/2)), where rows resolve it at most (π²/4) b/h². A wall that
-    /// touches suddenly gives the cylinders at most its own speed.
+    /// The largest force by which floor and wall are out of balance while bodies move as fast as a sudden touch of the wall
+    /// lets them, each with an oscillation of the highest frequency.
+    fn of_sudden_touch(&self) -> f64 {
+        self.case.stack.own_weight() * self.frequency * self.case.protocol.fast_speed()
+    }
+
+    /// The oscillator as of `sample`, if every wall has pressed until then.
+    fn oscillator_at(&self, sample: &Sample) -> Option<&Oscillator> {
+        self.oscillator
+            .as_ref()
+            .filter(|_| sample.step < self.lets_go)
+    }
+
+    /// The largest force by which floor and wall, or a body, may be out of balance without any row of `five` showing it. With
+    /// linear springs rows that show the frequency √w of floor and wall are taken to show all. Elsewhere rows show those
+    /// motions with three of them in a period; the faster ones have decayed since the wall touched, or had its last speed,
+    /// and with linear springs every motion has.
+    fn unseen(&self, five: FiveRows<'_>) -> f64 {
+        let first = &five.rows[0];
+        let shown = SHOWN_PHASE / five.interval();
+        let is_linear = self.wall_law.power == Power::Linear;
+        if is_linear && self.wall_law.normal_stiffness.sqrt() <= shown {
+            return 0.0;
+        }
+        let changing = self.schedule.fast_steps + self.schedule.slowing_steps;
+        let constant = changing as f64 * self.case.protocol.time_step;
+        let age = first.time - self.touched.max(constant);
+        let rate = match &self.oscillator {
+            Some(oscillator) => oscillator.slowest_decay(),
+            None => self.slowest_decay(first, shown),
+        };
+        self.of_sudden_touch() * libm::exp(-rate * age.max(0.0))
+    }
+
+    /// The rate at which every motion decays that is faster than `shown` and than a single contact: a motion of frequency ω
+    /// that dashpots η beside springs k damp decays at ω² η/(2k). Contacts become stiffer from rest on, and none bears
+    /// more than the whole floor.
+    fn slowest_decay(&self, sample: &Sample, shown: f64) -> f64 {
+        let stack = &self.case.stack;
+        let at_rest = stack.epsilon() / f64::from(stack.bodies);
+        let bears = sample.borne(stack).max(at_rest);
+        let rates = [&self.law, &self.wall_law].map(|law| {
+            let lag = |force: f64| {
+                let overlap = law.overlap(force);
+                let own = law.at(overlap);
+                let normal = own.damping_normal / law.stiffness(overlap);
+                normal.min(own.damping_tangential / own.tangential_stiffness)
+            };
+            let own = lag(at_rest) * law.stiffness(law.overlap(at_rest));
+            0.5 * own.min(lag(bears) * shown * shown)
+        });
+        rates[0].min(rates[1])
+    }
+
+    /// What is out of balance accelerates the cylinders. Where the sum of their heights is an oscillator whose beginning is
+    /// known, that is bounded by what it has been excited with. Elsewhere rows tell: an oscillation of frequency ω that
+    /// bends by b between rows at a distance h has the acceleration ω² b/(4 sin² (ωh/2)), less than (π²/4) b/h² where there
+    /// are three of them in a period, and rows that are further apart show only what is slower. Damping adds to ω²
+    /// what it takes from the frequency.
     fn vertical(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
+        let own_weight = self.case.stack.own_weight();
         let bodies = usize::from(self.case.stack.bodies) + 1;
         let height = |sample: &Sample| -> f64 {
             let bodies = sample.bodies[..bodies].iter();
@@ -296,24 +390,24 @@ impl<'a> Stack<'a> {
         let bend = |three: &[Sample]| {
             (height(&three[0]) - 2.0 * height(&three[1]) + height(&three[2])).abs()
         };
-        let inertia = match five {
-            Some(five) => {
-                let resolved = 0.25 * PI * PI / five.interval().powi(2);
-                let square = resolved.max(0.25 * self.frequency * self.frequency);
-                square
-                    * five
-                        .rows
-                        .windows(3)
-                        .map(bend)
-                        .fold(4.0 * five.rounding(), f64::max)
+        let inertia = match (self.oscillator_at(sample), five) {
+            (Some(oscillator), _) => oscillator.bound(sample.time),
+            (None, Some(five)) => {
+                let bends = five.rows.windows(3).map(bend);
+                let most = bends.fold(4.0 * five.rounding(), f64::max);
+                let logarithm = libm::log(self.case.convention.restitution);
+                let damped = 1.0 + (logarithm / PI).powi(2);
+                let shown = 0.25 * damped * (PI / five.interval()).powi(2) * most;
+                shown + self.unseen(five)
             }
-            None => self.case.stack.own_weight() * self.frequency * self.case.protocol.fast_speed(),
+            (None, None) => self.of_sudden_touch(),
         };
+        let rounded = 2.0 * COORDINATE * self.wall_law.normal_stiffness.max(1.0);
         Sides {
             step: sample.step,
             found: sample.borne(&self.case.stack),
             expected: self.case.stack.floor_force(sample.wall_force),
-            bound: inertia + 6.0 * COORDINATE + 3.0 * self.rounding.force,
+            bound: inertia + own_weight * (rounded + self.rounding.force),
         }
     }
 
@@ -465,4 +559,15 @@ impl<'a> Stack<'a> {
             .iter()
             .all(|sample| is_open(sample) == is_open(&five.rows[0]))
     }
+}
+
+/// Step of the first row in which the floor or the wall has let go of a body after the wall has surely touched.
+fn lets_go(samples: &[Sample], stack: &Groups) -> u64 {
+    let touches = |sample: &&Sample| sample.step > LATE_TOUCH;
+    let mut later = samples.iter().filter(touches);
+    let open = later.find(|sample| {
+        let mut floor = sample.floor_contacts(stack);
+        sample.wall_force <= 0.0 || floor.any(|contact| contact.normal <= 0.0)
+    });
+    open.map_or(u64::MAX, |sample| sample.step)
 }

@@ -9,6 +9,7 @@ mod frame;
 mod header;
 mod mechanics;
 mod motion;
+mod oscillator;
 mod pair_contact;
 mod polynomial;
 mod pyramid_run;

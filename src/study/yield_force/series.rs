@@ -10,7 +10,7 @@ use crate::model::{
     Arms, Case, ContactConvention, ContactLaw, Preparation, Protocol, Sampling, Stack,
 };
 use crate::runs::RunSummary;
-use crate::series::{Law, Sample, Series};
+use crate::series::{Mechanics, Sample, Series};
 use crate::study::{Grounds, Study};
 use crate::theory::limit_uncertainty;
 
@@ -134,8 +134,7 @@ fn measurement(
     })
 }
 
-/// What `input` shows. Where the wall was when it began to move is not known, so that its force is not held to its
-/// overlap.
+/// What `input` shows. How it began is not known.
 fn summary(
     stack: &Stack,
     convention: ContactConvention,
@@ -157,9 +156,7 @@ fn summary(
         series: input.series.clone(),
         provenance: Provenance::now(identity, String::new(), Vec::new(), steps, 0.0),
     });
-    if let Some(mechanics) = &mut summary.mechanics {
-        mechanics.0.remove(&Law::WallOverlap);
-    }
+    summary.mechanics = Some(Mechanics::read_without_beginning(&input.series, &case));
     summary
 }
 

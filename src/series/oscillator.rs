@@ -162,12 +162,14 @@ impl Oscillator {
         of_force * factor * left * self.decayed(time)
     }
 
-    /// The height of each body rounds in every step, and the oscillator remembers that for a time 2/η, or since the
-    /// beginning.
+    /// Heights and the wall round in every step. While a speed hardly changes they round alike, which is another speed, of up
+    /// to a rounding in a step, and changes suddenly as the speed crosses a digit. Otherwise roundings are random, and the
+    /// oscillator remembers them for a time 2/η, or since the beginning.
     fn rounding(&self, time: f64) -> f64 {
         let run = self.rises[0] + self.rises[1] + time;
         let remembered = (2.0 / self.damping).min(run) / self.time_step;
-        self.frequency() * self.of_speed * COORDINATE * remembered.max(1.0).sqrt()
+        let at_random = self.frequency() * remembered.max(1.0).sqrt();
+        self.of_speed * COORDINATE * (at_random + self.time_step.recip())
     }
 }
 

@@ -16,7 +16,7 @@ const RESTITUTION: f64 = 0.7;
 fn case(interval: f64) -> Case {
     Case {
         stack: Stack::paper(0.3, 1e3),
-        convention: ContactConvention::PAPER,
+        convention: ContactConvention::TURNING,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 400.0,
@@ -54,17 +54,18 @@ fn rows_at_any_distance_accuse_nobody_who_is_honest() {
     let hertz = ContactConvention::with_law(ContactLaw::HERTZ);
     let elastic = ContactConvention {
         restitution: 1.0,
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     let of_walls = |floor_ratio| ContactConvention {
         law: ContactLaw {
             floor_ratio,
             ..ContactLaw::LINEAR
         },
-        ..ContactConvention::PAPER
+        ..ContactConvention::TURNING
     };
     let conventions = [
-        ("linear", ContactConvention::PAPER),
+        ("linear", ContactConvention::TURNING),
+        ("fixed spring", ContactConvention::PAPER),
         ("elastic", elastic),
         ("hertz", hertz),
         ("soft walls", of_walls(0.2)),
@@ -182,7 +183,8 @@ fn a_force_that_is_wrong_by_three_times_the_envelope_is_noticed() {
         for wrong in 1..rows.min(1 + (120.0 / interval) as usize) {
             let mut samples: Vec<Sample> = honest.samples().to_vec();
             let row = &mut samples[wrong];
-            let envelope = 1.0064 * WALL_SPEED * (-0.5 * damping() * row.time).exp();
+            let frequency = (1.0 - 0.25 * damping() * damping()).sqrt();
+            let envelope = WALL_SPEED / frequency * (-0.5 * damping() * row.time).exp();
             row.floor[1][1] += 1.5 * envelope;
             row.floor[2][1] += 1.5 * envelope;
             let step = row.step;

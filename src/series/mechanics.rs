@@ -218,7 +218,7 @@ struct Stack<'a> {
     oscillator: Option<Oscillator>,
     /// Step of the first row in which floor or wall has let go of a body.
     lets_go: u64,
-    /// Time by which the wall has surely touched.
+    /// Time by which the wall has surely touched, as rows tell.
     touched: f64,
     /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
     is_smooth: bool,
@@ -347,11 +347,11 @@ impl<'a> Stack<'a> {
         }
         let changing = self.schedule.fast_steps + self.schedule.slowing_steps;
         let constant = changing as f64 * self.case.protocol.time_step;
-        let age = first.time - self.touched.max(constant);
-        let rate = match &self.oscillator {
-            Some(oscillator) => oscillator.slowest_decay(),
-            None => self.slowest_decay(first, shown),
+        let (rate, touched) = match &self.oscillator {
+            Some(oscillator) => (oscillator.slowest_decay(), oscillator.touched()),
+            None => (self.slowest_decay(first, shown), self.touched),
         };
+        let age = first.time - touched.max(constant);
         self.of_sudden_touch() * libm::exp(-rate * age.max(0.0))
     }
 

@@ -109,6 +109,11 @@ impl Oscillator {
         self.stiffness.sqrt()
     }
 
+    /// Time by which the wall has surely touched.
+    pub(super) fn touched(&self) -> f64 {
+        LATE_STEPS * self.time_step
+    }
+
     /// Bound from below of the rate at which any motion of the stack decays. The wall adds a spring and makes none slower.
     pub(super) fn slowest_decay(&self) -> f64 {
         self.standing.decay

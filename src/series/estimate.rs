@@ -36,7 +36,8 @@ pub struct YieldEstimates {
     /// The first row between slip and peak in which a floor contact does not slide: there is no onset then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub departure: Option<Departure>,
-    /// Largest |b|/a that the contacts of cylinder 1 surely carry, in steps of 1e-9: so much friction they have.
+    /// Largest |q|/a, tangential over normal force, that the contacts of cylinder 1 surely carry, in steps of 1e-9: so much
+    /// friction they have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_friction: Option<f64>,
     /// The digits with which the code has printed the forces; absent if it has printed all of them.
@@ -257,7 +258,7 @@ impl<'a> Sliding<'a> {
 /// A kink in the motion spoils the differences in five rows; so many in a row contain one without it.
 const ROWS_BEYOND_A_KINK: usize = 6;
 
-/// Largest ratio b/a that is surely carried in some successive rows from `beyond` on, while the top wall presses and
+/// Largest ratio |q|/a that is surely carried in some successive rows from `beyond` on, while the top wall presses and
 /// cylinder 2 stands on the floor.
 fn pair_friction(
     samples: &[Sample],

@@ -1,7 +1,8 @@
 //! The contact of cylinders 1 and 2, whose forces no code reports: from positions and the torque of the floor.
 
 use super::differences::{FiveRows, Rates};
-use crate::model::{Case, ContactLaw, CoulombOperand};
+use super::sample::Sample;
+use crate::model::{Case, ContactLaw, CoulombOperand, Stack};
 
 /// Safety factor of an error that is the distance of two orders (ASME V&V 20, section 2-4.1).
 const TWO_ORDERS: f64 = 3.0;
@@ -20,9 +21,11 @@ pub(super) struct PairContact {
     pub(super) shear: f64,
     /// Error of the accelerations behind the balances of its forces.
     pub(super) acceleration_error: f64,
+    /// |q|, the whole tangential force: b, and what a spring that nothing turns has along the normal.
+    whole: f64,
     /// Damping on top of the limit, as a part of a.
     on_top: f64,
-    /// Error of |b|/a by differences.
+    /// Error of |q|/a by differences.
     ratio_error: f64,
 }
 
@@ -40,10 +43,7 @@ impl PairContact {
             five.rates(|row| row.first(stack).height),
         );
         let turn = five.rates(|row| row.first(stack).turn);
-        let (across, down) = (
-            sample.outwards - five.rows[2].top_outwards(stack),
-            five.rows[2].top(stack)[1] - sample.height,
-        );
+        let [across, down] = from_top(&five.rows[2], stack);
         let distance = libm::hypot(across, down);
         let [sine, cosine] = [across / distance, down / distance];
         let (apart, sinking) = (x2.velocity - x1.velocity, y1.velocity - y2.velocity);
@@ -75,20 +75,56 @@ impl PairContact {
         let normal_error =
             own.damping_normal * velocity_errors + 4.0 * law.stiffness(overlap) * five.unit();
         let accelerations = [x2, y1, y2, turn].map(|rates| rates.acceleration_error);
+        let acceleration_error: f64 = accelerations.iter().sum();
+        let (whole, ratio_error) = if convention.history_update.turns() {
+            let ratio = (shear / normal).abs();
+            (shear.abs(), (shear_error + ratio * normal_error) / normal)
+        } else {
+            // The top cylinder is borne by what acts along the normals and along the tangents: what is more along the
+            // normal than a is q's.
+            let pressing = five.rows[2].wall_force + stack.epsilon() + y1.acceleration;
+            let along = (pressing / f64::from(stack.bodies) - sine * shear) / cosine;
+            let along_error =
+                (acceleration_error + sine * shear_error + 4.0 * five.unit()) / cosine;
+            let lift = along - normal;
+            let whole = libm::hypot(shear, lift);
+            let overlaps = five.rates(|row| pair_overlap(row, stack));
+            let normal_error = own.damping_normal * known_to(overlaps)
+                + 4.0 * law.stiffness(overlap) * five.unit();
+            let errors = (shear * shear_error).abs() + (lift * along_error).abs();
+            // With an error of a, lift and ratio err together.
+            let both = (whole / normal + lift / whole).abs();
+            (whole, (errors / whole + both * normal_error) / normal)
+        };
         Self {
             rates: [x2, y1, y2],
-            acceleration_error: accelerations.iter().sum(),
+            acceleration_error,
             direction: [sine, cosine],
             normal,
             damping: own.damping_normal,
             shear,
+            whole,
             on_top: on_top / normal,
-            ratio_error: (shear_error + (shear / normal).abs() * normal_error) / normal,
+            ratio_error,
         }
     }
 
-    /// |b|/a, less its largest error: so much friction there is between the cylinders.
+    /// |q|/a, less its largest error: so much friction there is between the cylinders.
     pub(super) fn carried_ratio(&self) -> f64 {
-        (self.shear / self.normal).abs() - TWO_ORDERS * self.ratio_error - self.on_top
+        self.whole / self.normal - TWO_ORDERS * self.ratio_error - self.on_top
     }
+}
+
+/// How far cylinder 2 is to the right of cylinder 1, and how far below it.
+fn from_top(row: &Sample, stack: &Stack) -> [f64; 2] {
+    let sample = row.first(stack);
+    [
+        sample.outwards - row.top_outwards(stack),
+        row.top(stack)[1] - sample.height,
+    ]
+}
+
+fn pair_overlap(row: &Sample, stack: &Stack) -> f64 {
+    let [across, down] = from_top(row, stack);
+    2.0 - libm::hypot(across, down)
 }

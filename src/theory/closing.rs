@@ -101,7 +101,7 @@ impl SlidingStack<'_> {
 /// Why the force has no peak although the floor slides.
 fn explanation(event: Event) -> String {
     let what = match event {
-        Event::CylinderSlip => "the cylinders slip on each other (b = mu_d a)",
+        Event::CylinderSlip => "the cylinders slip on each other (|q| = mu_d a)",
         Event::WallContact => "the top wall reaches the bottom cylinders",
         _ => "the sliding branch ends",
     };

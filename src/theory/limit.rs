@@ -36,9 +36,11 @@ pub struct Limit {
     pub peak_travel: Option<f64>,
     /// z at the peak.
     pub peak_z: Option<f64>,
-    /// b/a where the floor slips: so much friction the cylinders need, but for what a spring that nothing turns has along the
-    /// normal.
+    /// b/a where the floor slips, of the tangential force along the tangent.
     pub pair_ratio: Option<f64>,
+    /// The friction that the cylinders need until the floor slips: b/a, or |q|/a with the whole force of a spring that
+    /// nothing turns.
+    pub pair_friction: Option<f64>,
     /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand
     /// without sliding.
     pub rest: Option<[f64; 3]>,
@@ -103,6 +105,7 @@ impl Limit {
             peak_travel: wall_travel.filter(|_| yields),
             peak_z: z.filter(|_| yields),
             pair_ratio: point.map(|point| point.pair_ratio),
+            pair_friction: point.map(|point| point.pair_friction),
             rest: (settled.is_finite() && !own_weight)
                 .then(|| path.point(settled).positions(&ring)),
             time_scale: 1.0,
@@ -143,7 +146,7 @@ fn explanation(event: Event, own_weight: bool) -> String {
         Event::FloorSlip if own_weight => "the stack slides on the floor under its own weight",
         Event::FloorSlip => "the floor slips",
         Event::CylinderSlip => {
-            "the cylinders slip on each other before the floor does (b = mu_d a)"
+            "the cylinders slip on each other before the floor does (|q| = mu_d a)"
         }
         Event::ContactCloses => {
             "the bottom cylinders touch before the floor slips, so that c = 0 does not hold"

@@ -92,7 +92,7 @@ impl Honest {
 
     fn run(&self, case: &Case, lie: &Lie) -> Run {
         let limit = &self.measurement.limit;
-        let computed = lie.computed(case, limit.pair_ratio.expect("it yields"));
+        let computed = lie.computed(case, limit.pair_friction.expect("it yields"));
         let law = SpringDashpot::like(0.0, &computed.convention, computed.stack.stiffness_ratio);
         let model = LyingLaw {
             law,

@@ -118,10 +118,10 @@ impl Lie {
     }
 
     /// The case that the engine computes in place of `case`.
-    pub fn computed(&self, case: &Case, pair_ratio: f64) -> Case {
+    pub fn computed(&self, case: &Case, pair_friction: f64) -> Case {
         let mut altered = *case;
         let factor = 1.0 + self.size;
-        self.alter(&mut altered.stack, &mut altered.convention, pair_ratio);
+        self.alter(&mut altered.stack, &mut altered.convention, pair_friction);
         if self.kind == Kind::WallSpeed {
             let protocol = &mut altered.protocol;
             protocol.wall_speed *= factor;
@@ -131,11 +131,11 @@ impl Lie {
         altered
     }
 
-    fn alter(&self, stack: &mut Stack, convention: &mut ContactConvention, pair_ratio: f64) {
+    fn alter(&self, stack: &mut Stack, convention: &mut ContactConvention, pair_friction: f64) {
         let factor = 1.0 + self.size;
         match self.kind {
             Kind::FloorFriction => stack.floor_friction *= factor,
-            Kind::CylinderFriction => stack.cylinder_friction = pair_ratio * factor,
+            Kind::CylinderFriction => stack.cylinder_friction = pair_friction * factor,
             Kind::TangentialStiffness => stack.stiffness_ratio /= factor,
             Kind::Gravity => stack.stiffness /= factor,
             Kind::PairTorqueArm => convention.arms.pair.torque += self.size,
@@ -152,9 +152,9 @@ impl Lie {
     pub fn moves_yield_force_by(&self, measurement: &Measurement) -> f64 {
         let limit = &measurement.limit;
         let force = limit.yield_force.expect("it yields");
-        let pair_ratio = limit.pair_ratio.expect("it yields");
+        let pair_friction = limit.pair_friction.expect("it yields");
         let (mut stack, mut convention) = (measurement.stack, measurement.convention);
-        self.alter(&mut stack, &mut convention, pair_ratio);
+        self.alter(&mut stack, &mut convention, pair_friction);
         let mut unit = 1.0;
         match self.kind {
             Kind::FrictionUntilThePeak | Kind::StaticFriction => {
@@ -165,7 +165,7 @@ impl Lie {
                 stack.stiffness_ratio *= 1.0 + self.size;
             }
             Kind::Gravity => unit = 1.0 + self.size,
-            Kind::CylinderFriction => return self.pair_slip(measurement, pair_ratio),
+            Kind::CylinderFriction => return self.pair_slip(measurement, pair_friction),
             Kind::WallForce => return (self.size * force / (force + 3.0)).abs(),
             Kind::WallForceOffset => return self.size.abs(),
             _ => {}
@@ -178,11 +178,11 @@ impl Lie {
 
     /// The force at which the cylinders slip before the floor does, which is that at which the floor would slip with
     /// less friction: the path of equilibria depends on neither friction.
-    fn pair_slip(&self, measurement: &Measurement, pair_ratio: f64) -> f64 {
+    fn pair_slip(&self, measurement: &Measurement, pair_friction: f64) -> f64 {
         if self.size >= 0.0 {
             return 0.0;
         }
-        let wanted = pair_ratio * (1.0 + self.size);
+        let wanted = pair_friction * (1.0 + self.size);
         let at = |factor: f64| {
             let stack = Stack {
                 floor_friction: measurement.stack.floor_friction * factor,
@@ -193,7 +193,7 @@ impl Lie {
         let (mut low, mut high) = (0.3, 1.0);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            match at(middle).pair_ratio {
+            match at(middle).pair_friction {
                 Some(ratio) if ratio > wanted => high = middle,
                 _ => low = middle,
             }

@@ -110,7 +110,7 @@ fn what_agreed_once_agrees_no_more() {
     };
     let gravity_twice = Lie::of(Kind::Gravity, 1.0);
     let soft = at(0.3, 1e2);
-    let needed = soft.measurement.limit.pair_ratio.expect("it yields");
+    let needed = soft.measurement.limit.pair_friction.expect("it yields");
     for (honest, lie) in [
         (
             &soft,

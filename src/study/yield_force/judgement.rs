@@ -253,14 +253,14 @@ impl<'a> Reader<'a> {
     /// onset, equilibrium does not end, and the slip of the cylinders would bend the path before it.
     fn doubt_pair_friction(&mut self) {
         let limit = &self.measurement.limit;
-        let Some(needed) = limit.pair_ratio.filter(|_| !limit.rises_after_onset()) else {
+        let Some(needed) = limit.pair_friction.filter(|_| !limit.rises_after_onset()) else {
             return;
         };
         let carried = self.estimates.iter().filter_map(|run| run.pair_friction);
         let carried = carried.fold(0.0, f64::max);
         if carried <= needed {
             self.doubt(format!(
-                "the cylinders are not seen to carry more than b/a = {carried}, but {needed:.9} is needed until the floor \
+                "the cylinders are not seen to carry more than |q|/a = {carried}, but {needed:.9} is needed until the floor \
                  slips: they may slip on each other before"
             ));
         }

@@ -4,7 +4,9 @@ use insta::assert_snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use tristack::code::{Code, Failure, Interrupt};
-use tristack::model::{CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack::model::{
+    CRITICAL_FRICTION, ContactConvention, HistoryUpdate, PAPER_STIFFNESS_RATIO, Stack,
+};
 use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
 };
@@ -391,7 +393,7 @@ fn native_reproduction() -> Reproduction {
             .expect("a native run")
             .expect("no interrupt"),
         trajectories: Vec::new(),
-        maps: RegimeMap::standard(PAPER_STIFFNESS_RATIO),
+        maps: RegimeMap::standard(PAPER_STIFFNESS_RATIO, HistoryUpdate::Fixed),
         survey: Survey {
             confirmations: Vec::new(),
             examinations: Vec::new(),

@@ -44,7 +44,11 @@ fn what_people_read_is_as_wide_as_columns_says() {
         let whole = standard_output(&mut bench.tristack(line));
         let mut command = bench.tristack(line);
         let wide = standard_output(command.env("COLUMNS", "1000"));
-        assert_eq!(without_the_clock(&wide), without_the_clock(&whole), "{line}");
+        assert_eq!(
+            without_the_clock(&wide),
+            without_the_clock(&whole),
+            "{line}"
+        );
     }
 }
 

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tristack::code::Code;
 use tristack::dem::compress_stack;
-use tristack::model::{Case, sha256_hex};
+use tristack::model::{Case, ContactConvention, sha256_hex};
 use tristack::runs::read_entry;
-use tristack::study::yield_force::Profile;
+use tristack::study::yield_force::{Profile, plan};
 
 const GOLDEN: &str = "reference/golden/native_series.sha256";
 
@@ -38,9 +38,13 @@ fn golden() -> Digests {
         .collect()
 }
 
+/// The runs of the quick profile with the paper's springs, and those of its stacks with springs that turn.
 fn cases() -> Vec<Case> {
-    let measurements = Profile::Quick.measurements(&[Code::NATIVE]);
-    let cases = measurements.into_iter().flat_map(|one| one.cases);
+    let fixed = Profile::Quick.measurements(&[Code::NATIVE]);
+    let stacks = fixed.iter().map(|one| one.stack);
+    let turning = stacks.map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING));
+    let turning: Vec<_> = turning.collect();
+    let cases = fixed.into_iter().chain(turning).flat_map(|one| one.cases);
     cases.collect()
 }
 
@@ -71,6 +75,10 @@ fn one_stack_at_a_time_has_the_golden_bits() {
     assert_golden(&digests, "one at a time");
 }
 
+/// The stacks of the quick profile with springs that turn.
+const TURNING: &str = "sweep --code native --history-update rotated --mu 0.12,0.2,0.25,critical,0.3,0.4 \
+                       --stiffness 1e2,1e3,1e4";
+
 /// The digests of what is in the store of `bench`.
 fn stored(bench: &Bench) -> Digests {
     let root = bench.path("store/runs");
@@ -90,12 +98,15 @@ fn many_in_a_vector_have_the_golden_bits_on_one_core_and_on_two_in_every_build()
     for program in programs() {
         for jobs in [1, 2] {
             let bench = Bench::without_codes();
-            let line = format!("crosscheck --codes native --format csv --jobs {jobs}");
-            let output = bench.process_of(&program, &line).output().expect("it runs");
             let how = format!("{} on {jobs} cores", program.display());
-            assert_eq!(output.status.code(), Some(0), "{how}");
+            let both = ["crosscheck --codes native", TURNING].map(|line| {
+                let line = format!("{line} --format csv --jobs {jobs}");
+                let output = bench.process_of(&program, &line).output().expect("it runs");
+                assert_eq!(output.status.code(), Some(0), "{line}: {how}");
+                output.stdout
+            });
             assert_golden(&stored(&bench), &how);
-            tables.push(output.stdout);
+            tables.push(both);
         }
     }
     assert!(tables.iter().all(|table| *table == tables[0]));

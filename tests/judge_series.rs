@@ -130,8 +130,9 @@ fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
 /// The same number as a crosscheck gives, which knows the speeds from its plan.
 #[test]
 fn the_force_is_that_of_a_crosscheck() {
-    let (bench, speeds) = bench_with(ContactConvention::TURNING);
-    let (_, tables, _) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
+    let (bench, speeds) = bench_with(ContactConvention::PAPER);
+    let options = format!("{STACK} {FURTHER} --history-update fixed");
+    let (_, tables, _) = judged(&bench, &format!("{THREE} {speeds} {options}"));
     let line = format!("crosscheck --codes native {BARE} --format json");
     let output = bench.tristack(&line).output().expect("it runs").stdout;
     let live = &json(&String::from_utf8(output).expect("text"))["rows"][0];

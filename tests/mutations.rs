@@ -7,7 +7,7 @@ use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, Counterpart, compress_stack,
     compress_stack_with, run_contact_test, run_contact_test_with,
 };
-use tristack::model::{Arms, Case, ContactConvention, ContactTest, Pyramid, Stack};
+use tristack::model::{Arms, Case, ContactConvention, ContactTest, HistoryUpdate, Pyramid, Stack};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, PyramidRun, Series};
@@ -445,7 +445,11 @@ fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
         assert_not_judged(&campaign.carry_out(vec![preparation]));
         let impact = plan_impacts(native, convention).swap_remove(0);
         assert_not_judged(&campaign.carry_out(vec![impact]));
-        let survey = survey(&SurveyPlan::new(&[], &[stack]), &campaign).expect("a survey");
+        let survey = survey(
+            &SurveyPlan::new(&[], &[stack], HistoryUpdate::Rotated),
+            &campaign,
+        )
+        .expect("a survey");
         let verdicts: Vec<Verdict> = survey.verdicts().collect();
         assert_eq!(verdicts, [Verdict::Inconclusive]);
         assert!(

@@ -4,6 +4,7 @@ mod common;
 
 use common::{Bench, json_rows, standard_output};
 use proptest::prelude::*;
+use tristack::model::HistoryUpdate::{Fixed, Rotated};
 use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
 use tristack::theory::{Event, Limit, LoadingOutcome, bracketed_root, quasistatic_limit};
 
@@ -176,19 +177,22 @@ fn all_commands_give_one_answer() {
     };
     let number = |row: &serde_json::Value, key: &str| row[key].as_f64().expect("a number");
     let options = "--mu 0.3 --stiffness 1e2 --kappa 0.6";
-    let theory = row(&format!("theory {options}"));
-    let (onset, peak) = (
-        number(&theory, "quasistatic.slip_onset"),
-        number(&theory, "quasistatic.peak_force"),
-    );
+    let onset_and_peak = |theory: &serde_json::Value| {
+        let keys = ["quasistatic.slip_onset", "quasistatic.peak_force"];
+        keys.map(|key| number(theory, key))
+    };
+    let turning = row(&format!("theory {options} --history-update rotated"));
+    let [onset, peak] = onset_and_peak(&turning);
     assert!((onset - 12.972_667_35).abs() < 1e-8 && (peak - 47.605_934_92).abs() < 1e-8);
+    let theory = row(&format!("theory {options}"));
+    let [onset, peak] = onset_and_peak(&theory);
     assert_eq!(
         theory["quasistatic.yield_force"],
         theory["quasistatic.peak_force"]
     );
     assert_eq!(theory["quasistatic"], theory["quasistatic.peak_force"]);
-    assert!((number(&theory, "quasistatic.c") - 0.9956).abs() < 1e-4);
-    let outcome = LoadingOutcome::of(&stack(0.3, 1e2, 0.6)).unwrap();
+    assert!((number(&turning, "quasistatic.c") - 0.9956).abs() < 1e-4);
+    let outcome = LoadingOutcome::of(&stack(0.3, 1e2, 0.6), Fixed).unwrap();
     assert!((outcome.largest_force.unwrap() / peak - 1.0).abs() < 1e-12);
     for line in ["sweep --code native", "crosscheck --codes native"] {
         let row = row(&format!("{line} {options}"));
@@ -236,7 +240,7 @@ fn a_wall_that_arrives_while_the_floor_slides_leaves_an_onset_and_a_reason() {
             .unwrap()
             .contains("the top wall reaches the bottom cylinders")
     );
-    let outcome = LoadingOutcome::of(&stack(0.4, 1e2, 0.6)).unwrap();
+    let outcome = LoadingOutcome::of(&stack(0.4, 1e2, 0.6), Rotated).unwrap();
     assert_eq!(outcome.largest_force, None);
 }
 
@@ -287,7 +291,7 @@ proptest! {
     ) {
         let stack = Stack { cylinder_friction: mu_d, ..stack(mu, 10f64.powf(stiffness), kappa) };
         let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
-        let outcome = LoadingOutcome::of(&stack).unwrap();
+        let outcome = LoadingOutcome::of(&stack, Rotated).unwrap();
         let yields = outcome.last.event == Event::FloorSlip;
         match (outcome.largest_force.filter(|_| yields), limit.yield_force) {
             (Some(force), Some(peak)) => {

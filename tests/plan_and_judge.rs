@@ -122,7 +122,7 @@ fn results_of_a_plan_give_the_rows_of_a_live_crosscheck() {
     let version = env!("CARGO_PKG_VERSION");
     let (status, rows, message) = judge(&bench, &format!("--code-version {version} --format csv"));
     assert_eq!(status, Some(0), "{message}");
-    let line = format!("crosscheck --codes native {options} --format csv");
+    let line = format!("sweep --code native --history-update rotated {options} --format csv");
     let live = bench.tristack(&line).output().expect("it runs").stdout;
     let live = String::from_utf8(live).expect("text");
     let as_live = rows

@@ -1,5 +1,6 @@
 //! The regime map: known boundaries, and what the events do.
 
+use tristack::model::HistoryUpdate::{Fixed, Rotated};
 use tristack::model::{CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::theory::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Event,
@@ -11,11 +12,11 @@ use tristack::theory::{
 const THREE_DIGITS: f64 = 5e-4;
 
 fn boundaries(stack: &Stack) -> Vec<Boundary> {
-    Boundary::in_friction(&EquilibriumPath::new(stack), stack)
+    Boundary::in_friction(&EquilibriumPath::new(stack, Rotated), stack)
 }
 
 fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
-    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO).into_iter();
+    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO, Rotated).into_iter();
     maps.flat_map(|map| map.boundary_points(count, THREE_DIGITS))
         .collect()
 }
@@ -44,8 +45,9 @@ fn boundaries_are_where_they_are_known_to_be() {
 #[test]
 fn the_first_event_changes_exactly_at_a_boundary() {
     for point in boundary_points(5) {
-        let [below, above] = [1.0 - 1e-7, 1.0 + 1e-7]
-            .map(|factor| LoadingOutcome::of(&point.across.scale(&point.stack, factor)).unwrap());
+        let [below, above] = [1.0 - 1e-7, 1.0 + 1e-7].map(|factor| {
+            LoadingOutcome::of(&point.across.scale(&point.stack, factor), Rotated).unwrap()
+        });
         let [far_below, far_above] = point.sides;
         assert_eq!(below.regime(), far_below.regime(), "{:?}", point.stack);
         assert_eq!(above.regime(), far_above.regime(), "{:?}", point.stack);
@@ -57,7 +59,7 @@ fn the_first_event_changes_exactly_at_a_boundary() {
 fn a_yield_is_that_of_the_quasistatic_limit() {
     for (mu, stiffness) in [(0.1, 1e2), (0.2, 1e4), (0.3, 1e3), (0.5, 1e1 * 1e1)] {
         let stack = Stack::paper(mu, stiffness);
-        let outcome = LoadingOutcome::of(&stack).unwrap();
+        let outcome = LoadingOutcome::of(&stack, Rotated).unwrap();
         let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
         assert_eq!(outcome.first.event, limit.event);
         assert_eq!(outcome.failure_mode, FailureMode::Yields);
@@ -75,12 +77,12 @@ fn saturated_force_does_not_depend_on_the_floor() {
     };
     let expected = 200.0 * pair_overlap(0.4 - CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO) - 1.0;
     for mu in [0.4, 0.5, 0.9, 100.0] {
-        let outcome = LoadingOutcome::of(&slippery(mu)).unwrap();
+        let outcome = LoadingOutcome::of(&slippery(mu), Rotated).unwrap();
         assert_eq!(outcome.failure_mode, FailureMode::Saturates);
         assert!((outcome.largest_force.unwrap() / expected - 1.0).abs() < 1e-12);
     }
     assert!(
-        LoadingOutcome::of(&slippery(0.38))
+        LoadingOutcome::of(&slippery(0.38), Rotated)
             .unwrap()
             .largest_force
             .unwrap()
@@ -95,7 +97,7 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
             stiffness_ratio,
             ..Stack::paper(0.3, 1e2)
         };
-        LoadingOutcome::of(&stack).unwrap()
+        LoadingOutcome::of(&stack, Rotated).unwrap()
     };
     let forces = [0.2, 0.5, 0.9].map(|kappa| outcome(kappa).largest_force.unwrap());
     assert!(
@@ -117,10 +119,10 @@ fn force_of_a_stack_that_slips_with_its_fifth_contact_closed_does_not_depend_on_
 
 #[test]
 fn a_stack_without_friction_falls_and_one_with_much_of_it_has_no_peak() {
-    let falls = LoadingOutcome::of(&Stack::paper(0.05, 1e2)).unwrap();
+    let falls = LoadingOutcome::of(&Stack::paper(0.05, 1e2), Rotated).unwrap();
     assert_eq!(falls.failure_mode, FailureMode::Collapses);
     assert_eq!(falls.first.stage, LoadingPhase::OwnWeight);
-    let rough = LoadingOutcome::of(&Stack::paper(0.6, 1e2)).unwrap();
+    let rough = LoadingOutcome::of(&Stack::paper(0.6, 1e2), Rotated).unwrap();
     assert_eq!(rough.failure_mode, FailureMode::SecondLoadPath);
     assert_eq!([falls.largest_force, rough.largest_force], [None, None]);
 }
@@ -178,7 +180,7 @@ fn outcomes_are_those_that_the_dem_has_shown() {
         (0.08953, 0.7, 1e2, 0.3, "floor-slip under own weight", None),
     ];
     for (mu, mu_d, stiffness, kappa, regime, force) in table {
-        let outcome = LoadingOutcome::of(&stack(mu, mu_d, stiffness, kappa)).unwrap();
+        let outcome = LoadingOutcome::of(&stack(mu, mu_d, stiffness, kappa), Rotated).unwrap();
         assert_eq!(outcome.regime().to_string(), regime, "{mu} {kappa}");
         assert_eq!(
             outcome.largest_force.is_some(),
@@ -197,7 +199,7 @@ fn outcomes_are_those_that_the_dem_has_shown() {
 #[test]
 fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
     let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 10.0);
-    let outcome = LoadingOutcome::of(&stack(0.78, 1.0, 1e2, 10.0)).unwrap();
+    let outcome = LoadingOutcome::of(&stack(0.78, 1.0, 1e2, 10.0), Rotated).unwrap();
     assert_eq!(outcome.failure_mode, FailureMode::Softens);
     assert!(outcome.largest_force.unwrap() > outcome.end.unwrap().force * (1.0 + 1e-9));
     // The largest force of the path is 2 max G/epsilon - 1, where the right-hand side of its equation vanishes.
@@ -213,7 +215,7 @@ fn a_stack_that_passes_its_maximum_before_it_slips_softens() {
 #[test]
 fn of_two_contacts_that_are_too_smooth_the_one_that_lacks_more_slides() {
     let first = |mu, mu_d| {
-        let outcome = LoadingOutcome::of(&stack(mu, mu_d, 1e2, 2.5)).unwrap();
+        let outcome = LoadingOutcome::of(&stack(mu, mu_d, 1e2, 2.5), Rotated).unwrap();
         assert_eq!(outcome.failure_mode, FailureMode::Collapses);
         assert_eq!(outcome.first.wall_travel, 0.0);
         outcome.first.event
@@ -229,7 +231,7 @@ fn of_two_contacts_that_are_too_smooth_the_one_that_lacks_more_slides() {
 #[test]
 fn course_knows_its_state_at_rest_and_at_wall_contact() {
     let stack = stack(0.3, 0.7, 1e2, 2.5);
-    let path = EquilibriumPath::new(&stack);
+    let path = EquilibriumPath::new(&stack, Rotated);
     let overlap = |tangent: f64| pair_overlap(tangent - CRITICAL_FRICTION, 2.5);
     let outward = |tangent: f64| (2.0 - overlap(tangent)) * (2.0 * tangent.atan()).sin() - 1.0;
     let at_rest = |tangent: f64| 2.0 * overlap(tangent) - 0.01;
@@ -248,7 +250,7 @@ fn course_knows_its_state_at_rest_and_at_wall_contact() {
 #[test]
 fn a_path_without_wall_contact_has_no_state_there() {
     // So compliant that the springs never bear what the wall would need.
-    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 1e3));
+    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 1e3), Rotated);
     assert_eq!(path.wall_contact_pair_ratio(), None);
     assert_eq!(path.wall_contact_outward(), None);
 }
@@ -289,9 +291,9 @@ fn axes_reach_what_they_are_named_after() {
 
 #[test]
 fn a_map_spreads_its_values_over_the_scale_of_its_axis() {
-    let ratios = RegimeMap::standard(3.0).map(|map| map.base.stiffness_ratio);
+    let ratios = RegimeMap::standard(3.0, Rotated).map(|map| map.base.stiffness_ratio);
     assert_eq!(ratios, [3.0; 3]);
-    let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5);
+    let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5, Rotated);
     let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12);
     let all_close = |values: Vec<f64>, expected: &[f64]| {
         assert_eq!(values.len(), expected.len());
@@ -313,7 +315,7 @@ fn a_map_spreads_its_values_over_the_scale_of_its_axis() {
 
 #[test]
 fn boundaries_beside_the_map_are_left_out() {
-    let [map, ..] = RegimeMap::standard(2.5);
+    let [map, ..] = RegimeMap::standard(2.5, Rotated);
     let frictions = |range| {
         let narrow = RegimeMap {
             frictions: range,
@@ -333,9 +335,9 @@ fn boundaries_beside_the_map_are_left_out() {
 
 #[test]
 fn lines_are_where_their_conditions_hold() {
-    let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5);
+    let [over_stiffness, over_friction, over_ratio] = RegimeMap::standard(2.5, Rotated);
     assert_eq!(over_stiffness.lines(), []);
-    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 2.5));
+    let path = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 2.5), Rotated);
     let [
         Line::CylindersBearTheirWeight(weight),
         Line::WallArrivesAsCylindersSlip(wall),
@@ -352,7 +354,8 @@ fn lines_are_where_their_conditions_hold() {
     else {
         panic!("two lines: {:?}", over_ratio.lines());
     };
-    let at_wall = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, ratio)).wall_contact_pair_ratio();
+    let at_wall =
+        EquilibriumPath::new(&stack(0.3, 0.7, 1e2, ratio), Rotated).wall_contact_pair_ratio();
     assert!((at_wall.unwrap() - 0.7).abs() < 1e-10);
     let above = RegimeMap {
         range: (1.1, 2.0),
@@ -364,7 +367,7 @@ fn lines_are_where_their_conditions_hold() {
 /// To the three digits of the table of `tristack regimes`, where the native DEM has confirmed them.
 #[test]
 fn a_line_matters_from_the_friction_on_that_it_takes_to_get_there() {
-    let [_, over_friction, over_ratio] = RegimeMap::standard(2.5);
+    let [_, over_friction, over_ratio] = RegimeMap::standard(2.5, Rotated);
     let lowest = |map: &RegimeMap| -> Vec<f64> {
         let lines = map.lines().into_iter();
         lines.map(|line| map.lowest_friction_of(line)).collect()
@@ -413,7 +416,7 @@ fn neighbours_lie_on_both_sides_at_the_distance_asked_for() {
         assert!((above - (1.0 + THREE_DIGITS)).abs() < 1e-12);
         let sides = point
             .neighbours()
-            .map(|stack| LoadingOutcome::of(&stack).unwrap());
+            .map(|stack| LoadingOutcome::of(&stack, Rotated).unwrap());
         assert_eq!(point.sides, sides);
     }
 }
@@ -421,10 +424,10 @@ fn neighbours_lie_on_both_sides_at_the_distance_asked_for() {
 /// At the values found, contact 2-3 just opens (y = 0), or the released stack reaches the wall at T = mu_d.
 #[test]
 fn reopenings_are_where_the_fifth_contact_just_opens() {
-    let [_, over_friction, over_ratio] = RegimeMap::standard(2.5);
+    let [_, over_friction, over_ratio] = RegimeMap::standard(2.5, Rotated);
     let values = over_ratio.reopenings();
     assert_eq!(values.len(), 2, "{values:?}");
-    let path = |kappa| EquilibriumPath::new(&stack(0.3, 0.7, 1e2, kappa));
+    let path = |kappa| EquilibriumPath::new(&stack(0.3, 0.7, 1e2, kappa), Rotated);
     assert!(path(values[0]).settled_outward().abs() < 1e-12);
     assert!(path(values[1]).wall_contact_outward().unwrap().abs() < 1e-12);
     let [wall_tangent] = over_friction.reopenings()[..] else {
@@ -441,7 +444,7 @@ fn reopenings_are_where_the_fifth_contact_just_opens() {
 fn a_released_stack_ends_where_its_bottom_cylinders_part() {
     for (mu, mu_d) in [(0.3, 0.7), (0.6, 0.32)] {
         let stack = stack(mu, mu_d, 1e2, 0.3);
-        let outcome = LoadingOutcome::of(&stack).unwrap();
+        let outcome = LoadingOutcome::of(&stack, Rotated).unwrap();
         let end = outcome.end.unwrap();
         let overlap = 2.0 - (1.0 + end.tangent * end.tangent) / (2.0 * end.tangent);
         let angle = 2.0 * end.tangent.atan();
@@ -465,16 +468,67 @@ fn a_released_stack_ends_where_its_bottom_cylinders_part() {
 #[test]
 fn released_frictions_are_where_the_released_stack_stands_and_where_it_meets_wall_or_cylinder() {
     let stack = |mu, mu_d| stack(mu, mu_d, 1e2, 0.3);
-    let (lowest, highest) = released_frictions(&stack(0.3, 0.7)).unwrap();
+    let released = |stack: &Stack| released_frictions(&EquilibriumPath::new(stack, Rotated), stack);
+    let (lowest, highest) = released(&stack(0.3, 0.7)).unwrap();
     // The native DEM, on both sides of either: tests/snapshots, `tristack regimes`.
     assert!(lowest > 0.08953 && lowest < 0.08962, "{lowest}");
     assert!(highest > 0.3881 && highest < 0.3885, "{highest}");
-    let force = |mu| LoadingOutcome::of(&stack(mu, 0.7)).unwrap().largest_force;
+    let force = |mu| {
+        LoadingOutcome::of(&stack(mu, 0.7), Rotated)
+            .unwrap()
+            .largest_force
+    };
     assert!(force(lowest * (1.0 - 1e-9)).is_none());
     assert!(force(lowest * (1.0 + 1e-9)).unwrap() < 1e-6);
     assert!(force(highest * (1.0 - 1e-9)).is_some() && force(highest * (1.0 + 1e-9)).is_none());
     // T (F + 1) = mu (F + 3) with T = mu_d, where the cylinders slip before the wall arrives.
-    let (_, slips) = released_frictions(&stack(0.3, 0.32)).unwrap();
+    let (_, slips) = released(&stack(0.3, 0.32)).unwrap();
     assert!((slips * (54.5 + 3.0) - 0.32 * (54.5 + 1.0)).abs() < 1e-6);
-    assert_eq!(released_frictions(&stack(0.3, 0.2)), None);
+    assert_eq!(released(&stack(0.3, 0.2)), None);
+}
+
+/// With springs that nothing turns the branch is integrated, and so both frictions depend on κ.
+#[test]
+fn released_frictions_of_fixed_springs_are_where_the_followed_stack_stands_and_where_it_meets_the_wall()
+ {
+    let found = [0.3, 0.9].map(|ratio| {
+        let at = |mu: f64| stack(mu, 0.7, 1e2, ratio);
+        let path = EquilibriumPath::new(&at(0.3), Fixed);
+        let (lowest, highest) = released_frictions(&path, &at(0.3)).unwrap();
+        let force = |mu: f64| LoadingOutcome::on(&path, &at(mu)).unwrap().largest_force;
+        assert!(force(lowest * (1.0 - 1e-6)).is_none());
+        assert!(force(lowest * (1.0 + 1e-6)).unwrap() < 1e-3);
+        assert!(force(highest * (1.0 - 1e-6)).is_some());
+        assert!(force(highest * (1.0 + 1e-6)).is_none());
+        (lowest, highest)
+    });
+    let turning = EquilibriumPath::new(&stack(0.3, 0.7, 1e2, 0.3), Rotated);
+    let (lowest, highest) = released_frictions(&turning, &stack(0.3, 0.7, 1e2, 0.3)).unwrap();
+    for (low, high) in found {
+        println!("{low} {high}, with springs that turn {lowest} {highest}");
+        assert!((low / lowest - 1.0).abs() < 1e-6 && low != lowest);
+        assert!((high / highest - 1.0).abs() < 0.1 && high != highest);
+    }
+    assert_ne!(found[0], found[1]);
+}
+
+/// The limit of the crosscheck and the end in the regime map are computed along different ways through the program.
+#[test]
+fn fixed_springs_end_where_the_limit_says() {
+    for (mu, stiffness, ratio) in [
+        (0.2, 1e2, 2.5),
+        (0.4, 1e3, 2.5),
+        (0.3, 1e2, 0.6),
+        (0.12, 1e2, 0.3),
+    ] {
+        let stack = stack(mu, 0.7, stiffness, ratio);
+        let outcome = LoadingOutcome::of(&stack, Fixed).unwrap();
+        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+        assert_eq!(outcome.first.event, limit.event);
+        let difference = outcome.largest_force.unwrap() - limit.yield_force.unwrap();
+        assert!(difference.abs() < 1e-9 * (limit.yield_force.unwrap() + 3.0));
+    }
+    // Cylinders slip while the bottom ones touch: nobody follows that.
+    let outcome = LoadingOutcome::of(&stack(0.6, 0.32, 1e2, 0.3), Fixed).unwrap();
+    assert!(!outcome.is_end_known && outcome.end.is_none());
 }

@@ -5,7 +5,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 use tristack::code::{Code, Failure, Interrupt};
 use tristack::dem::{EventRun, Loading, Until};
-use tristack::model::{PAPER_STIFFNESS_RATIO, Stack};
+use tristack::model::HistoryUpdate::{Fixed, Rotated};
+use tristack::model::{HistoryUpdate, PAPER_STIFFNESS_RATIO, Stack};
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::study::regimes::{self, Survey, SurveyPlan, THREE_DIGITS, examined_stacks};
 use tristack::study::{Campaign, Verdict};
@@ -55,15 +56,15 @@ fn survey(plan: &SurveyPlan, settings: &Settings, journal: &Journal) -> Survey {
     try_survey(plan, settings, journal).expect("a whole survey")
 }
 
-/// The survey of `points` and `stacks` in a new store.
-fn surveyed(points: &[BoundaryPoint], stacks: &[Stack]) -> Survey {
+/// The survey of `points` and `stacks` under a rule in a new store.
+fn surveyed(points: &[BoundaryPoint], stacks: &[Stack], rule: HistoryUpdate) -> Survey {
     let store = tempfile::tempdir().expect("a directory");
-    let plan = SurveyPlan::new(points, stacks);
+    let plan = SurveyPlan::new(points, stacks, rule);
     survey(&plan, &settings(store.path()), &Journal::default())
 }
 
 fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
-    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO).into_iter();
+    let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO, Fixed).into_iter();
     maps.flat_map(|map| map.boundary_points(count, THREE_DIGITS))
         .collect()
 }
@@ -72,7 +73,7 @@ fn boundary_points(count: usize) -> Vec<BoundaryPoint> {
 fn val_the_dem_agrees_on_both_sides_of_every_boundary() {
     let points = boundary_points(3);
     assert!(points.len() > 25);
-    let survey = surveyed(&points, &[]);
+    let survey = surveyed(&points, &[], Fixed);
     assert_eq!(survey.confirmations.len(), points.len());
     for confirmation in survey.confirmations {
         assert_eq!(confirmation.verdict(), Verdict::Agrees, "{confirmation:?}");
@@ -90,7 +91,7 @@ fn val_the_dem_contradicts_a_boundary_that_is_wrong_by_two_in_a_thousand() {
         };
         point.stack = point.across.scale(&point.stack, factor);
     }
-    let survey = surveyed(&points, &[]);
+    let survey = surveyed(&points, &[], Fixed);
     assert_eq!(survey.confirmations.len(), points.len());
     for confirmation in survey.confirmations {
         assert_eq!(confirmation.verdict(), Verdict::Differs, "{confirmation:?}");
@@ -101,12 +102,13 @@ fn val_the_dem_contradicts_a_boundary_that_is_wrong_by_two_in_a_thousand() {
 /// remains is the force that one time step adds, less than 1e-6 of F + 3.
 #[test]
 fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
-    for (mu, stiffness_ratio) in [(0.3, 0.3), (0.25, 0.8)] {
+    let cases = [(0.3, 0.3, Rotated), (0.25, 0.8, Rotated), (0.3, 0.3, Fixed)];
+    for (mu, stiffness_ratio, history_update) in cases {
         let stack = Stack {
             stiffness_ratio,
             ..Stack::paper(mu, 1e2)
         };
-        let claimed = LoadingOutcome::of(&stack).unwrap().last;
+        let claimed = LoadingOutcome::of(&stack, history_update).unwrap().last;
         assert!(claimed.bottom_force > 0.0);
         let force = |speed: f64| {
             let loading = Loading {
@@ -117,6 +119,7 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
             };
             let run = EventRun {
                 stack,
+                history_update,
                 loading,
                 until: Until::LastEvent,
             };
@@ -137,11 +140,17 @@ fn val_the_dem_slips_where_the_path_with_a_closed_contact_says() {
 #[test]
 fn val_the_dem_bears_the_largest_forces() {
     // One of each kind: yield, saturated, contact 2-3 closed, wall contact, softened.
-    let stacks = [0, 2, 8, 15, 17].map(|index| examined_stacks()[index]);
-    let survey = surveyed(&[], &stacks);
-    assert_eq!(survey.examinations.len(), stacks.len());
-    for examination in survey.examinations {
-        assert_eq!(examination.verdict, Verdict::Agrees, "{examination:?}");
+    for rule in [Fixed, Rotated] {
+        let stacks = [0, 2, 8, 15, 17].map(|index| examined_stacks(rule)[index]);
+        let survey = surveyed(&[], &stacks, rule);
+        assert_eq!(survey.examinations.len(), stacks.len());
+        for examination in survey.examinations {
+            assert_eq!(
+                examination.verdict,
+                Verdict::Agrees,
+                "{rule:?}: {examination:?}"
+            );
+        }
     }
 }
 
@@ -150,7 +159,7 @@ fn small_plan() -> SurveyPlan {
     let mut points = boundary_points(2);
     points.truncate(2);
     points[0].stack = points[0].across.scale(&points[0].stack, 1.002);
-    SurveyPlan::new(&points, &[])
+    SurveyPlan::new(&points, &[], Fixed)
 }
 
 #[test]

@@ -63,7 +63,11 @@ pub(super) fn explain(
     accepted.map_err(as_flag)?;
     let codes = find_all(&[row.code]);
     settle(&codes, options)?;
-    let measurement = plan(row.code, &stack, row.code.convention_of_power(power));
+    let measurement = plan(
+        row.code,
+        &stack,
+        row.code.stack_convention(power, stack.bodies),
+    );
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

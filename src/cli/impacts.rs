@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     settle(&codes, &arguments.run)?;
     let mut studies: Vec<ImpactStudy> = Vec::new();
     for selected in &codes {
-        let convention = arguments.convention.of(selected.name)?;
+        let convention = arguments.convention.of_contacts(selected.name)?;
         studies.extend(plan_impacts(selected.name, convention));
     }
     if codes.iter().all(|selected| selected.name != Code::NATIVE) {

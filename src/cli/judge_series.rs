@@ -121,7 +121,7 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         Some(measured) => measured.convention,
         None => {
             arguments.convention.check_named_arms()?;
-            arguments.convention.of(Code::NATIVE)?
+            arguments.convention.of_contacts(Code::NATIVE)?
         }
     };
     let stack = arguments.stack.stack(convention.law.power)?;

@@ -1,12 +1,12 @@
 //! `tristack regimes`.
 
-use super::options::{Format, RunOptions, as_flag, number, whole};
+use super::options::{Format, RunOptions, as_flag, history_update, number, whole};
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, complain, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::{InvalidValue, PAPER_STIFFNESS_RATIO};
+use crate::model::{HistoryUpdate, InvalidValue, PAPER_STIFFNESS_RATIO};
 use crate::output::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, regimes_svg, survey_text,
 };
@@ -33,6 +33,9 @@ pub(super) struct Arguments {
     /// Stiffness ratio k_n/k_t in the maps over other parameters
     #[arg(long, value_name = "K", value_parser = number, default_value_t = PAPER_STIFFNESS_RATIO)]
     kappa: f64,
+    /// Change of the tangential spring when a contact turns
+    #[arg(long, value_parser = history_update(), value_name = "RULE", default_value = "fixed")]
+    history_update: HistoryUpdate,
     /// Number of points tested on each boundary
     #[arg(long, value_name = "N", default_value_t = 13, value_parser = whole::<usize>(POINTS))]
     points: usize,
@@ -55,7 +58,11 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let points: Vec<BoundaryPoint> = during("mapping the first events", || {
         maps.iter().flat_map(of_map).collect()
     });
-    let plan = SurveyPlan::new(&points, &examined_stacks());
+    let plan = SurveyPlan::new(
+        &points,
+        &examined_stacks(arguments.history_update),
+        arguments.history_update,
+    );
     let native = [SelectedCode::find(Code::NATIVE)];
     let survey = survey(&plan, &Campaign::new(&native, &settings, &Reporter::new()));
     let Some(survey) = survey else {
@@ -98,7 +105,7 @@ fn layout() -> Layout {
 }
 
 fn checked_maps(arguments: &Arguments) -> Result<[RegimeMap; 3], InvalidValue> {
-    let maps = RegimeMap::standard(arguments.kappa);
+    let maps = RegimeMap::standard(arguments.kappa, arguments.history_update);
     maps[0].base.validate().map_err(as_flag)?;
     if (arguments.kappa / CLOSING_STIFFNESS_RATIO - 1.0).abs() < THREE_DIGITS {
         let accepted = format!(

@@ -213,7 +213,8 @@ fn case(arguments: &Arguments) -> Result<Case, CliError> {
         code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
-    let convention = arguments.convention.of(arguments.code())?;
+    let bodies = arguments.stack.bodies();
+    let convention = arguments.convention.of(arguments.code(), bodies)?;
     let stack = arguments.stack.stack(convention.law.power)?;
     let convention = convention.of_bodies(&stack);
     let accepted = arguments
@@ -255,7 +256,7 @@ fn planned(
 /// The case of which a file says a part: the rest is as for a case of the command line.
 fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
     let own = &written.protocol;
-    let convention = written.convention.unwrap_or_else(|| code.convention());
+    let convention = written.convention.unwrap_or_else(|| of_files(code));
     let stack = written.stack.in_law(convention.law.power);
     stack.validate()?;
     let convention = convention.of_bodies(&stack);
@@ -274,11 +275,20 @@ fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
     })
 }
 
-/// A case file with every key and its default, and what each means.
+/// What a case file for `code` means that says nothing of the convention: springs turn in files, unless these say otherwise,
+/// whatever the command line means.
+fn of_files(code: Code) -> ContactConvention {
+    match code.accepts_any_convention() {
+        true => ContactConvention::default(),
+        false => code.convention(),
+    }
+}
+
+/// A case file with every key, and what each means: the paper's stack.
 fn example() -> Result<String, CliError> {
     let written = PartialCase {
         stack: Stack::paper(EXAMPLE_FRICTION, EXAMPLE_STIFFNESS).into(),
-        convention: None,
+        convention: Some(ContactConvention::PAPER),
         protocol: PartialProtocol::default(),
     };
     Ok(commented_case(&completed(&written, Code::NATIVE)?))

@@ -65,7 +65,9 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     settle_one(arguments.code, &arguments.run)?;
-    let convention = arguments.convention.of(arguments.code)?;
+    let convention = arguments
+        .convention
+        .of(arguments.code, arguments.stack.bodies())?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;

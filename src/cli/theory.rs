@@ -24,7 +24,9 @@ pub(super) struct Arguments {
 
 /// Prints the predictions for every combination of friction and stiffness.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let convention = arguments.convention.of(Code::NATIVE)?;
+    let convention = arguments
+        .convention
+        .of(Code::NATIVE, arguments.stack.bodies())?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
     let predictions: Vec<Predictions> = Predictions::of_each(&stacks, &convention)
         .take_while(|_| !INTERRUPT.requested())

@@ -164,14 +164,12 @@ impl Code {
         self.settled().convention
     }
 
-    /// Its convention with a law of this power: the usual one if the convention is part of the case, else its own.
-    pub(crate) fn convention_of_power(self, power: Power) -> ContactConvention {
+    /// Its convention for stacks of so many bodies with a law of this power: the usual one if the convention is part of the
+    /// case, else its own.
+    pub(crate) fn stack_convention(self, power: Power, bodies: u8) -> ContactConvention {
         let own = self.convention();
         match self.accepts_any_convention() {
-            true => ContactConvention {
-                law: Law::of_power(power),
-                ..own
-            },
+            true => ContactConvention::usual(own.arms, Law::of_power(power), bodies),
             false => own,
         }
     }

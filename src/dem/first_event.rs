@@ -5,10 +5,13 @@
 //! time: g(t) = g x/(1 + x), where x grows by a constant factor a step. Every force of the stack then grows by the
 //! same factor, and inertia changes the ratio of any two by the square of the rate.
 
-use super::contact::SpringDashpot;
+use super::contact::{Contact, SpringDashpot};
+use super::scene::Body;
 use super::source_digest::SOURCE_DIGEST;
 use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
-use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack, sha256_hex};
+use crate::model::{
+    Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack, sha256_hex,
+};
 use crate::theory::{Event, LoadingPhase};
 use serde::{Deserialize, Serialize};
 
@@ -36,12 +39,15 @@ pub enum Until {
     EndOfTravel,
 }
 
-/// A run of which the events and the largest force are observed, under the paper's convention.
+/// A run of which the events and the largest force are observed, under the paper's convention but for the rule by which
+/// springs change as their contacts turn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EventRun {
     /// The stack.
     pub stack: Stack,
+    /// What tangential springs do as their contacts turn.
+    pub history_update: HistoryUpdate,
     /// How it is loaded.
     pub loading: Loading,
     /// When the run ends.
@@ -84,6 +90,8 @@ const MISSING_LOAD: f64 = 1e-6;
 const LOWEST_RISE: f64 = 1.0;
 /// Time within which the stack loads by more than it vibrates: the wall starts with a jolt of a few time units.
 const RINGING: f64 = 20.0;
+/// Rounding of a force at its limit, relative to it.
+const SAME: f64 = 1e-14;
 /// Steps between two calls of `wanted`: some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
@@ -94,10 +102,17 @@ impl EventRun {
             "event-run",
             env!("CARGO_PKG_VERSION"),
             *SOURCE_DIGEST,
-            ContactConvention::TURNING,
+            self.convention(),
             self
         ]);
         sha256_hex(parts.to_string().as_bytes())
+    }
+
+    fn convention(&self) -> ContactConvention {
+        ContactConvention {
+            history_update: self.history_update,
+            ..ContactConvention::TURNING
+        }
     }
 
     /// Time steps that the run takes at most.
@@ -115,10 +130,12 @@ impl EventRun {
             stack,
             loading,
             until,
+            ..
         } = self;
-        let law = SpringDashpot::like(0.0, &ContactConvention::TURNING, stack.stiffness_ratio);
+        let convention = self.convention();
+        let law = SpringDashpot::like(0.0, &convention, stack.stiffness_ratio);
         let mut run = Run {
-            scene: StackScene::of(&case(stack, loading), law, 0.0),
+            scene: StackScene::of(&case(stack, convention, loading), law, 0.0),
             stack: *stack,
             observation: Observation::NOTHING,
         };
@@ -294,18 +311,31 @@ impl Run {
     /// Whether either contact of cylinder 1 with the others is at Coulomb's limit.
     fn cylinders_slide(&self) -> bool {
         [RIGHT, LEFT].into_iter().any(|cylinder| {
-            let contact = self.scene.pair_force(cylinder, TOP);
-            let limit = self.scene.cylinder_friction * contact.normal.abs();
-            limit > 0.0 && contact.tangential.abs() >= limit
+            let force = self.scene.pair_force(cylinder, TOP);
+            let pressed = self.pressed([cylinder, TOP]);
+            // What a spring that nothing turns exerts along the normal is a part of the tangential force.
+            let whole = libm::hypot(force.tangential, force.normal - pressed);
+            let limit = self.scene.cylinder_friction * pressed.abs();
+            limit > 0.0 && whole >= limit * (1.0 - SAME)
         })
+    }
+
+    /// The force of the overlap of two cylinders and its damping.
+    fn pressed(&self, pair: [usize; 2]) -> f64 {
+        let scene = &self.scene;
+        let bodies = pair.map(|index| &scene.cylinders[index]);
+        let apart = Body::apart(bodies);
+        let contact = Contact::of_pair(bodies, apart, scene.cylinder_friction, scene.time_step);
+        let model = &scene.model;
+        model.normal_force(contact.overlap, contact.separation_speed)
     }
 }
 
 /// A case with the stack, convention and time step from which the scene is built.
-fn case(stack: &Stack, loading: &Loading) -> Case {
+fn case(stack: &Stack, convention: ContactConvention, loading: &Loading) -> Case {
     Case {
         stack: *stack,
-        convention: ContactConvention::TURNING,
+        convention,
         protocol: Protocol {
             preparation: Preparation::GravityRamp {
                 ramp_time: 1.0 / loading.gravity_rate,

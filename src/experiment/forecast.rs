@@ -1,7 +1,7 @@
 //! Forecasts of an experiment, one for every estimate of the contact.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
-use crate::model::{CRITICAL_FRICTION, ContactConvention, InvalidValue, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, HistoryUpdate, InvalidValue, Stack};
 use crate::theory::{
     Event, FailureMode, Limit, LoadingOutcome, pair_overlap, perturbation_load, quasistatic_limit,
 };
@@ -239,7 +239,7 @@ fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
 /// the yield, and by the saturated force of slipping cylinders.
 fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
-        && let Some(outcome) = LoadingOutcome::of(stack)
+        && let Some(outcome) = LoadingOutcome::of(stack, HistoryUpdate::Rotated)
     {
         return match outcome.failure_mode {
             FailureMode::Collapses => Some(0.0),

@@ -68,7 +68,7 @@ pub enum TensileForce {
 /// Contact convention of a code.
 ///
 /// Law and arms move the quasi-static limit of the yield force, the arms above μ_c by 20 % and more between existing
-/// codes, and so does a spring that nothing turns, by up to 2 %; the rest of a convention shows in trajectories. A key
+/// codes, and so does a spring that nothing turns, by up to 5 %; the rest of a convention shows in trajectories. A key
 /// that a case file leaves out has the paper's value, but for `history_update`: springs turn unless a file says
 /// otherwise, as they did before there was a choice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -145,6 +145,20 @@ impl ContactConvention {
         tensile_force: TensileForce::MayPull,
         moment_of_inertia: CYLINDER_INERTIA,
     };
+
+    /// What is meant where nobody says more than arms, law and number of bodies: [`PAPER`](Self::PAPER) if these are the
+    /// paper's, and otherwise the usual convention with them, whose springs turn.
+    pub fn usual(arms: Arms, law: Law, bodies: u8) -> Self {
+        let usual = Self {
+            arms,
+            law,
+            ..Self::TURNING
+        };
+        match usual == Self::TURNING && bodies == PAPER_BODIES {
+            true => Self::PAPER,
+            false => usual,
+        }
+    }
 
     /// The usual convention, whose springs turn, but for the arms.
     pub const fn with_arms(arms: Arms) -> Self {

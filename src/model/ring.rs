@@ -22,6 +22,16 @@ impl Ring {
     /// The ring of so many bodies.
     pub(super) fn new(bodies: u8) -> Self {
         let radius = libm::sin(std::f64::consts::PI / f64::from(bodies)).recip();
+        Self::of_radius(bodies, radius)
+    }
+
+    /// Two cylinders that side walls have pushed to x₀ = 1 − `push`/3 before the top one touches them (docs/theory.md, Eq. 68).
+    /// They do not just touch each other, so that [`neighbour_overlap`](Self::neighbour_overlap) is not that of these.
+    pub(crate) fn pushed(push: f64) -> Self {
+        Self::of_radius(2, 1.0 - push / 3.0)
+    }
+
+    fn of_radius(bodies: u8, radius: f64) -> Self {
         let rise = (4.0 - radius * radius).sqrt();
         let neighbours = if bodies == 2 { 1.0 } else { 2.0 };
         Self {

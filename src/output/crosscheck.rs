@@ -8,8 +8,7 @@ use crate::model::PAPER_BODIES;
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict};
 
-const MODEL_FORM: &str = "distance of the limit with the arms of the code from the one with the \
-                          paper's, relative to F + n + 1";
+const MODEL_FORM: &str = "distance of the limit with arms and spring of the code from the paper's, relative to F + n + 1";
 
 /// The rows.
 pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {

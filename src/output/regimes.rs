@@ -7,9 +7,7 @@ use crate::model::Stack;
 use crate::study::Verdict;
 use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
-use crate::theory::{
-    Across, Axis, EquilibriumPath, FailureMode, LoadingOutcome, LoadingPhase, Regime, RegimeMap,
-};
+use crate::theory::{Across, Axis, FailureMode, LoadingOutcome, LoadingPhase, Regime, RegimeMap};
 
 /// The maps as grids of `columns` values on the axis by `rows` floor frictions.
 pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
@@ -46,7 +44,7 @@ pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTa
 fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, LoadingOutcome)> {
     let mut grid = Vec::new();
     for value in map.axis_values(columns) {
-        let path = EquilibriumPath::new(&map.axis.set(&map.base, value));
+        let path = map.path(value);
         let stacks = map.friction_values(rows).into_iter();
         let stacks = stacks.map(|friction| map.stack(value, friction));
         grid.extend(stacks.filter_map(|stack| {

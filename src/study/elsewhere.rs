@@ -170,7 +170,9 @@ impl PlannedRow {
     }
 
     fn measurement(&self, code: Code) -> Measurement {
-        planned(code, &self.stack, code.convention(), self.method)
+        let power = code.convention().law.power;
+        let convention = code.stack_convention(power, self.stack.bodies);
+        planned(code, &self.stack, convention, self.method)
     }
 
     /// The runs of the row, in directories named after the stack, and the place of the run in its measurement.

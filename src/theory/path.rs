@@ -10,11 +10,11 @@ mod remembered;
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
 use super::root::bracketed_root;
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, Ring, Stack};
 pub(super) use balance::BottomContact;
 use balance::{Beginning, Contacts, FIXED, Leg, State, TURNING};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
-pub(super) use remembered::RememberedBranch;
+pub(super) use remembered::{RememberedBranch, remembered_overlap_at_rest};
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
 /// Start of the path on its first ray, relative to the angle that the gravity ramp turns to first order. The ray leaves
@@ -283,6 +283,12 @@ pub(super) fn followed_path(
     bottom: BottomContact,
 ) -> FollowedPath {
     FollowedPath::new(Contacts::new(stack, convention, bottom))
+}
+
+/// The same with c = 0, of bodies that begin in another ring than the one in which they just touch each other.
+pub(super) fn path_from(ring: Ring, stack: &Stack, convention: &ContactConvention) -> FollowedPath {
+    let contacts = Contacts::new(stack, convention, BottomContact::Ignored);
+    FollowedPath::new(contacts.in_ring(ring))
 }
 
 #[cfg(test)]

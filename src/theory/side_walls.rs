@@ -13,7 +13,8 @@
 
 use super::floor_slip::FloorSlip;
 use super::overlap::OverlapCurve;
-use crate::model::{CRITICAL_FRICTION, Stack};
+use super::path::{limit_on, path_from};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, HistoryUpdate, Ring, Stack};
 
 /// A*, the largest push after which the bottom cylinders of the plane stack end without contact, in r, to leading order in ε, if
 /// nothing slides during the preparation (docs/theory.md, Eq. 70).
@@ -39,19 +40,28 @@ pub fn critical_push(stack: &Stack) -> f64 {
 }
 
 /// F at the slip of the floor after walls pushed in by `push`, in m g, with arms 0; `None` if the floor does
-/// not slip, and of spheres. It holds where nothing slides before, and where contact 2–3 has opened by then; other events are
-/// ignored.
+/// not slip, and of spheres; springs change by this rule as their contacts turn. It holds where nothing slides before, and
+/// where contact 2–3 has opened by then; other events are ignored.
 ///
 /// ```
-/// use tristack::model::Stack;
+/// use tristack::model::{HistoryUpdate, Stack};
 /// use tristack::theory::{closed_form_limit, pushed_slip_force};
 /// let stack = Stack::paper(0.2, 100.0);
-/// let [unpushed, pushed] = [0.0, 0.005].map(|push| pushed_slip_force(&stack, push).unwrap());
+/// let force = |push| pushed_slip_force(&stack, push, HistoryUpdate::Rotated).unwrap();
+/// let [unpushed, pushed] = [0.0, 0.005].map(force);
 /// assert!((unpushed - closed_form_limit(&stack).yield_force.unwrap()).abs() < 1e-12);
 /// assert!((pushed - unpushed - 0.0345).abs() < 1e-4);
 /// ```
-pub fn pushed_slip_force(stack: &Stack, push: f64) -> Option<f64> {
+pub fn pushed_slip_force(stack: &Stack, push: f64, history_update: HistoryUpdate) -> Option<f64> {
     stack.refuse_spheres().ok()?;
+    if !history_update.turns() {
+        let convention = ContactConvention {
+            history_update,
+            ..ContactConvention::TURNING
+        };
+        let path = path_from(Ring::pushed(push), stack, &convention);
+        return limit_on(&path, stack, &convention).floor_slip_force;
+    }
     let sine = 0.5 * (1.0 - push / 3.0);
     let curve = OverlapCurve {
         start: sine / (1.0 + (1.0 - sine * sine).sqrt()),
@@ -64,7 +74,7 @@ pub fn pushed_slip_force(stack: &Stack, push: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::theory::{CLOSING_STIFFNESS_RATIO, closed_form_limit};
+    use crate::theory::{CLOSING_STIFFNESS_RATIO, closed_form_limit, quasistatic_limit};
 
     #[test]
     fn without_a_push_it_is_the_closed_form() {
@@ -72,10 +82,30 @@ mod tests {
             for stiffness in [1e2, 1e4] {
                 let stack = Stack::paper(friction, stiffness);
                 let exact = closed_form_limit(&stack).yield_force.unwrap();
-                let force = pushed_slip_force(&stack, 0.0).unwrap();
+                let force = pushed_slip_force(&stack, 0.0, HistoryUpdate::Rotated).unwrap();
                 assert!((force / exact - 1.0).abs() < 1e-11, "{force} {exact}");
+                let fixed = quasistatic_limit(&stack, &ContactConvention::PAPER).floor_slip_force;
+                let force = pushed_slip_force(&stack, 0.0, HistoryUpdate::Fixed);
+                assert_eq!(force, fixed, "the same path");
             }
         }
+    }
+
+    /// A push is an angle at which springs are free of force. What a spring that nothing turns makes of it differs from what a
+    /// turning one makes by the square of the displacements.
+    #[test]
+    fn a_push_does_nearly_the_same_to_springs_that_nothing_turns() {
+        let difference = |stiffness: f64| {
+            let stack = Stack::paper(0.2, stiffness);
+            let shift = |rule| {
+                let force = |push| pushed_slip_force(&stack, push, rule).unwrap();
+                force(0.5 * stack.epsilon()) - force(0.0)
+            };
+            let [fixed, turned] = [HistoryUpdate::Fixed, HistoryUpdate::Rotated].map(shift);
+            (fixed - turned).abs() / turned
+        };
+        let [soft, stiff] = [1e2, 1e3].map(difference);
+        assert!(soft < 1e-2 && stiff < 0.2 * soft, "{soft} {stiff}");
     }
 
     #[test]
@@ -132,7 +162,7 @@ mod tests {
         for push in [0.0f64, 0.005, 0.05] {
             let stack = Stack::paper(0.2, 1e2);
             let start = (0.5 * (0.5 * (1.0 - push / 3.0)).asin()).tan();
-            let force = pushed_slip_force(&stack, push).unwrap();
+            let force = pushed_slip_force(&stack, push, HistoryUpdate::Rotated).unwrap();
             let summed = summed_force(&stack, start);
             assert!((force / summed - 1.0).abs() < 1e-10, "{force} {summed}");
         }

@@ -17,6 +17,8 @@ const LARGEST_BOTTOM_OVERLAP: f64 = 2.0;
 const MOST_STEPS: usize = 60;
 /// Distance from which the balanced state is looked for, in units of the overlap that a weight makes.
 const NEAREST: f64 = 1e-3;
+/// Part of a branch before its end by which its load is seen to rise or fall there.
+const LAST_PART: f64 = 1e-6;
 /// u where contact 2–3 opens.
 pub(super) const OPENING: f64 = 1.0;
 
@@ -50,9 +52,9 @@ pub(super) fn end_of_branch(
     if load(OPENING).is_nan() {
         return (SlidingEnd::Other(Event::None), OPENING);
     }
-    let highest = maximum_between(load, start, OPENING);
-    let direction = match load(highest) > load(OPENING) {
-        true => highest,
+    let falls_before = load(OPENING - LAST_PART * (OPENING - start)) > load(OPENING);
+    let direction = match falls_before {
+        true => maximum_between(load, start, OPENING),
         false => OPENING,
     };
     let peak = point(direction);

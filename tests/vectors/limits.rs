@@ -189,7 +189,9 @@ fn cylinder_slip(
     convention: &ContactConvention,
 ) -> Option<CylinderSlip<f64>> {
     let slips = limit.event == Event::CylinderSlip && convention.arms == Arms::PAPER;
-    let first = LoadingOutcome::of(stack).filter(|_| slips)?.first;
+    let first = LoadingOutcome::of(stack, convention.history_update)
+        .filter(|_| slips)?
+        .first;
     Some(CylinderSlip {
         force: first.force,
         tangent: first.tangent,

@@ -26,7 +26,8 @@ pub(in crate::cli) struct ConventionOptions {
     #[arg(long, value_name = "R1", value_parser = number)]
     pub floor_kinematic_arm: Option<f64>,
     /// Change of the tangential spring when a contact turns; of these, `fixed`, a vector that nothing turns, has a yield force
-    /// of its own, and the others share one [default: that of the code]
+    /// of its own, and the others share one [default: that of the code; where nothing says which, `fixed` for the paper's
+    /// two cylinders with linear springs and arms 0, and else `rotated`]
     #[arg(long, value_parser = history_update(), value_name = "RULE")]
     history_update: Option<HistoryUpdate>,
     #[command(flatten)]
@@ -71,7 +72,7 @@ pub(in crate::cli) fn power(text: &str) -> Result<Power, String> {
 }
 
 /// Reads `--history-update`.
-fn history_update() -> impl TypedValueParser<Value = HistoryUpdate> {
+pub(in crate::cli) fn history_update() -> impl TypedValueParser<Value = HistoryUpdate> {
     one_of(HistoryUpdate::ALL, HistoryUpdate::as_str)
 }
 
@@ -138,17 +139,41 @@ impl ConventionOptions {
         })
     }
 
-    /// The convention of `code` with the given parts in place of its own.
-    pub fn of(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
+    /// The convention of `code` for stacks of so many `bodies`, with the given parts in place of its own.
+    pub fn of(&self, code: Code, bodies: u8) -> Result<ContactConvention, InvalidValue> {
+        self.over(code, |arms, law| {
+            ContactConvention::usual(arms, law, bodies)
+        })
+    }
+
+    /// The same of contacts that belong to no stack, or to one of which nothing else is known.
+    pub fn of_contacts(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
+        self.over(code, |arms, law| ContactConvention {
+            arms,
+            law,
+            ..ContactConvention::TURNING
+        })
+    }
+
+    /// The given parts in place of those of `code`; the others of a code that takes any convention are `usual` with them.
+    fn over(
+        &self,
+        code: Code,
+        usual: impl Fn(Arms, Law) -> ContactConvention,
+    ) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();
+        let arms = Arms {
+            pair: replaced(own.arms.pair, self.pair_arm, self.pair_kinematic_arm),
+            floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
+        };
+        let law = self.law.over(own.law);
+        let base = match code.accepts_any_convention() {
+            true => usual(arms, law),
+            false => ContactConvention { arms, law, ..own },
+        };
         let convention = ContactConvention {
-            arms: Arms {
-                pair: replaced(own.arms.pair, self.pair_arm, self.pair_kinematic_arm),
-                floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
-            },
-            law: self.law.over(own.law),
-            history_update: self.history_update.unwrap_or(own.history_update),
-            ..own
+            history_update: self.history_update.unwrap_or(base.history_update),
+            ..base
         };
         convention.validate().map_err(as_flag)?;
         code.check_convention(&convention).map_err(as_flag)?;

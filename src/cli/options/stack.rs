@@ -146,6 +146,11 @@ pub(in crate::cli) struct OneStackOptions {
 }
 
 impl OneStackOptions {
+    /// Number of bodies on the floor.
+    pub fn bodies(&self) -> u8 {
+        self.others.bodies
+    }
+
     /// The checked stack, in a law of this power.
     pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
@@ -178,6 +183,11 @@ pub(in crate::cli) struct StackListOptions {
 }
 
 impl StackListOptions {
+    /// Number of bodies on the floor.
+    pub fn bodies(&self) -> u8 {
+        self.others.bodies
+    }
+
     /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
     /// fastest.
     pub fn stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {

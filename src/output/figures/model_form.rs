@@ -1,4 +1,4 @@
-//! The effect of the torque arms of the codes on the yield force.
+//! What torque arms and turning springs of the codes do to the yield force.
 
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
@@ -8,16 +8,15 @@ use super::sheet::Sheet;
 use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
-use crate::paper::reproduction::{Curves, codes_by_arms};
+use crate::paper::reproduction::{Curves, codes_by_limit};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
 /// Panels with curves above this value, in percent, have the finer axis.
-const SMALL: f64 = -2.5;
+const SMALL: f64 = -2.0;
 
-/// Difference to the yield force under the paper's convention, by theory and by the codes: a panel for every pair of
-/// arms.
+/// Difference to the yield force under the paper's convention, by theory and by the codes: a panel for every limit.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let groups = codes_by_arms();
+    let groups = codes_by_limit();
     let panels: Vec<Panel> = groups
         .iter()
         .map(|codes| arms_panel(codes, judgements, curves))
@@ -33,10 +32,11 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
     });
     let letters: Vec<String> = letters.collect();
     let caption = format!(
-        "Not in the paper: $(F - F_\\mathrm{{paper}})/(F_\\mathrm{{paper}} + 3)$, what the torque arms $r + r_1\\cdot$overlap of a code \
-         do to the yield force $F = f/(mg)$, over the floor friction $\\mu$ at three stiffnesses $k_n r/(mg)$ \
-         and $\\kappa = {PAPER_STIFFNESS_RATIO}$. Lines: exact limits; marks: the codes, by slip onset extrapolated to vanishing \
-         wall speed. {}; the paper has $r_1 = 0$.",
+        "Not in the paper: $(F - F_\\mathrm{{paper}})/(F_\\mathrm{{paper}} + 3)$, what the convention of a code \
+         does to the yield force $F = f/(mg)$, over the floor friction $\\mu$ at three stiffnesses $k_n r/(mg)$ \
+         and $\\kappa = {PAPER_STIFFNESS_RATIO}$: springs that turn with their contacts, and the torque arms $r + r_1\\cdot$overlap. Lines: \
+         exact limits; marks: the codes, by slip onset extrapolated to vanishing wall speed. {}; the paper has $r_1 = 0$ and a spring \
+         that nothing turns.",
         letters.join(", ")
     );
     Figure::of_sheet("model-form", caption, &Sheet::of_halves(panels))
@@ -62,18 +62,18 @@ fn arms_panel(codes: &[Code], judgements: &[Judgement], curves: &Curves) -> Pane
         .map(|point| 100.0 * point.difference)
         .fold(0.0, f64::min);
     let (axis, key, words) = if lowest > SMALL {
-        let axis = Axis::linear(LABEL, (SMALL, 0.5), 0.5, 1);
-        (axis, (0.62, 0.56), (0.5, 0.35))
+        let axis = Axis::linear(LABEL, (SMALL, 6.0), 1.0, 0);
+        (axis, (0.05, 0.14), (0.1, 5.4))
     } else {
         let axis = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
-        (axis, (0.05, 0.5), (0.5, 3.2))
+        (axis, (0.05, 0.5), (0.1, 3.2))
     };
     let mut panel = panel(axis, codes, judgements, curves);
     panel.key_at(key.0, key.1);
     panel.words(
         format!("arms {}", arms(codes[0]).join(", ")),
         words,
-        Anchor::End,
+        Anchor::Start,
     );
     panel
 }

@@ -10,6 +10,9 @@ use crate::code::Code;
 use crate::model::Power;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
+/// Width of the line of a limit, in m g.
+const LINE_WIDTH: f64 = 2e-3;
+
 /// c(A) and F(A) of every code with a deck for side walls, at the first stack of the study.
 pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     let epsilon = study.stack.epsilon();
@@ -55,8 +58,8 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     let caption = format!(
         "The paper’s preparation between side walls (supplement, I.B), pushed in by $A$, at $\\mu = {}$, $k_n r/(mg) = {}$, \
          $\\kappa = {}$. (a) Normal force $c$ between the bottom cylinders when the compression begins. (b) Yield force, by \
-         slip onset extrapolated to vanishing wall speed, each code with its own torque arms; horizontal: the exact \
-         limit of each code, by the same arms, after the gravity ramp with which all other runs begin. The force $c$ vanishes up to \
+         slip onset extrapolated to vanishing wall speed, each code with its own springs and torque arms; horizontal: the exact \
+         limit of each code, by the same convention, after the gravity ramp with which all other runs begin. The force $c$ vanishes up to \
          $A^*$, and $F$ moves all the same. Lines join the native runs.",
         study.stack.floor_friction, study.stack.stiffness, study.stack.stiffness_ratio
     );
@@ -64,7 +67,7 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     Figure::of_sheet("preparation", caption, &sheet)
 }
 
-/// The exact limits after a gravity ramp under the conventions of the codes, each with the codes that share it.
+/// The exact limits after a gravity ramp under the conventions of the codes, each with the codes whose lines fall together.
 fn limits(study: &PreparationStudy) -> Vec<(f64, Vec<Code>)> {
     let mut limits: Vec<(f64, Vec<Code>)> = Vec::new();
     for code in Code::of_power(Power::Linear) {
@@ -72,7 +75,8 @@ fn limits(study: &PreparationStudy) -> Vec<(f64, Vec<Code>)> {
         let Some(limit) = ramp.next().and_then(|row| row.limit_force) else {
             continue;
         };
-        match limits.iter_mut().find(|(own, _)| *own == limit) {
+        let is_drawn_there = |own: f64| (own - limit).abs() < LINE_WIDTH;
+        match limits.iter_mut().find(|(own, _)| is_drawn_there(*own)) {
             Some((_, codes)) => codes.push(code),
             None => limits.push((limit, vec![code])),
         }

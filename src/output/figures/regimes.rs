@@ -4,14 +4,14 @@ use super::axis::Axis as Ruler;
 use super::panel::{Anchor, Panel, Point, Sample, Stroke};
 use super::sheet::Sheet;
 use super::style::{
-    BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NOT_CONFIRMED, SATURATES, YIELDS,
+    BOUNDARY, BOUNDARY_OF_ENDINGS, CONFIRMED, FALLS, NO_PEAK, NOT_CONFIRMED, SATURATES, UNKNOWN,
+    YIELDS,
 };
 use crate::model::{Stack, exact};
 use crate::study::Verdict;
 use crate::study::regimes::Survey;
 use crate::theory::{
-    Axis, Boundary, EquilibriumPath, Event, FailureMode, LoadingOutcome, RegimeMap,
-    released_frictions,
+    Axis, Boundary, Event, FailureMode, LoadingOutcome, RegimeMap, released_frictions,
 };
 
 /// Number of points on a curve between two lines that cut the axis.
@@ -20,6 +20,8 @@ const SAMPLES: usize = 61;
 const NARROW: f64 = 0.25;
 /// Overlap of a region with the next strip, as a factor on the axis.
 const OVERLAP: f64 = 1.004;
+/// Half the width of a name, as a part of the axis.
+const HALF_NAME: f64 = 0.14;
 /// Distance of two lines of text, in units of μ.
 const LINE_HEIGHT: f64 = 0.042;
 
@@ -30,6 +32,7 @@ enum Ending {
     Yields,
     Saturates,
     NoPeak,
+    Unknown,
 }
 
 /// An ending, and whether contact 2–3 closes before it.
@@ -39,7 +42,7 @@ type Region = (Ending, bool);
 pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
     let caption = "Not in the paper: how a stack ends, over the floor friction $\\mu$ and (a) the stiffness $k_n r/(mg)$, \
                    (b) the friction $\\mu_d$ between cylinders, (c) the stiffness ratio $\\kappa = k_n/k_t$; the others are 100, \
-                   0.7 and 2.5. Regions and lines: the follower of equilibria; solid: another event comes first \
+                   0.7 and 2.5. Nothing turns the tangential springs. Regions and lines: the follower of equilibria; solid: another event comes first \
                    beyond it, dashed: the same event, another end. Dots: native runs on both sides agree with \
                    the boundary; crosses: they do not.";
     super::Figure::of_sheet("regimes", caption, &sheet(maps, survey))
@@ -103,12 +106,19 @@ fn panel(map: &RegimeMap, survey: &Survey) -> Panel {
         }
         for (stroke, frictions) in &strip.curves {
             let points = strip.values.iter().zip(frictions);
-            panel.line(*stroke, points.map(|(&value, &friction)| (value, friction)));
+            let shown = |friction: f64| (friction < map.frictions.1).then_some(friction);
+            panel.line(
+                *stroke,
+                points.map(|(&value, &friction)| (value, shown(friction))),
+            );
         }
     }
     for line in map.lines() {
-        let ends = [map.lowest_friction_of(line), map.frictions.1];
-        panel.line(BOUNDARY, ends.map(|friction| (line.value(), friction)));
+        let lowest = map.lowest_friction_of(line);
+        if lowest < map.frictions.1 {
+            let ends = [lowest, map.frictions.1];
+            panel.line(BOUNDARY, ends.map(|friction| (line.value(), friction)));
+        }
     }
     mark(&mut panel, map, survey);
     label(&mut panel, map, &strips);
@@ -200,7 +210,7 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
     let bands = (0..=count).filter_map(|level| {
         let friction = 0.5 * (edge(level, middle) + edge(level + 1, middle));
         Some(Band {
-            region: region(&map.stack(values[middle], friction))?,
+            region: region(map, values[middle], friction)?,
             lower: curve(level),
             upper: curve(level + 1),
         })
@@ -218,12 +228,12 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
 /// The floor frictions of the boundaries at a value on the axis, lowest first, with their strokes.
 fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, Stroke)> {
     let stack = map.axis.set(&map.base, value);
-    let path = EquilibriumPath::new(&stack);
+    let path = map.path(value);
     let events = Boundary::in_friction(&path, &stack).into_iter();
     let mut levels: Vec<(f64, Stroke)> = events
         .map(|boundary| (boundary.floor_friction, BOUNDARY))
         .collect();
-    if let Some((low, high)) = released_frictions(&stack) {
+    if let Some((low, high)) = released_frictions(&path, &stack) {
         let closed_at_wall = path.wall_contact_outward().is_some_and(|y| y < 0.0);
         levels.extend((path.settled_outward() < 0.0).then_some((low, BOUNDARY_OF_ENDINGS)));
         levels.extend(closed_at_wall.then_some((high, BOUNDARY_OF_ENDINGS)));
@@ -232,11 +242,12 @@ fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, Stroke)> {
     levels
 }
 
-fn region(stack: &Stack) -> Option<Region> {
-    let outcome = LoadingOutcome::of(stack)?;
+fn region(map: &RegimeMap, value: f64, friction: f64) -> Option<Region> {
+    let outcome = LoadingOutcome::of(&map.stack(value, friction), map.history_update)?;
     let ending = match (outcome.end.map(|end| end.event), outcome.failure_mode) {
         (Some(Event::CylinderSlip), _) => Ending::Saturates,
         (Some(_), _) => Ending::Yields,
+        (None, _) if !outcome.is_end_known => Ending::Unknown,
         (None, FailureMode::Collapses) => Ending::Falls,
         (None, _) => Ending::NoPeak,
     };
@@ -250,6 +261,7 @@ fn look((ending, shares): Region) -> (&'static str, Vec<&'static str>) {
         Ending::Falls => (FALLS, vec!["falls under own weight"]),
         Ending::Yields => (YIELDS, vec!["floor slips:", "yield force"]),
         Ending::Saturates => (SATURATES, vec!["cylinders slip:", "saturated"]),
+        Ending::Unknown => (UNKNOWN, vec!["cylinders slip:", "end unknown"]),
         Ending::NoPeak => (NO_PEAK, vec!["wall contact:", "no peak"]),
     };
     let touch = (shares && ending != Ending::Falls).then_some("2–3 touch,");
@@ -257,7 +269,7 @@ fn look((ending, shares): Region) -> (&'static str, Vec<&'static str>) {
     (colours[usize::from(shares)], words)
 }
 
-/// Names each region once, in the middle of the widest part of the axis that it spans without a gap.
+/// Names each region once, in the widest part of the axis that it spans without a gap.
 fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     let mut named: Vec<(Region, (f64, f64))> = Vec::new();
     for (index, strip) in strips.iter().enumerate() {
@@ -271,9 +283,9 @@ fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
         }
     }
     for (region, span) in named {
-        let x = map.middle(span);
-        if let Some(y) = height_at(strips, region, x) {
-            name(panel, region, (x, y));
+        let x = roomiest(map, strips, region, span);
+        if let Some([lower, upper]) = edges_at(strips, region, x) {
+            name(panel, region, (x, 0.5 * (lower + upper)));
         }
     }
     label_narrow(panel, map, strips);
@@ -307,12 +319,36 @@ fn span(strips: &[Strip], index: usize, region: Region) -> (f64, f64) {
     )
 }
 
-/// Half-way between the lower and the upper edge of `region` at `x`.
-fn height_at(strips: &[Strip], region: Region, x: f64) -> Option<f64> {
+/// Where in a `span` the words of `region` have the room that they need, or most of it, as near to the middle as may be.
+fn roomiest(map: &RegimeMap, strips: &[Strip], region: Region, span: (f64, f64)) -> f64 {
+    let ruler = ruler(map);
+    let [from, to] = [span.0, span.1].map(|value| ruler.part(value));
+    let middle = ruler.part(map.middle(span));
+    let (_, words) = look(region);
+    let needed = LINE_HEIGHT * (words.len() as f64 + 1.0);
+    let height = |part: f64| {
+        let x = ruler.at(part.clamp(from, to));
+        edges_at(strips, region, x).map_or(0.0, |[lower, upper]| upper - lower)
+    };
+    let room = |part: f64| {
+        let least = [-HALF_NAME, 0.0, HALF_NAME].map(|aside| height(part + aside));
+        let least = least.into_iter().fold(needed, f64::min);
+        least - LINE_HEIGHT * (part - middle).abs()
+    };
+    let parts = (0..SAMPLES).map(|index| {
+        let share = index as f64 / (SAMPLES - 1) as f64;
+        from + share * (to - from)
+    });
+    let best = parts.max_by(|one, other| room(*one).total_cmp(&room(*other)));
+    ruler.at(best.unwrap_or(middle))
+}
+
+/// The lower and the upper edge of `region` at `x`.
+fn edges_at(strips: &[Strip], region: Region, x: f64) -> Option<[f64; 2]> {
     let strip = strips.iter().find(|strip| x <= strip.values[SAMPLES - 1])?;
     let band = strip.visible(region)?;
     let index = strip.values.partition_point(|&value| value < x);
-    Some(0.5 * (band.lower[index] + band.upper[index]))
+    Some([band.lower[index], band.upper[index]])
 }
 
 /// Writes the words of `region` in lines around a point.
@@ -335,6 +371,7 @@ fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
         (place, own.verdict() == Verdict::Agrees)
     });
     let all = of_map.chain(released_places(map, survey));
+    let all = all.filter(|((_, friction), _)| *friction <= map.frictions.1);
     let (agreeing, others): (Vec<_>, Vec<_>) = all.partition(|(_, agrees)| *agrees);
     for (mark, places) in [(CONFIRMED, agreeing), (NOT_CONFIRMED, others)] {
         panel.marks(mark, places.into_iter().map(|(place, _)| place));

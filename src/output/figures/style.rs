@@ -93,6 +93,7 @@ pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]
 pub(super) const FALLS: [&str; 2] = ["#bdbdbd"; 2];
 pub(super) const YIELDS: [&str; 2] = ["#fdf6dc", "#e3f1dc"];
 pub(super) const SATURATES: [&str; 2] = ["#d3e3f3", "#c3d9df"];
+pub(super) const UNKNOWN: [&str; 2] = ["#e4d9ec"; 2];
 pub(super) const NO_PEAK: [&str; 2] = ["#f0cdb4", "#bfd9b4"];
 
 /// The stack drawn to scale: cylinders, walls, orientations at the start and now.

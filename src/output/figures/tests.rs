@@ -3,7 +3,7 @@
 use super::style::Mark;
 use super::*;
 use crate::code::{Code, Interrupt};
-use crate::model::{Power, Stack};
+use crate::model::{HistoryUpdate, Power, Stack};
 use crate::paper::reproduction::{
     Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, Laws, Spheres, TheoryPoint,
     snapshots,
@@ -149,7 +149,7 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
         preparation: vec![preparation()],
         snapshots: snapshots(&Interrupt::new()).unwrap().unwrap(),
         trajectories: Vec::new(),
-        maps: RegimeMap::standard(2.5),
+        maps: RegimeMap::standard(2.5, HistoryUpdate::Fixed),
         survey: Survey {
             confirmations: Vec::new(),
             examinations: Vec::new(),

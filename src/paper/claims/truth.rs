@@ -2,9 +2,9 @@
 //!
 //! Lengths, stiffnesses and weights keep their dimensions here, so that a missing factor r shows.
 
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
-use crate::theory::{closed_form_limit, elastic_root};
+use crate::theory::{Limit, elastic_root, quasistatic_limit};
 use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
 use std::sync::LazyLock;
 
@@ -297,9 +297,14 @@ pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
+/// The exact quasi-static limit of the paper's DEM.
+fn paper_limit(stack: &Stack) -> Limit {
+    quasistatic_limit(stack, &ContactConvention::PAPER)
+}
+
 /// F of the DEM's exact quasi-static limit; not a number if the stack does not yield.
 pub(crate) fn yield_force(stack: &Stack) -> f64 {
-    closed_form_limit(stack).yield_force.unwrap_or(f64::NAN)
+    paper_limit(stack).yield_force.unwrap_or(f64::NAN)
 }
 
 /// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
@@ -308,7 +313,7 @@ pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
         let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
             (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
         });
-        let with_load = |stack: Stack| Some((stack, closed_form_limit(&stack).yield_force? + 3.0));
+        let with_load = |stack: Stack| Some((stack, paper_limit(&stack).yield_force? + 3.0));
         stacks.filter_map(with_load).collect()
     });
     &LOADS

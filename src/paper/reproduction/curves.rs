@@ -1,7 +1,7 @@
 //! Curves of theory over the whole range of the figures.
 
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, PAPER_BODIES, Power, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 
@@ -33,7 +33,7 @@ pub struct TheoryPoint {
 
 impl TheoryPoint {
     fn new(mu: f64, stiffness: f64) -> Self {
-        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::TURNING);
+        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
         Self {
             mu,
             stiffness,
@@ -106,31 +106,36 @@ pub fn curves() -> Curves {
     }
 }
 
-/// The codes whose arms are not the paper's, grouped by their arms.
-pub(crate) fn codes_by_arms() -> Vec<Vec<Code>> {
-    let arms = |code: Code| code.convention().arms;
+/// The codes whose limit is not the paper's, because of their arms or of springs that turn, grouped by these.
+pub(crate) fn codes_by_limit() -> Vec<Vec<Code>> {
+    let limit = |code: Code| {
+        let convention = code.stack_convention(Power::Linear, PAPER_BODIES);
+        (convention.arms, convention.history_update.turns())
+    };
     let mut groups: Vec<Vec<Code>> = Vec::new();
     for code in Code::of_power(Power::Linear) {
-        let own = groups.iter_mut().find(|group| arms(group[0]) == arms(code));
+        let own = groups
+            .iter_mut()
+            .find(|group| limit(group[0]) == limit(code));
         match own {
             Some(group) => group.push(code),
             None => groups.push(vec![code]),
         }
     }
-    groups.retain(|group| arms(group[0]) != arms(Code::NATIVE));
+    groups.retain(|group| limit(group[0]) != limit(Code::NATIVE));
     groups
 }
 
-/// Differences of one code for every group of [`codes_by_arms`].
+/// Differences of one code for every group of [`codes_by_limit`].
 fn model_form() -> Vec<ModelFormPoint> {
     let mut points = Vec::new();
-    for code in codes_by_arms().into_iter().map(|group| group[0]) {
+    for code in codes_by_limit().into_iter().map(|group| group[0]) {
         let convention = code.convention();
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {
                 let stack = Stack::paper(mu, stiffness);
                 let own = quasistatic_limit(&stack, &convention);
-                let paper = quasistatic_limit(&stack, &ContactConvention::TURNING);
+                let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
                     code,

@@ -2,11 +2,11 @@
 
 use super::case_at_speed;
 use crate::code::{Code, Identity, Run};
-use crate::model::{Case, Stack};
+use crate::model::{Case, ContactConvention, Stack};
 use crate::runs::{Reading, RunError, RunSummary, Workload};
 use crate::study::Campaign;
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
-use crate::theory::closed_form_limit;
+use crate::theory::quasistatic_limit;
 
 /// The wall force of one native run, from rest into collapse.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +73,7 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
         rows,
         slip_force: summary.estimates.slip.map(|slip| slip.force),
         peak_force: summary.estimates.peak.map(|peak| peak.force),
-        limit: closed_form_limit(&stack).yield_force,
+        limit: quasistatic_limit(&stack, &ContactConvention::PAPER).yield_force,
         wall_speed: PAPER_WALL_SPEED,
         time_step: PAPER_TIME_STEP,
     };

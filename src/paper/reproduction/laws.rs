@@ -55,7 +55,7 @@ pub(super) fn measurements(codes: &[Code]) -> [Vec<Measurement>; 2] {
     let stacks = SCALING_STIFFNESSES.map(critical_stack);
     let one_a_code = codes.iter().filter(|code| code.is_first_variant());
     let scaling = one_a_code.flat_map(|&code| {
-        let convention = code.convention_of_power(POWER);
+        let convention = code.stack_convention(POWER, PAPER_BODIES);
         stacks.map(|stack| plan(code, &stack, convention))
     });
     [curves, scaling.collect()].map(|mut part: Vec<Measurement>| {
@@ -72,7 +72,7 @@ fn critical_stack(stiffness: f64) -> Stack {
 }
 
 fn critical() -> Vec<(f64, Option<f64>)> {
-    let convention = Code::NATIVE.convention_of_power(POWER);
+    let convention = Code::NATIVE.stack_convention(POWER, PAPER_BODIES);
     let (first, last) = (
         SCALING_STIFFNESSES[0],
         SCALING_STIFFNESSES[SCALING_STIFFNESSES.len() - 1],

@@ -10,7 +10,7 @@ mod spheres;
 
 pub use convergence::{Convergence, ConvergencePoint, converge};
 pub(crate) use convergence::{FAST_WALL, WALL_SPEEDS, convergence_stack, convergence_workloads};
-pub(crate) use curves::codes_by_arms;
+pub(crate) use curves::codes_by_limit;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub(crate) use force_series::force_series_stack;
 pub use force_series::{ForceSeries, force_series};
@@ -22,7 +22,7 @@ pub(crate) use spheres::SPHERES_STIFFNESSES;
 pub use spheres::{BodiesCurve, Spheres};
 
 use crate::code::{Code, Provenance};
-use crate::model::{Case, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
+use crate::model::{Case, HistoryUpdate, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
 use crate::series::SeriesError;
 use crate::study::Campaign;
@@ -164,9 +164,13 @@ struct Theory {
 
 impl Theory {
     fn new() -> Self {
-        let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO);
+        let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO, HistoryUpdate::Fixed);
         Self {
-            survey: SurveyPlan::new(&boundary_points(&maps), &examined_stacks()),
+            survey: SurveyPlan::new(
+                &boundary_points(&maps),
+                &examined_stacks(HistoryUpdate::Fixed),
+                HistoryUpdate::Fixed,
+            ),
             curves: curves(),
             spheres: Spheres::new(),
             maps,
@@ -234,7 +238,7 @@ fn provenances_of(judgements: &[Judgement]) -> impl Iterator<Item = Provenance> 
 
 /// The run of `stack` with a given wall speed; `None` where nothing yields.
 fn case_at_speed(code: Code, stack: Stack, wall_speed: f64, time_step: f64) -> Option<Case> {
-    let convention = code.convention();
+    let convention = code.stack_convention(Power::Linear, stack.bodies);
     let limit = quasistatic_limit(&stack, &convention);
     Some(Case {
         stack,

@@ -1,7 +1,7 @@
 //! Fig. 2(b): scaling of the yield force with the stiffness, below, at and above the critical friction.
 
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 use crate::study::MAX_TOLERANCE;
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, Measurement, plan};
@@ -45,7 +45,13 @@ pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
         .flat_map(|&mu| SCALING_STIFFNESSES.map(|stiffness| Stack::paper(mu, stiffness)));
     let rows = stacks.flat_map(|stack| {
         let codes = codes.iter();
-        codes.map(move |&code| plan(code, &stack, code.convention()))
+        codes.map(move |&code| {
+            plan(
+                code,
+                &stack,
+                code.stack_convention(Power::Linear, PAPER_BODIES),
+            )
+        })
     });
     rows.filter(|row| !row.cases.is_empty()).collect()
 }

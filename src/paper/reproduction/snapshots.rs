@@ -1,7 +1,7 @@
 //! The stack with its contact forces, from rest into collapse.
 
 use super::SCALING_FRICTIONS;
-use crate::code::{Code, Interrupt};
+use crate::code::Interrupt;
 use crate::dem::compress_stack_into_frames;
 use crate::model::{Case, ContactConvention, Stack};
 use crate::series::{Frames, SeriesError};
@@ -28,8 +28,8 @@ pub struct Snapshots {
 /// If the series is invalid, which would be an error of the native DEM.
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
-    let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
-    let convention = Code::NATIVE.convention();
+    let convention = ContactConvention::PAPER;
+    let limit = quasistatic_limit(&stack, &convention);
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
     let protocol = protocol.expect("a stack that yields is planned");
     let case = Case {

@@ -1,7 +1,7 @@
 //! The runs that measure the yield force after a preparation.
 
 use crate::code::Code;
-use crate::model::{Case, Preparation, Protocol, Sampling, SideWalls, Stack};
+use crate::model::{Case, Power, Preparation, Protocol, Sampling, SideWalls, Stack};
 use crate::study::yield_force::{Measurement, SHORT_RAMP_RUN, plan};
 
 /// Factor on the wall travel: a stack that starts with c > 0 yields later than after a gravity ramp.
@@ -55,7 +55,8 @@ pub fn plan_preparation(
     stack: &Stack,
     push: Option<f64>,
 ) -> PreparationPlan {
-    let mut measurement = plan(code, stack, convention_of.convention());
+    let convention = convention_of.stack_convention(Power::Linear, stack.bodies);
+    let mut measurement = plan(code, stack, convention);
     if let Some(push) = push {
         for (run, case) in measurement.cases.iter_mut().enumerate() {
             let mut walls = SideWalls::paper(push, stack.epsilon());
@@ -78,6 +79,7 @@ pub fn plan_preparation(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::ContactConvention;
 
     #[test]
     fn every_planned_case_is_valid() {
@@ -99,6 +101,9 @@ mod tests {
         let stack = Stack::paper(0.3, 1e2);
         let native = Code::NATIVE;
         let own = plan_preparation(native, native, &stack, None);
-        assert_eq!(own.measurement, plan(native, &stack, native.convention()));
+        assert_eq!(
+            own.measurement,
+            plan(native, &stack, ContactConvention::PAPER)
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::code::{Code, ConventionKey, Provenance};
-use crate::model::{CRITICAL_FRICTION, Case, ContactConvention, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, peak_allowance};
@@ -154,7 +154,7 @@ pub fn study_preparation(
     Ok(studies
         .map(|((stack, found), count)| PreparationStudy {
             stack: *stack,
-            exact_force: quasistatic_limit(stack, &ContactConvention::TURNING).yield_force,
+            exact_force: quasistatic_limit(stack, &ContactConvention::PAPER).yield_force,
             predicted_critical_push: critical_push(stack),
             critical_push: found,
             rows: rows.by_ref().take(count).collect(),
@@ -195,11 +195,11 @@ fn plans_of(
 }
 
 fn limit_force(plan: &PreparationPlan) -> Option<f64> {
-    let convention = plan.convention_of.convention();
+    let convention = plan.measurement.convention;
     match plan.push {
         None => plan.measurement.limit.yield_force,
-        Some(push) if convention.has_closed_form() => {
-            pushed_slip_force(&plan.measurement.stack, push)
+        Some(push) if convention.arms == Arms::PAPER && convention.law.is_linear() => {
+            pushed_slip_force(&plan.measurement.stack, push, convention.history_update)
         }
         Some(_) => None,
     }

@@ -3,7 +3,7 @@
 use super::loading::loading;
 use crate::code::Code;
 use crate::dem::{EventRun, Loading, Observation, Until};
-use crate::model::Stack;
+use crate::model::{HistoryUpdate, Stack};
 use crate::runs::Workload;
 use crate::study::{Evaluation, Ground, Grounds, Judged, Study, Verdict};
 use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
@@ -66,14 +66,15 @@ impl SidePlan {
         let [below, above] = point.neighbours();
         let [claimed_below, claimed_above] = point.sides;
         [
-            Self::new(below, claimed_below),
-            Self::new(above, claimed_above),
+            Self::new(below, point.history_update, claimed_below),
+            Self::new(above, point.history_update, claimed_above),
         ]
     }
 
-    fn new(stack: Stack, claimed: LoadingOutcome) -> Self {
+    fn new(stack: Stack, history_update: HistoryUpdate, claimed: LoadingOutcome) -> Self {
         let run = EventRun {
             stack,
+            history_update,
             loading: loading(&stack, &claimed.last, SPEED, FURTHER),
             until: Until::LastEvent,
         };

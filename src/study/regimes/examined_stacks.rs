@@ -1,11 +1,11 @@
 //! The stacks whose largest force is examined.
 
 use super::THREE_DIGITS;
-use crate::model::{PAPER_STIFFNESS_RATIO, Stack};
-use crate::theory::released_frictions;
+use crate::model::{HistoryUpdate, PAPER_STIFFNESS_RATIO, Stack};
+use crate::theory::{EquilibriumPath, released_frictions};
 
-/// Stacks that cover every consequence of the first event.
-pub fn examined_stacks() -> Vec<Stack> {
+/// Stacks that cover every consequence of the first event, under this rule for springs whose contacts turn.
+pub fn examined_stacks(history_update: HistoryUpdate) -> Vec<Stack> {
     let mut stacks = vec![
         stack(0.3, 0.7, 1e2, PAPER_STIFFNESS_RATIO),
         // Saturated: the force does not depend on floor friction.
@@ -32,7 +32,7 @@ pub fn examined_stacks() -> Vec<Stack> {
         stack(0.78, 1.0, 1e2, 10.0),
     ];
     for stiffness_ratio in [0.3, 0.6, 0.9] {
-        stacks.extend(beside_released_frictions(stiffness_ratio));
+        stacks.extend(beside_released_frictions(stiffness_ratio, history_update));
     }
     stacks
 }
@@ -51,9 +51,11 @@ fn stack(
 }
 
 /// Both neighbours of each of the two frictions between which the floor slips while c > 0.
-fn beside_released_frictions(stiffness_ratio: f64) -> Vec<Stack> {
+fn beside_released_frictions(stiffness_ratio: f64, history_update: HistoryUpdate) -> Vec<Stack> {
     let base = stack(0.3, 0.7, 1e2, stiffness_ratio);
-    let frictions = released_frictions(&base).map_or(Vec::new(), |(low, high)| vec![low, high]);
+    let path = EquilibriumPath::new(&base, history_update);
+    let frictions =
+        released_frictions(&path, &base).map_or(Vec::new(), |(low, high)| vec![low, high]);
     let neighbours = frictions
         .into_iter()
         .flat_map(|friction| [1.0 - THREE_DIGITS, 1.0 + THREE_DIGITS].map(|side| side * friction));

@@ -3,7 +3,7 @@
 use super::loading::loading;
 use crate::code::Code;
 use crate::dem::{EventRun, Loading, Observation, Until};
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, HistoryUpdate, Stack};
 use crate::runs::Workload;
 use crate::series::{Estimate, YieldEstimates};
 use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, SPEEDS};
@@ -49,10 +49,14 @@ pub(super) struct PeakPlan {
 
 impl PeakPlan {
     /// The runs of `stack`; `None` if theory makes no prediction.
-    pub(super) fn new(stack: &Stack) -> Option<Self> {
-        let claimed = LoadingOutcome::of(stack)?;
+    pub(super) fn new(stack: &Stack, history_update: HistoryUpdate) -> Option<Self> {
+        let claimed = LoadingOutcome::of(stack, history_update)?;
+        if !claimed.is_end_known {
+            return None;
+        }
         let run = |loading| EventRun {
             stack: *stack,
+            history_update,
             loading,
             until: Until::EndOfTravel,
         };

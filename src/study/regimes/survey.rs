@@ -2,7 +2,7 @@
 
 use super::boundary::{Confirmation, Side, SidePlan};
 use super::largest_force::{Examination, PeakPlan};
-use crate::model::Stack;
+use crate::model::{HistoryUpdate, Stack};
 use crate::study::{Campaign, Judged, Verdict};
 use crate::theory::BoundaryPoint;
 use std::collections::BTreeSet;
@@ -34,11 +34,15 @@ impl Survey {
 }
 
 impl SurveyPlan {
-    /// The neighbours of `points`, and the largest forces of `stacks`.
-    pub fn new(points: &[BoundaryPoint], stacks: &[Stack]) -> Self {
+    /// The neighbours of `points`, and the largest forces of `stacks`, under this rule for springs whose contacts turn. Stacks of
+    /// which theory does not know the end are left out.
+    pub fn new(points: &[BoundaryPoint], stacks: &[Stack], history_update: HistoryUpdate) -> Self {
+        let peaks = stacks
+            .iter()
+            .filter_map(|stack| PeakPlan::new(stack, history_update));
         Self {
             points: points.to_vec(),
-            peaks: stacks.iter().filter_map(PeakPlan::new).collect(),
+            peaks: peaks.collect(),
         }
     }
 }

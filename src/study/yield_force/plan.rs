@@ -7,7 +7,8 @@ use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
 use crate::model::{
-    Case, ContactConvention, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts, Stack,
+    Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts,
+    Stack,
 };
 use crate::series::{Estimate, YieldEstimates};
 use crate::theory::Limit;
@@ -43,6 +44,13 @@ const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
 /// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
+
+/// Largest factor by which the wall is faster at first in shortened runs with springs that nothing turns. In a step they
+/// are stretched along one direction, while the contact turns by an angle that grows with the speed.
+const FACTOR_OF_KEPT_DIRECTIONS: f64 = 3.0;
+/// Drop of the wall force at which shortened runs with springs that nothing turns end. While a stack collapses, their |q|/a
+/// grows slower than b/a, and rows must show that the cylinders carry more than at the onset of slip.
+const DROP_THAT_SHOWS_FRICTION: f64 = 0.5;
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
 pub(crate) const PAPER_WALL_SPEED: f64 = 1e-6;
@@ -149,10 +157,14 @@ impl Measurement {
         let Some(shortcuts) = Shortcuts::towards(travel, fastest, gentle) else {
             return self;
         };
+        let (largest_factor, stop_at_drop) = match self.convention.history_update.turns() {
+            true => (shortcuts.speed_factor, shortcuts.stop_at_drop),
+            false => (FACTOR_OF_KEPT_DIRECTIONS, DROP_THAT_SHOWS_FRICTION),
+        };
         let shortcuts = Shortcuts {
-            speed_factor: rounded(shortcuts.speed_factor),
+            speed_factor: rounded(shortcuts.speed_factor.min(largest_factor)),
             fast_until_travel: rounded(shortcuts.fast_until_travel),
-            ..shortcuts
+            stop_at_drop,
         };
         let plain = self.cases[..=MIDDLE_RUN].to_vec();
         self.roles.plain = Some([self.cases.len(), self.cases.len() + 1]);
@@ -173,7 +185,8 @@ pub(crate) fn planned(
 ) -> Measurement {
     let convention = convention.of_bodies(stack);
     let mut limit = known_limit(stack, &convention);
-    let paper = known_limit(stack, &ContactConvention::TURNING);
+    let paper = ContactConvention::usual(Arms::PAPER, Law::LINEAR, stack.bodies);
+    let paper = known_limit(stack, &paper);
     let model_form = limit
         .yield_force
         .zip(paper.yield_force)

@@ -100,7 +100,7 @@ impl Profile {
         let mut measurements = Vec::new();
         for &stack in stacks {
             for &code in codes {
-                let convention = code.convention_of_power(power);
+                let convention = code.stack_convention(power, stack.bodies);
                 match self {
                     Self::Quick | Self::Standard => {
                         measurements.push(plan(code, &stack, convention));

@@ -212,6 +212,11 @@ impl Contacts {
         }
     }
 
+    /// The same of bodies that begin in another ring than the one in which they just touch each other.
+    pub(super) fn in_ring(self, ring: Ring) -> Self {
+        Self { ring, ..self }
+    }
+
     /// Whether springs turn with their contacts.
     pub(super) fn springs_turn(&self) -> bool {
         self.left_behind == 0.0

@@ -120,6 +120,28 @@ impl<'a> RememberedBranch<'a> {
         }
     }
 
+    /// The state of the largest load, whatever comes before it.
+    pub(in crate::theory) fn peak(&self) -> PathPoint {
+        self.point(self.peak_direction())
+    }
+
+    fn peak_direction(&self) -> f64 {
+        let (start, _) = self.knots[0];
+        end_of_branch(|direction| self.point(direction), start, self.stack).1
+    }
+
+    /// What is left of cylinder friction, or of the way of the wall, whichever is less, up to the largest load.
+    pub(in crate::theory) fn margin(&self) -> f64 {
+        let peak = self.peak_direction();
+        let before = self.knots.iter().filter(|(direction, _)| *direction < peak);
+        let points = before.map(|(_, state)| self.contacts.point(state, Leg::Wall));
+        let points = points.chain([self.point(peak)]);
+        let margins = points.flat_map(|point| {
+            [Event::CylinderSlip, Event::WallContact].map(|event| point.margin(event, self.stack))
+        });
+        margins.fold(f64::INFINITY, f64::min)
+    }
+
     /// The state at u = `direction` under the wall; not a number where there is none.
     fn point(&self, direction: f64) -> PathPoint {
         let after = self.knots.partition_point(|(at, _)| *at <= direction);
@@ -151,8 +173,40 @@ fn slid_from_the_start(
     Some(contacts.sliding_state(beyond, &point))
 }
 
+/// How far the bottom cylinders overlap when gravity is complete, negative where they would have parted, if the floor of
+/// `stack` slips at the parameter `slip` of its `path` before.
+pub(in crate::theory) fn remembered_overlap_at_rest(
+    path: &FollowedPath,
+    stack: &Stack,
+    convention: &ContactConvention,
+    slip: f64,
+) -> Option<f64> {
+    let contacts = &path.contacts;
+    let rest = match (slip > 0.0, slip >= path.settled()) {
+        (_, true) => path.state(path.settled()),
+        (true, _) => slid_until(contacts, stack, path.state(slip), |_| true)?,
+        (false, _) => {
+            let start = slid_from_the_start(contacts, stack, convention)?;
+            slid_until(contacts, stack, start, |_| true)?
+        }
+    };
+    Some(-rest.outward(&contacts.ring))
+}
+
 /// The state at rest of a stack that slides from `start` on while its weight grows; `None` if contact 2–3 opens meanwhile.
 fn slid_under_own_weight(contacts: &Contacts, stack: &Stack, start: State) -> Option<State> {
+    slid_until(contacts, stack, start, |state| {
+        state.outward(&contacts.ring) < 0.0
+    })
+}
+
+/// The same for as long as it `goes_on`.
+fn slid_until(
+    contacts: &Contacts,
+    stack: &Stack,
+    start: State,
+    goes_on: impl Fn(&State) -> bool,
+) -> Option<State> {
     let sliding = SlidingEquation {
         contacts,
         floor_friction: stack.floor_friction,
@@ -163,6 +217,6 @@ fn slid_under_own_weight(contacts: &Contacts, stack: &Stack, start: State) -> Op
     let place = |index: usize| first + (last - first) * index as f64 / count as f64;
     (0..count).try_fold(start, |state, index| {
         let next = sliding.advance(state, [place(index), place(index + 1)])?;
-        (next.outward(&contacts.ring) < 0.0).then_some(next)
+        goes_on(&next).then_some(next)
     })
 }

@@ -5,53 +5,82 @@ use super::super::path::{BottomContact, FollowedPath, followed_path};
 use super::super::quasistatic::ClosedForm;
 use super::super::root::maximum_between;
 use super::critical_state::{CriticalState, LoadingPhase};
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, HistoryUpdate, Stack};
 
-/// The path of equilibria, with c > 0 where the bottom cylinders touch. Floor friction and cylinder
-/// friction decide how far a stack gets on it, and nothing else.
+/// The path of equilibria under the paper's arms and linear springs, with c > 0 where the bottom cylinders touch. Floor
+/// friction and cylinder friction decide how far a stack gets on it, and nothing else.
 pub struct EquilibriumPath {
     path: PathKind,
+    convention: ContactConvention,
     epsilon: f64,
+    /// Whether contact 2–3 closes on the way.
+    closes: bool,
     /// The parameter at which the top wall reaches the bottom cylinders.
     wall_contact: Option<f64>,
 }
 
 enum PathKind {
-    /// c = 0 all the way: the closed form.
+    /// c = 0 all the way, and springs turn: the closed form.
     Open(ClosedForm),
-    /// Contact 2–3 closes somewhere: followed.
-    Closing(FollowedPath),
+    /// Contact 2–3 closes somewhere, or nothing turns the springs.
+    Followed(FollowedPath),
 }
 
 impl EquilibriumPath {
-    /// The path that `stack` takes, whatever its frictions.
-    pub fn new(stack: &Stack) -> Self {
-        let open = ClosedForm::whole(stack);
-        let path = if locate(&open, Event::ContactCloses, stack).is_some() {
-            let convention = ContactConvention::TURNING;
-            PathKind::Closing(followed_path(stack, &convention, BottomContact::Followed))
-        } else {
-            PathKind::Open(open)
+    /// The path that `stack` takes, whatever its frictions, with springs that change by this rule as their contacts turn.
+    pub fn new(stack: &Stack, history_update: HistoryUpdate) -> Self {
+        let convention = ContactConvention {
+            history_update,
+            ..ContactConvention::TURNING
+        };
+        let followed =
+            || PathKind::Followed(followed_path(stack, &convention, BottomContact::Followed));
+        let closes = |path: &dyn Path| locate(path, Event::ContactCloses, stack).is_some();
+        let (path, closes) = match history_update.turns() {
+            true => {
+                let open = ClosedForm::whole(stack);
+                match closes(&open) {
+                    true => (followed(), true),
+                    false => (PathKind::Open(open), false),
+                }
+            }
+            false => {
+                let followed = followed();
+                let closes = closes(followed.as_path());
+                (followed, closes)
+            }
         };
         let wall_contact = locate(path.as_path(), Event::WallContact, stack);
         Self {
             path,
+            convention,
             epsilon: stack.epsilon(),
+            closes,
             wall_contact,
         }
     }
 
     /// Whether contact 2–3 closes on the way.
     pub fn closes(&self) -> bool {
-        matches!(self.path, PathKind::Closing(_))
+        self.closes
     }
 
-    /// b/a when the stack rests under its own weight: the cylinder friction that this takes.
+    /// The followed path and its convention, if nothing turns the springs: they remember how their contacts have turned.
+    pub(super) fn remembering(&self) -> Option<(&FollowedPath, &ContactConvention)> {
+        match &self.path {
+            PathKind::Followed(path) if !self.convention.history_update.turns() => {
+                Some((path, &self.convention))
+            }
+            _ => None,
+        }
+    }
+
+    /// What the contact 1–2 needs when the stack rests under its own weight: the cylinder friction that this takes.
     pub fn settled_pair_ratio(&self) -> f64 {
         self.point(self.settled()).pair_friction
     }
 
-    /// b/a when the top wall reaches the bottom cylinders: with more cylinder friction than this it gets
+    /// The same when the top wall reaches the bottom cylinders: with more cylinder friction than this it gets
     /// that far. `None` if the path ends before.
     pub fn wall_contact_pair_ratio(&self) -> Option<f64> {
         Some(self.point(self.wall_contact?).pair_friction)
@@ -123,6 +152,17 @@ impl EquilibriumPath {
         } else {
             LoadingPhase::Wall
         };
+        self.state_at(event, &point, stage, self.settled_height())
+    }
+
+    /// The state `point`, in which `event` happens; `settled_height` is that of the top wall where it first touches.
+    pub(super) fn state_at(
+        &self,
+        event: Event,
+        point: &PathPoint,
+        stage: LoadingPhase,
+        settled_height: f64,
+    ) -> CriticalState {
         CriticalState {
             event,
             stage,
@@ -132,7 +172,7 @@ impl EquilibriumPath {
             bottom_force: point.bottom_force,
             wall_travel: match stage {
                 LoadingPhase::OwnWeight => 0.0,
-                LoadingPhase::Wall => self.settled_height() - point.wall_height(),
+                LoadingPhase::Wall => settled_height - point.wall_height(),
             },
         }
     }
@@ -142,7 +182,7 @@ impl PathKind {
     fn as_path(&self) -> &dyn Path {
         match self {
             Self::Open(path) => path,
-            Self::Closing(path) => path,
+            Self::Followed(path) => path,
         }
     }
 }
@@ -156,10 +196,11 @@ mod tests {
     use crate::model::CRITICAL_FRICTION;
 
     fn path(stiffness_ratio: f64) -> EquilibriumPath {
-        EquilibriumPath::new(&Stack {
+        let stack = Stack {
             stiffness_ratio,
             ..Stack::paper(0.3, 1e2)
-        })
+        };
+        EquilibriumPath::new(&stack, HistoryUpdate::Rotated)
     }
 
     /// The state of `path` at T.

@@ -1,9 +1,9 @@
 //! A map over floor friction and one more property of the stack.
 
 use super::super::root::bracketed_root;
-use super::release::released_wall_tangent;
+use super::release::released_wall_friction;
 use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, LoadingOutcome};
-use crate::model::Stack;
+use crate::model::{HistoryUpdate, Stack};
 use serde::Serialize;
 
 /// Property that varies besides the floor friction.
@@ -61,6 +61,8 @@ pub struct RegimeMap {
     pub axis: Axis,
     /// Everything that does not vary.
     pub base: Stack,
+    /// What tangential springs do as their contacts turn.
+    pub history_update: HistoryUpdate,
     /// Lowest and highest value on the axis.
     pub range: (f64, f64),
     /// Lowest and highest floor friction.
@@ -73,13 +75,14 @@ const SEARCHED_VALUES: usize = 65;
 impl RegimeMap {
     /// The three maps: over stiffness, cylinder friction and stiffness ratio, each about the paper's stack at
     /// stiffness 100, with `stiffness_ratio` where that does not vary.
-    pub fn standard(stiffness_ratio: f64) -> [Self; 3] {
+    pub fn standard(stiffness_ratio: f64, history_update: HistoryUpdate) -> [Self; 3] {
         let over = |axis, range| Self {
             axis,
             base: Stack {
                 stiffness_ratio,
                 ..Stack::paper(0.3, 100.0)
             },
+            history_update,
             range,
             frictions: (0.02, 0.8),
         };
@@ -122,10 +125,15 @@ impl RegimeMap {
         }
     }
 
+    /// The path of equilibria at a value on the axis.
+    pub fn path(&self, value: f64) -> EquilibriumPath {
+        EquilibriumPath::new(&self.axis.set(&self.base, value), self.history_update)
+    }
+
     /// The boundaries in μ at a value on the axis that lie on the map.
     pub fn friction_boundaries(&self, value: f64) -> Vec<Boundary> {
         let stack = self.axis.set(&self.base, value);
-        let all = Boundary::in_friction(&EquilibriumPath::new(&stack), &stack).into_iter();
+        let all = Boundary::in_friction(&self.path(value), &stack).into_iter();
         let (lowest, highest) = self.frictions;
         all.filter(|boundary| (lowest..=highest).contains(&boundary.floor_friction))
             .collect()
@@ -135,7 +143,7 @@ impl RegimeMap {
     /// where they slip just as the wall arrives, and where contact 2–3 closes.
     pub fn lines(&self) -> Vec<Line> {
         let mut lines = Vec::new();
-        let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
+        let path = |value: f64| self.path(value);
         let cylinder_friction = |value: f64| self.axis.set(&self.base, value).cylinder_friction;
         let own_weight = |value| path(value).settled_pair_ratio() - cylinder_friction(value);
         let wall = |value| {
@@ -155,7 +163,7 @@ impl RegimeMap {
 
     /// The floor friction above which `line` is a boundary: with less, the floor slips first on both sides of it.
     pub fn lowest_friction_of(&self, line: Line) -> f64 {
-        let path = EquilibriumPath::new(&self.axis.set(&self.base, line.value()));
+        let path = self.path(line.value());
         let end = match line {
             Line::WallArrivesAsCylindersSlip(_) => path.wall_contact(),
             _ => Some(path.settled()),
@@ -168,12 +176,12 @@ impl RegimeMap {
     /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
     /// and those at which the failure of a stack beyond them changes.
     pub fn reopenings(&self) -> Vec<f64> {
-        let path = |value: f64| EquilibriumPath::new(&self.axis.set(&self.base, value));
+        let path = |value: f64| self.path(value);
         let settled = self.roots(|value| path(value).settled_outward());
         let wall = self.roots(|value| path(value).wall_contact_outward().unwrap_or(f64::NAN));
         let pair = self.roots(|value| {
             let stack = self.axis.set(&self.base, value);
-            let needed = released_wall_tangent(&stack).unwrap_or(f64::NAN);
+            let needed = released_wall_friction(&path(value), &stack).unwrap_or(f64::NAN);
             needed - stack.cylinder_friction
         });
         settled.chain(wall).chain(pair).collect()
@@ -198,7 +206,7 @@ impl RegimeMap {
         }
         let points = places.into_iter();
         points
-            .filter_map(|(stack, across)| BoundaryPoint::new(self.axis, stack, across, distance))
+            .filter_map(|(stack, across)| BoundaryPoint::new(self, stack, across, distance))
             .collect()
     }
 
@@ -262,6 +270,8 @@ impl Across {
 pub struct BoundaryPoint {
     /// The map, by the axis that it has besides the floor friction.
     pub map: Axis,
+    /// What tangential springs do as their contacts turn.
+    pub history_update: HistoryUpdate,
     /// The stack on the boundary.
     pub stack: Stack,
     /// Property that changes across the boundary.
@@ -274,10 +284,12 @@ pub struct BoundaryPoint {
 
 impl BoundaryPoint {
     /// `stack` as a point on a boundary. `None` if a neighbour has no outcome.
-    fn new(map: Axis, stack: Stack, across: Across, distance: f64) -> Option<Self> {
-        let side = |factor: f64| LoadingOutcome::of(&across.scale(&stack, factor));
+    fn new(map: &RegimeMap, stack: Stack, across: Across, distance: f64) -> Option<Self> {
+        let history_update = map.history_update;
+        let side = |factor: f64| LoadingOutcome::of(&across.scale(&stack, factor), history_update);
         Some(Self {
-            map,
+            map: map.axis,
+            history_update,
             sides: [side(1.0 - distance)?, side(1.0 + distance)?],
             stack,
             across,
@@ -311,7 +323,7 @@ mod tests {
 
     #[test]
     fn a_line_is_found_also_where_it_meets_a_value_that_is_looked_at() {
-        let [map, ..] = RegimeMap::standard(2.5);
+        let [map, ..] = RegimeMap::standard(2.5, HistoryUpdate::Fixed);
         let values = map.axis_values(SEARCHED_VALUES);
         let between = (values[30] * values[31]).sqrt();
         for place in [values[1], values[30], between, values[63]] {

@@ -4,7 +4,7 @@ use super::super::events::Event;
 use super::critical_state::{CriticalState, LoadingPhase};
 use super::equilibrium_path::EquilibriumPath;
 use super::release::Release;
-use crate::model::Stack;
+use crate::model::{HistoryUpdate, Stack};
 use serde::Serialize;
 use std::fmt;
 
@@ -81,29 +81,32 @@ pub struct LoadingOutcome {
     pub last: CriticalState,
     /// Effect of the first event.
     pub failure_mode: FailureMode,
-    /// Where equilibrium ends; `None` where the stack does not stand, and where the wall comes to rest on the
-    /// bottom cylinders. Later than `last` where that is a slip with c > 0.
+    /// Where equilibrium ends; `None` where the stack does not stand, where the wall comes to rest on the
+    /// bottom cylinders, and where nobody knows. Later than `last` where that is a slip with c > 0.
     pub end: Option<CriticalState>,
+    /// Whether the end is known: no theory follows cylinders that slip on each other with c > 0 while their springs remember
+    /// how they have turned.
+    pub is_end_known: bool,
     /// The largest force F that the stack carries, that at the end unless it softens before.
     pub largest_force: Option<f64>,
 }
 
 impl LoadingOutcome {
-    /// Loads `stack` under the paper's arms. `None` if its path of equilibria ends before any event,
-    /// and of spheres.
+    /// Loads `stack` under the paper's arms and linear springs, which change by this rule as their contacts turn. `None` if its
+    /// path of equilibria ends before any event, and of spheres.
     ///
     /// ```
-    /// use tristack::model::Stack;
+    /// use tristack::model::{HistoryUpdate, Stack};
     /// use tristack::theory::{FailureMode, Event, LoadingOutcome};
     ///
     /// let slippery = Stack { cylinder_friction: 0.4, ..Stack::paper(0.5, 1e2) };
-    /// let outcome = LoadingOutcome::of(&slippery).unwrap();
+    /// let outcome = LoadingOutcome::of(&slippery, HistoryUpdate::Rotated).unwrap();
     /// assert_eq!(outcome.first.event, Event::CylinderSlip);
     /// assert_eq!(outcome.failure_mode, FailureMode::Saturates);
     /// assert!((outcome.first.tangent - 0.4).abs() < 1e-12);
     /// ```
-    pub fn of(stack: &Stack) -> Option<Self> {
-        Self::on(&EquilibriumPath::new(stack), stack)
+    pub fn of(stack: &Stack, history_update: HistoryUpdate) -> Option<Self> {
+        Self::on(&EquilibriumPath::new(stack, history_update), stack)
     }
 
     /// The same for a `stack` whose path is known.
@@ -112,7 +115,7 @@ impl LoadingOutcome {
         let (event, parameter) = last_event(path, stack)?;
         let last = path.critical_state(event, parameter);
         let release = (last.bottom_force > 0.0 && event != Event::WallContact)
-            .then(|| Release::of(stack, path.settled_height()));
+            .then(|| Release::of(stack, path, (event, parameter)));
         let end = match (release, last.stage, event) {
             (Some(Release::Ends(end)), ..) => Some(end),
             (Some(_), ..) | (_, LoadingPhase::OwnWeight, _) | (_, _, Event::WallContact) => None,
@@ -128,6 +131,7 @@ impl LoadingOutcome {
         let passed = path.largest_until(parameter, |point| point.wall_force) * stack.stiffness;
         let softens = end.is_some_and(|end| passed > end.force * (1.0 + MAXIMUM_MARGIN));
         Some(Self {
+            is_end_known: release != Some(Release::Unknown),
             failure_mode: failure_mode(&first, softens),
             largest_force: end.map(|end| end.force.max(passed)),
             first,

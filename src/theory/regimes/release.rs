@@ -1,9 +1,18 @@
 //! Slip while contact 2–3 is closed: the stack goes on until that contact opens.
 
-use super::super::events::Event;
+use super::super::events::{Event, locate};
+use super::super::path::{RememberedBranch, remembered_overlap_at_rest};
 use super::super::root::bracketed_root;
+use super::super::sliding::SlidingEnd;
+use super::EquilibriumPath;
 use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{CRITICAL_FRICTION, Stack};
+
+/// Largest difference that the memory of springs makes to the frictions between which a stack is released, relative to them.
+const NEARBY: f64 = 0.1;
+/// Floor friction from which on the bottom cylinders of a very light stack touch: G₀ = ε/2 and T = μ_c in G₀ (T − μ) = ε μ.
+/// With as much, even the lightest part of the gravity ramp that is followed has them touch.
+const LEAST_TO_TOUCH: f64 = CRITICAL_FRICTION / 3.0 * (1.0 + 1e-6);
 
 /// T − μ_c where the centre of cylinder 1 has sunk to the level of the other two, T = 1.
 const WIDEST: f64 = 1.0 - CRITICAL_FRICTION;
@@ -17,11 +26,34 @@ pub enum Release {
     Ends(CriticalState),
     /// The wall reaches the bottom cylinders before.
     WallFirst,
+    /// Cylinders slip on each other whose springs remember how they have turned.
+    Unknown,
 }
 
 impl Release {
-    /// How `stack` ends; `settled_height` is that of the top wall where it first touches.
-    pub(super) fn of(stack: &Stack, settled_height: f64) -> Self {
+    /// How `stack` ends that slips on its `path`: what slips, and the parameter at which it does.
+    pub(super) fn of(stack: &Stack, path: &EquilibriumPath, (event, slip): (Event, f64)) -> Self {
+        let Some((followed, convention)) = path.remembering() else {
+            return Self::without_memory(stack, path.settled_height());
+        };
+        if event != Event::FloorSlip {
+            return Self::Unknown;
+        }
+        let Some(branch) = RememberedBranch::new(followed, stack, convention, slip) else {
+            return Self::Falls;
+        };
+        match branch.end() {
+            SlidingEnd::Peak(peak) => {
+                let settled_height = branch.settled.wall_height();
+                Self::Ends(path.state_at(event, &peak, LoadingPhase::Wall, settled_height))
+            }
+            SlidingEnd::Other(Event::WallContact) => Self::WallFirst,
+            SlidingEnd::Other(_) => Self::Unknown,
+        }
+    }
+
+    /// The same with springs that turn; `settled_height` is that of the top wall where it first touches.
+    fn without_memory(stack: &Stack, settled_height: f64) -> Self {
         let (beyond, event) = slip_without_contact(stack);
         let epsilon = stack.epsilon();
         let overlap = touching_overlap(beyond);
@@ -47,10 +79,54 @@ impl Release {
 
 /// The two floor frictions between which a stack like this one has a yield force although it slips while
 /// c > 0: with less it falls under its own weight, with more the cylinders slip or the wall reaches the bottom
-/// ones. Neither depends on κ. `None` if such a stack always falls, and of
-/// spheres.
-pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
+/// ones. With springs that turn neither depends on κ. `None` if such a stack always falls, with springs that nothing turns if
+/// contact 2–3 does not close on its `path`, and of spheres.
+pub fn released_frictions(path: &EquilibriumPath, stack: &Stack) -> Option<(f64, f64)> {
     stack.refuse_spheres().ok()?;
+    let (low, high) = frictions_without_memory(stack)?;
+    let Some((followed, convention)) = path.remembering() else {
+        return Some((low, high));
+    };
+    if !path.closes() {
+        return None;
+    }
+    let path = followed;
+    let low = [LEAST_TO_TOUCH, low * (1.0 + NEARBY)];
+    let low = between(low, stack, |stack| {
+        let slip = locate(path, Event::FloorSlip, stack)?;
+        remembered_overlap_at_rest(path, stack, convention, slip)
+    })?;
+    let high = beside(high, stack, |stack| {
+        let slip = locate(path, Event::FloorSlip, stack)?;
+        Some(RememberedBranch::new(path, stack, convention, slip)?.margin())
+    })?;
+    Some((low, high))
+}
+
+/// The floor friction near `guess` at which `margin` of stacks like `stack` vanishes.
+fn beside(guess: f64, stack: &Stack, margin: impl Fn(&Stack) -> Option<f64>) -> Option<f64> {
+    let range = [1.0 - NEARBY, 1.0 + NEARBY].map(|factor| factor * guess);
+    between(range, stack, margin)
+}
+
+/// The same within a range of frictions.
+fn between(
+    [low, high]: [f64; 2],
+    stack: &Stack,
+    margin: impl Fn(&Stack) -> Option<f64>,
+) -> Option<f64> {
+    let at = |floor_friction: f64| {
+        let stack = Stack {
+            floor_friction,
+            ..*stack
+        };
+        margin(&stack).unwrap_or(f64::NAN)
+    };
+    bracketed_root(at, low, high)
+}
+
+/// The same with springs that turn.
+fn frictions_without_memory(stack: &Stack) -> Option<(f64, f64)> {
     let epsilon = stack.epsilon();
     let needed = |beyond: f64| {
         let overlap = touching_overlap(beyond);
@@ -62,9 +138,32 @@ pub fn released_frictions(stack: &Stack) -> Option<(f64, f64)> {
     (end > settled).then(|| (needed(settled), needed(end)))
 }
 
-/// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0.
-pub(crate) fn released_wall_tangent(stack: &Stack) -> Option<f64> {
-    wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond)
+/// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0 on its `path`.
+pub(crate) fn released_wall_friction(path: &EquilibriumPath, stack: &Stack) -> Option<f64> {
+    let Some((followed, convention)) = path.remembering() else {
+        return wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond);
+    };
+    if !path.closes() {
+        return None;
+    }
+    let path = followed;
+    let rough = Stack {
+        cylinder_friction: f64::MAX,
+        ..*stack
+    };
+    let (_, guess) = frictions_without_memory(&rough)?;
+    let peak = |stack: &Stack| {
+        let slip = locate(path, Event::FloorSlip, stack)?;
+        Some(RememberedBranch::new(path, stack, convention, slip)?.peak())
+    };
+    let floor_friction = beside(guess, &rough, |stack| {
+        Some(peak(stack)?.margin(Event::WallContact, stack))
+    })?;
+    let arriving = Stack {
+        floor_friction,
+        ..rough
+    };
+    Some(peak(&arriving)?.pair_friction)
 }
 
 /// T − μ_c where the wall reaches the bottom cylinders just as these part.
@@ -122,7 +221,7 @@ mod tests {
     fn the_wall_comes_down_as_far_as_geometry_and_balance_have_it() {
         let stack = Stack::paper(0.3, 1e2);
         let settled_height = 3.7;
-        let Release::Ends(end) = Release::of(&stack, settled_height) else {
+        let Release::Ends(end) = Release::without_memory(&stack, settled_height) else {
             panic!("it ends under the wall");
         };
         let square = end.tangent * end.tangent;

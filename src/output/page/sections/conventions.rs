@@ -19,6 +19,12 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
              declares. The arm is $r_1$ in $R = r + r_1 \\times$ overlap; the paper’s is 0.",
             found.len()
         )),
+        Block::paragraph(
+            "The paper’s tangential spring is a vector that nothing turns while its contact does: its text integrates a \
+             velocity, and the program of its authors adds up two components in space. Codes whose spring turns with the contact \
+             have another limit above $\\mu_c$, whatever their arms ([](#figure-model-form)). Earlier reports of this program took the \
+             paper’s spring for one that turns; `tristack theory --history-update rotated` gives the exact limits that they had.",
+        ),
         Block::Table(PageTable::new(
             "conventions",
             "Measured properties, uncertainty in brackets. Arms in units of the overlap; memory, share and pull \

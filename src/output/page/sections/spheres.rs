@@ -21,7 +21,8 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         Block::figure(spheres_figure(spheres)),
         Block::table(
             "spheres",
-            "The exact limit of two cylinders and of three to five spheres under the paper’s convention. $\\psi_0$ is the angle of the line \
+            "The exact limit of two cylinders and of three to five spheres under the paper’s convention, but for springs that turn with \
+             their contacts, as those of codes do. $\\psi_0$ is the angle of the line \
              between the centres of a bottom body and the top one from the vertical, $\\mu_c = \\tan(\\psi_0/2)$; below $\\mu_c/(n + 1)$ rigid \
              bodies slide under their own weight. $F$ at three floor frictions, in $mg$; rigid bodies have $n - 1$ at $\\mu_c/2$, and \
              no limit from $\\mu_c$ on. Above the highest $\\mu$ the top wall reaches the bottom bodies before the floor slips, or the top body \
@@ -48,7 +49,7 @@ pub(crate) fn limits(curves: &[BodiesCurve]) -> DataTable<'_> {
     let critical = |own: &&BodiesCurve| own.stack.ring().critical_friction;
     Columns::<&BodiesCurve>::new(
         "spheres",
-        "A row is the exact limit under the paper's convention of so many bodies on the floor at one stiffness.",
+        "A row is the exact limit under the paper's convention, with springs that turn, of so many bodies on the floor at one stiffness.",
         "`tristack report` (tables/spheres.csv)",
     )
     .number("bodies", "1", |own| u64::from(own.stack.bodies))

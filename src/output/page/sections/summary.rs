@@ -35,7 +35,7 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         ),
         Block::table(
             "points",
-            "Yield force $F = f/(mg)$ at some points of Fig. 2(a). A code with another limit has other torque arms \
+            "Yield force $F = f/(mg)$ at some points of Fig. 2(a). A code with another limit turns its springs, or has other torque arms \
              than the paper’s model; that is no error.",
             &points(&reproduction.yield_curves),
         ),
@@ -230,7 +230,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::TURNING));
+    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::PAPER));
     let mut columns = Columns::<Predictions>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",

@@ -1,7 +1,7 @@
 //! The DEM's contact law as printed, compared with kinematics, energy and the motion that it causes.
 
 use super::Check;
-use crate::model::Stack;
+use crate::model::{HistoryUpdate, Stack};
 use crate::paper::claims::finding::{Finding, ROUND_OFF, relative, violation, worst};
 use crate::paper::claims::notation::{
     FRICTION, STIFFNESS as INVERSE_EPSILON, range, scientific, values,
@@ -142,7 +142,7 @@ pub(crate) const CHECKS: &[Check] = &[
                 cylinder_friction: paper.friction_between_cylinders(mu),
                 ..Stack::paper(mu, stiffness)
             };
-            let outcome = LoadingOutcome::of(&stack);
+            let outcome = LoadingOutcome::of(&stack, HistoryUpdate::Fixed);
             outcome.is_none_or(|outcome| outcome.first.stage == LoadingPhase::OwnWeight)
         };
         let (fallen, all) = (frictions.into_iter().filter(falls).count(), frictions.len());

@@ -1,7 +1,7 @@
 //! Appendix C: the limits of the analysis, by the elastic equation, the exact limit and its events.
 
 use super::Check;
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, HistoryUpdate, Stack};
 use crate::paper::claims::finding::{Finding, worst};
 use crate::paper::claims::notation::{FRICTION, STIFFNESS, fixed, number, range, values};
 use crate::paper::claims::printed::PaperTheory;
@@ -50,7 +50,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let all = stacks.len();
         let ends: Vec<_> = stacks
             .into_iter()
-            .filter_map(|stack| LoadingOutcome::of(&stack))
+            .filter_map(|stack| LoadingOutcome::of(&stack, HistoryUpdate::Fixed))
             .collect();
         let ends = ends.iter().map(|outcome| outcome.first.event);
         let count = |events: &[Event]| ends.clone().filter(|end| events.contains(end)).count();
@@ -70,7 +70,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let side = |mu: f64| {
             followed_limit(
                 &stack(paper, mu, paper.lowest_stiffness),
-                &ContactConvention::TURNING,
+                &ContactConvention::PAPER,
             )
             .event
         };
@@ -117,7 +117,7 @@ pub(crate) const CHECKS: &[Check] = &[
         for stiffness in stiffnesses {
             for &mu in &frictions {
                 let base = stack(paper, mu, stiffness);
-                if let Some(outcome) = LoadingOutcome::of(&base) {
+                if let Some(outcome) = LoadingOutcome::of(&base, HistoryUpdate::Fixed) {
                     slips += usize::from(outcome.first.event == Event::CylinderSlip);
                     highest = highest.max(outcome.first.tangent);
                 }
@@ -157,7 +157,8 @@ fn last_outward(paper: &PaperTheory, stiffness: f64) -> f64 {
 /// The floor friction above which the wall reaches cylinder 2 before the floor slips.
 fn wall_contact_friction(paper: &PaperTheory, stiffness: f64) -> f64 {
     let base = stack(paper, 0.3, stiffness);
-    let mut boundaries = Boundary::in_friction(&EquilibriumPath::new(&base), &base).into_iter();
+    let path = EquilibriumPath::new(&base, HistoryUpdate::Fixed);
+    let mut boundaries = Boundary::in_friction(&path, &base).into_iter();
     let wall = boundaries.find(|boundary| boundary.above == Event::WallContact);
     wall.map_or(f64::NAN, |boundary| boundary.floor_friction)
 }

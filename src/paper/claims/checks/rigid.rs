@@ -34,8 +34,7 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("coulomb-slip", |paper| {
         let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
         let deviations = pairs(frictions, [1e2, 1e3, 1e4]).filter_map(|(mu, stiffness)| {
-            let limit =
-                quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::TURNING);
+            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
             let epsilon = 1.0 / stiffness;
             let shear = (limit.z? - epsilon) * limit.tangent?;
             let load = (limit.floor_slip_force? + paper.stack_weights) * epsilon;
@@ -48,7 +47,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.53];
         let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
         let inward = pairs(frictions, stiffnesses).map(|(mu, stiffness)| {
-            let limit = quasistatic_limit(&paper.stack(mu, stiffness), &ContactConvention::TURNING);
+            let limit = quasistatic_limit(&paper.stack(mu, stiffness), &ContactConvention::PAPER);
             -limit.y.unwrap_or(f64::NAN) * stiffness
         });
         let lowest = -worst(inward);

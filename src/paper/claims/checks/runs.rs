@@ -98,7 +98,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let ratio = paper.time_step
             / paper
                 .stack(0.2, 1e4)
-                .longest_time_step(&ContactConvention::TURNING);
+                .longest_time_step(&ContactConvention::PAPER);
         let evidence = format!(
             "a leapfrog step is stable up to $2/\\omega$ of the stiffest mode of the stack; {} is ${}$ of the longest safe \
              step",

@@ -4,7 +4,7 @@ use super::micro::Micro;
 use super::report::{Grade, Item};
 use crate::code::Code;
 use crate::series::Series;
-use crate::study::convention::{ArmEffects, Passport, passport};
+use crate::study::convention::{ArmEffects, Finding, Passport, passport};
 
 const CONVENTION: &str = "measured convention";
 const BITS: &str = "the same task twice";
@@ -60,16 +60,43 @@ pub(super) fn information(code: Code, micro: Option<&Micro>) -> Vec<Item> {
         format!("{key} {}", value.as_deref().unwrap_or("unknown"))
     });
     let forces = passport.effects.iter().map(yield_force);
-    vec![
-        Item::passed(grade, CONVENTION, keys.collect::<Vec<_>>().join(", ")),
+    let convention = Item::passed(grade, CONVENTION, keys.collect::<Vec<_>>().join(", "));
+    let items = [convention]
+        .into_iter()
+        .chain(turned(&micro.findings.findings));
+    let others = [
         Item::passed(
             grade,
             "yield force by theory",
             forces.collect::<Vec<_>>().join("; "),
         ),
         Item::passed(grade, "twin", twin(&passport)),
-    ]
+    ];
+    items.chain(others).collect()
 }
+
+/// What it does to a force to turn everything, bodies, walls and gravity, if a contact that turns leaves its spring behind. The
+/// share was measured with two cylinders that turn together.
+fn turned(findings: &[Finding]) -> Option<Item> {
+    let mut findings = findings.iter();
+    let own = findings.find(|own| own.property == "pair_spring_left_behind")?;
+    let share = own.measured.filter(|share| share.abs() > LEAST_SHARE)?;
+    let aside = 100.0 * share * libm::sin(TURN_IN_DEGREES.to_radians());
+    let found = format!(
+        "its forces depend on how the axes lie: turn everything by {TURN_IN_DEGREES} degrees, and {aside:.1} % of the force \
+         of a stretched spring between two cylinders points along their normal (docs/conventions.md)"
+    );
+    Some(Item::remark(
+        Grade::Informational,
+        "turned as a whole",
+        found,
+    ))
+}
+
+/// Turn by which the dependence on the axes is shown.
+const TURN_IN_DEGREES: f64 = 10.0;
+/// Share of a spring that is left behind from which on that is said.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// A number to six decimals, or a word.
 fn in_short(value: &str) -> String {
@@ -114,4 +141,34 @@ fn twin(passport: &Passport) -> String {
         );
     }
     "none of the external codes inside the program has these arms; native takes on any".to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Verdict;
+
+    #[test]
+    fn a_spring_that_is_left_behind_is_said_to_depend_on_the_axes() {
+        let finding = |measured: Option<f64>| Finding {
+            code: Code::NATIVE,
+            version: String::new(),
+            property: "pair_spring_left_behind".to_owned(),
+            key: None,
+            measured,
+            uncertainty: Some(1e-9),
+            declared: Some(1.0),
+            verdict: Verdict::Agrees,
+        };
+        let item = turned(&[finding(Some(1.0))]).expect("it is said");
+        assert!(
+            item.found.contains("by 10 degrees, and 17.4 %"),
+            "{}",
+            item.found
+        );
+        for none in [Some(1e-9), None] {
+            assert!(turned(&[finding(none)]).is_none());
+        }
+        assert!(turned(&[]).is_none());
+    }
 }

@@ -2,7 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tristack::model::{Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, Stack};
+use tristack::model::{
+    Arms, CRITICAL_FRICTION, ContactArms, ContactConvention, HistoryUpdate, Stack,
+};
 
 /// The stack.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,6 +22,9 @@ pub struct Input {
     pair: OneArm,
     /// Contacts with the floor.
     floor: OneArm,
+    /// What becomes of the tangential spring 1–2 as its contact turns: it turns with it (`rotated`), or it is a vector
+    /// that nothing turns (`fixed`).
+    pub history_update: HistoryUpdate,
 }
 
 /// Arm coefficients r₁ of a contact: arms are r + r₁ δ at the overlap δ.
@@ -34,9 +39,24 @@ pub struct OneArm {
 
 /// (torque arm, kinematic arm) of pairs and of the floor in the paper.
 const PAPER: [(f64, f64); 2] = [(0.0, 0.0); 2];
+/// The same where both are half the overlap, or all of it at the floor.
+const RECIPROCAL: [[(f64, f64); 2]; 4] = [
+    [(-0.5, -0.5), (-0.5, -0.5)],
+    [(-0.5, -0.5), (-1.0, -1.0)],
+    [(0.0, 0.0), (-0.5, -0.5)],
+    [(-1.0, -1.0), (0.0, 0.0)],
+];
+/// The same where torque arms and kinematic arms differ.
+const SEPARATE: [[(f64, f64); 2]; 5] = [
+    [(-0.5, 0.0), (0.0, 0.0)],
+    [(0.0, -0.5), (0.0, 0.0)],
+    [(0.0, 0.0), (-0.5, 0.0)],
+    [(0.0, 0.0), (0.0, -0.5)],
+    [(-0.5, 0.25), (-1.0, -0.5)],
+];
 
 impl Input {
-    /// (torque arm, kinematic arm) of pairs and of the floor.
+    /// (torque arm, kinematic arm) of pairs and of the floor; the spring turns.
     fn new(mu: f64, stiffness: f64, kappa: f64, mu_d: f64, arms: [(f64, f64); 2]) -> Self {
         let [pair, floor] = arms.map(|(torque_arm, kinematic_arm)| OneArm {
             torque_arm,
@@ -49,6 +69,7 @@ impl Input {
             mu_d,
             pair,
             floor,
+            history_update: HistoryUpdate::Rotated,
         }
     }
 
@@ -65,7 +86,10 @@ impl Input {
             torque: arms.torque_arm,
             kinematic: arms.kinematic_arm,
         });
-        ContactConvention::with_arms(Arms { pair, floor })
+        ContactConvention {
+            history_update: self.history_update,
+            ..ContactConvention::with_arms(Arms { pair, floor })
+        }
     }
 
     pub fn id(&self) -> String {
@@ -82,62 +106,96 @@ impl Input {
                 id += &format!(", {name} {}/{}", arms.torque_arm, arms.kinematic_arm);
             }
         }
+        if self.history_update == HistoryUpdate::Fixed {
+            id += ", fixed";
+        }
         id
     }
 }
 
-/// The stacks: over μ, stiffness, κ (below 1.077 the bottom cylinders touch), μ_d, and arms.
-pub fn inputs() -> Vec<Input> {
+/// All stacks of some κ, stiffnesses, arms and μ.
+fn over(kappas: &[f64], stiffnesses: &[f64], arms: &[[(f64, f64); 2]], mus: &[f64]) -> Vec<Input> {
     let mut inputs = Vec::new();
-    let mut over = |kappas: &[f64], stiffnesses: &[f64], arms: &[[(f64, f64); 2]], mus: &[f64]| {
-        for &kappa in kappas {
-            for &stiffness in stiffnesses {
-                for &arms in arms {
-                    let stacks = mus
-                        .iter()
-                        .map(|&mu| Input::new(mu, stiffness, kappa, 0.7, arms));
-                    inputs.extend(stacks);
-                }
+    for &kappa in kappas {
+        for &stiffness in stiffnesses {
+            for &arms in arms {
+                let stacks = mus
+                    .iter()
+                    .map(|&mu| Input::new(mu, stiffness, kappa, 0.7, arms));
+                inputs.extend(stacks);
             }
         }
-    };
-    let mus = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5];
-    over(&[2.5], &[10.0, 1e2, 1e3, 1e4, 1e6], &[PAPER], &mus);
-    over(
-        &[1.1, 1.5, 5.0, 10.0],
-        &[1e2, 1e4],
-        &[PAPER],
-        &[0.2, 0.3, 0.5],
-    );
-    over(
-        &[0.3, 0.6, 1.0],
-        &[1e2, 1e4],
-        &[PAPER],
-        &[0.2, 0.25, 0.3, 0.35],
-    );
-    let reciprocal = [(-0.5, -0.5), (-0.5, -1.0), (0.0, -0.5), (-1.0, 0.0)];
-    let reciprocal = reciprocal.map(|(pair, floor)| [(pair, pair), (floor, floor)]);
-    over(
-        &[2.5],
-        &[1e2, 1e4],
-        &reciprocal,
-        &[0.2, CRITICAL_FRICTION, 0.3, 0.5],
-    );
-    let separate = [
-        [(-0.5, 0.0), (0.0, 0.0)],
-        [(0.0, -0.5), (0.0, 0.0)],
-        [(0.0, 0.0), (-0.5, 0.0)],
-        [(0.0, 0.0), (0.0, -0.5)],
-        [(-0.5, 0.25), (-1.0, -0.5)],
-    ];
-    over(&[2.5], &[1e2], &separate, &[0.2, 0.3]);
-    over(
-        &[0.6],
-        &[1e2],
-        &[reciprocal[0], reciprocal[1], separate[0]],
-        &[0.2, 0.3],
-    );
-    for (mu, stiffness, kappa, mu_d) in [
+    }
+    inputs
+}
+
+/// The stacks, with springs that turn and with springs that nothing turns.
+pub fn inputs() -> Vec<Input> {
+    let fixed = not_turned().into_iter().map(|input| Input {
+        history_update: HistoryUpdate::Fixed,
+        ..input
+    });
+    turned().into_iter().chain(fixed).collect()
+}
+
+const MUS: [f64; 7] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4, 0.5];
+
+/// Over μ, stiffness, κ (below 1.077 the bottom cylinders touch), μ_d, and arms.
+fn turned() -> Vec<Input> {
+    let [both, all_of_floor, ..] = RECIPROCAL;
+    let mut inputs = [
+        over(&[2.5], &[10.0, 1e2, 1e3, 1e4, 1e6], &[PAPER], &MUS),
+        over(
+            &[1.1, 1.5, 5.0, 10.0],
+            &[1e2, 1e4],
+            &[PAPER],
+            &[0.2, 0.3, 0.5],
+        ),
+        over(
+            &[0.3, 0.6, 1.0],
+            &[1e2, 1e4],
+            &[PAPER],
+            &[0.2, 0.25, 0.3, 0.35],
+        ),
+        over(
+            &[2.5],
+            &[1e2, 1e4],
+            &RECIPROCAL,
+            &[0.2, CRITICAL_FRICTION, 0.3, 0.5],
+        ),
+        over(&[2.5], &[1e2], &SEPARATE, &[0.2, 0.3]),
+        over(
+            &[0.6],
+            &[1e2],
+            &[both, all_of_floor, SEPARATE[0]],
+            &[0.2, 0.3],
+        ),
+    ]
+    .concat();
+    inputs.extend(special());
+    inputs
+}
+
+/// A part of these: nothing but the contact 1–2 differs, and that the more the further it turns.
+fn not_turned() -> Vec<Input> {
+    let [both, all_of_floor, ..] = RECIPROCAL;
+    let mut inputs = [
+        over(&[2.5], &[1e2, 1e3, 1e4, 1e6], &[PAPER], &MUS),
+        over(&[1.5, 5.0], &[1e2, 1e4], &[PAPER], &[0.2, 0.3]),
+        over(&[0.6], &[1e2, 1e4], &[PAPER], &[0.2, 0.3, 0.35]),
+        over(&[1.0], &[1e2], &[PAPER], &[0.25]),
+        over(&[2.5], &[1e2], &[both, all_of_floor], &[0.2, 0.3]),
+        over(&[2.5], &[1e2], &SEPARATE, &[0.3]),
+        over(&[0.6], &[1e2], &[both, SEPARATE[4]], &[0.3]),
+    ]
+    .concat();
+    inputs.extend(special());
+    inputs
+}
+
+/// Stacks with other events and ends.
+fn special() -> Vec<Input> {
+    let stacks = [
         // Friction between the cylinders: enough, and not.
         (0.3, 1e2, 2.5, 1.0),
         (0.3, 1e2, 2.5, 0.3),
@@ -149,8 +207,7 @@ pub fn inputs() -> Vec<Input> {
         // It slides under its own weight and stands all the same; it has an onset, but no peak.
         (0.12, 1e2, 0.3, 0.7),
         (0.4, 1e2, 0.6, 0.7),
-    ] {
-        inputs.push(Input::new(mu, stiffness, kappa, mu_d, PAPER));
-    }
-    inputs
+    ];
+    let input = |(mu, stiffness, kappa, mu_d)| Input::new(mu, stiffness, kappa, mu_d, PAPER);
+    stacks.map(input).to_vec()
 }

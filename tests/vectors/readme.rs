@@ -29,17 +29,24 @@ fn the_example_of_the_page_runs_and_finds_the_vectors_right() {
     assert!(readme().contains(said.trim_end()), "{said}");
 }
 
-/// A theory that is wrong by a ten-thousandth fails in the example.
+/// A theory that is wrong by a ten-thousandth fails in the example, and so does one of the other spring.
 #[test]
 fn the_example_refuses_a_wrong_theory() {
-    let wrong = example().replace("< mu / stiffness", "< 1.0001 * mu / stiffness");
-    assert_ne!(wrong, example());
-    let output = Command::new("python3")
-        .args(["-c", &wrong])
-        .current_dir(folder())
-        .output()
-        .expect("python3 runs");
-    assert!(!output.status.success());
+    for (right, wrong) in [
+        ("< mu / stiffness", "< 1.0001 * mu / stiffness"),
+        ("if spring == \"fixed\"", "if False"),
+        ("if spring == \"fixed\"", "if True"),
+    ] {
+        let program = example().replace(right, wrong);
+        assert_ne!(program, example());
+        let output = Command::new("python3")
+            .args(["-c", &program])
+            .current_dir(folder())
+            .output()
+            .expect("python3 runs");
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(error.contains("AssertionError"), "{wrong}: {error}");
+    }
 }
 
 #[test]

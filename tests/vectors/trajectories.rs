@@ -101,7 +101,7 @@ struct Chosen {
     beyond: f64,
 }
 
-fn chosen() -> [Chosen; 5] {
+fn chosen() -> [Chosen; 7] {
     let chosen = |id, what, stack, convention| Chosen {
         id,
         what,
@@ -109,7 +109,7 @@ fn chosen() -> [Chosen; 5] {
         convention,
         beyond: 0.03,
     };
-    let paper = ContactConvention::TURNING;
+    let turning = ContactConvention::TURNING;
     let other = ContactConvention {
         arms: Arms::reciprocal(-0.5, -1.0),
         restitution: 0.5,
@@ -117,7 +117,7 @@ fn chosen() -> [Chosen; 5] {
         sliding_spring: SlidingSpring::FollowsLimit,
         history_update: HistoryUpdate::Projected,
         tensile_force: TensileForce::NeverPulls,
-        ..paper
+        ..turning
     };
     let separate = ContactConvention {
         arms: Arms {
@@ -131,23 +131,43 @@ fn chosen() -> [Chosen; 5] {
             },
         },
         history_update: HistoryUpdate::Linearised,
-        ..paper
+        ..turning
+    };
+    let other_fixed = ContactConvention {
+        history_update: HistoryUpdate::Fixed,
+        ..other
     };
     let soft = |mu| Stack::paper(mu, 1e2);
+    let slippery = Stack {
+        cylinder_friction: 0.35,
+        ..soft(0.3)
+    };
     let touching = Stack {
         stiffness_ratio: 0.6,
         ..soft(0.3)
     };
     [
-        chosen("below", "mu below 2 - sqrt 3", soft(0.2), paper),
-        chosen("above", "mu above 2 - sqrt 3", soft(0.3), paper),
+        chosen("below", "mu below 2 - sqrt 3", soft(0.2), turning),
+        chosen("above", "mu above 2 - sqrt 3", soft(0.3), turning),
+        chosen(
+            "fixed",
+            "mu above 2 - sqrt 3, and the paper's spring, which nothing turns",
+            soft(0.3),
+            ContactConvention::PAPER,
+        ),
+        chosen(
+            "fixed-slipping",
+            "the same spring with other words, and the cylinders slip on each other in the collapse",
+            slippery,
+            other_fixed,
+        ),
         Chosen {
             beyond: 0.2,
             ..chosen(
                 "touching",
                 "the bottom cylinders touch: the force rises on after the slip onset",
                 touching,
-                paper,
+                turning,
             )
         },
         chosen(

@@ -487,7 +487,8 @@ fn released_frictions_are_where_the_released_stack_stands_and_where_it_meets_wal
     assert_eq!(released(&stack(0.3, 0.2)), None);
 }
 
-/// With springs that nothing turns the branch is integrated, and so both frictions depend on κ.
+/// With springs that nothing turns the branch is integrated. The higher friction then depends on κ; the lower one is that of
+/// stacks that slide from the start, and hardly differs from the one of springs that turn.
 #[test]
 fn released_frictions_of_fixed_springs_are_where_the_followed_stack_stands_and_where_it_meets_the_wall()
  {

@@ -19,9 +19,13 @@ pub struct ContactRow {
     pub tangential_speed: f64,
     /// Angular velocities of both sides; 0 for the floor and the wall.
     pub spins: [f64; 2],
+    /// Without the lift.
     pub normal_force: f64,
     /// Tangential force on cylinder 1.
     pub tangential_force: f64,
+    /// Part along the normal of the force of spring and friction, if nothing turns the spring with its contact; 0 in a row as
+    /// read.
+    pub lift: f64,
     /// Torque on cylinder 1.
     pub torque: f64,
     /// Torque on cylinder 2.
@@ -36,6 +40,20 @@ impl ContactRow {
     /// Sum of the angular velocities.
     pub fn spin(&self) -> f64 {
         self.spins[0] + self.spins[1]
+    }
+
+    /// Size of the force of spring and friction.
+    pub fn friction_force(&self) -> f64 {
+        self.tangential_force.hypot(self.lift)
+    }
+
+    /// The same row with this part of its normal force as `lift`.
+    pub fn lifted_by(self, lift: f64) -> Self {
+        Self {
+            normal_force: self.normal_force + self.lift - lift,
+            lift,
+            ..self
+        }
     }
 
     /// The larger of the angles by which the two sides turn in a step.
@@ -98,6 +116,7 @@ fn contact_row(
         spins,
         normal_force: along(one.force),
         tangential_force: across(one.force),
+        lift: 0.0,
         torque: one.torque,
         other_torque: two.torque,
         wall_force: row.wall_force,

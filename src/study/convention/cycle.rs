@@ -1,5 +1,7 @@
 //! Work of closed cycles in overlap and tangential displacement, in which a cylinder is moved as prescribed.
 
+use super::clock::Clock;
+use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{ContactKind, HIGH, LOW, SHEAR, driven};
 use super::finding::{PRESSED_FIRST, Property, SHEARED_FIRST};
 use super::plan::TestedMotion;
@@ -42,11 +44,15 @@ pub fn tests(convention: &ContactConvention) -> Vec<ContactTest> {
 /// The work of every cycle, over the energy that the spring of the measured law has at the higher overlap.
 pub fn properties<'a>(
     outcomes: &[TestedMotion],
+    clock: &Clock,
     tangential: impl Fn(ContactKind) -> Option<&'a TangentialLaw>,
 ) -> Vec<Property> {
     let read = |((test, motion), (kind, order)): (&TestedMotion, (ContactKind, CycleOrder))| {
-        let energy = 0.5 * tangential(kind)?.stiffness_at(HIGH) * SHEAR * SHEAR;
-        let work = work(motion) / energy;
+        let law = tangential(kind)?;
+        let energy = 0.5 * law.stiffness_at(HIGH) * SHEAR * SHEAR;
+        let rows = contact_rows(kind, test, motion, clock);
+        let lifted = law.undamped().with_lift(&rows);
+        let work = work(motion, &lifted) / energy;
         let declared = cycle_work(&declared_law(kind, test), [LOW, HIGH], order);
         let measured = Measured::new(work, uncertainty(kind, motion, energy));
         Some(Property::at(kind, name(order), measured, declared))
@@ -54,12 +60,18 @@ pub fn properties<'a>(
     outcomes.iter().zip(cycles()).filter_map(read).collect()
 }
 
-/// The work that is done on cylinder 1, against the force of its contact.
-fn work(motion: &Motion) -> f64 {
-    let steps = motion.rows().windows(2).map(|rows| {
+/// The work that is done on cylinder 1, against the force of its contact without the lift, which the rows of the contact have
+/// from step 1 on.
+fn work(motion: &Motion, lifted: &[ContactRow]) -> f64 {
+    let lift = |step: usize, axis: usize| {
+        let row = step.checked_sub(1).and_then(|index| lifted.get(index));
+        row.map_or(0.0, |row| row.lift * row.normal[axis])
+    };
+    let steps = motion.rows().windows(2).enumerate().map(|(step, rows)| {
         let [before, after] = [rows[0].bodies()[0], rows[1].bodies()[0]];
         let along = |axis: usize| {
-            let force = 0.5 * (before.force[axis] + after.force[axis]);
+            let lift = lift(step, axis) + lift(step + 1, axis);
+            let force = 0.5 * (before.force[axis] + after.force[axis] - lift);
             -force * (after.position[axis] - before.position[axis])
         };
         along(0) + along(1)

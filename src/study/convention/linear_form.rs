@@ -142,12 +142,17 @@ impl Form {
     }
 
     /// The factor by which what the spring remembers changes between two rows.
-    pub fn carried(self, before: &ContactRow, row: &ContactRow) -> f64 {
+    fn carried(self, before: &ContactRow, row: &ContactRow) -> f64 {
         self.memory.rescaled(before, row) * carried(before, row, self.transport)
     }
 
     /// Parts along tangent and normal of what the spring remembers, after the contact has turned between two rows.
-    fn turned(self, [along, lift]: [f64; 2], before: &ContactRow, row: &ContactRow) -> [f64; 2] {
+    pub fn turned(
+        self,
+        [along, lift]: [f64; 2],
+        before: &ContactRow,
+        row: &ContactRow,
+    ) -> [f64; 2] {
         let factor = self.carried(before, row);
         if self.left_behind == 0.0 {
             return [along * factor, 0.0];
@@ -160,15 +165,19 @@ impl Form {
         ]
     }
 
+    /// Parts along tangent and normal of a spring of length 1 before the growth in the first row: it has it from the step
+    /// before, whose contact has turned once since.
+    pub fn begun(self, first: &ContactRow) -> [f64; 2] {
+        [1.0, self.left_behind * sine(first)]
+    }
+
     /// Terms and force of every row.
     pub fn terms(self, motions: &[&[ContactRow]], radius: f64) -> Vec<(Vec<f64>, f64)> {
         let coefficients = self.coefficients();
         let mut rows = Vec::new();
         for (index, motion) in motions.iter().enumerate() {
             let mut springs = [[0.0; 2]; 5];
-            // What a spring has before the first row it has from the step before, whose contact has turned once since.
-            let turn = motion.first().map_or(0.0, sine);
-            let mut initial = [1.0, self.left_behind * turn];
+            let mut initial = motion.first().map_or([1.0, 0.0], |row| self.begun(row));
             let mut before: Option<&ContactRow> = None;
             for row in *motion {
                 let turned = |spring: [f64; 2]| {

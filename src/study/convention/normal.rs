@@ -15,6 +15,8 @@ pub struct NormalLaw {
     pub overlap_lead: Measured,
     /// λ, lag of the velocity in the force behind the reported overlap, in steps.
     pub velocity_lag: Measured,
+    /// q, of the best fit.
+    lag_rate: f64,
 }
 
 impl NormalLaw {
@@ -44,7 +46,16 @@ impl NormalLaw {
                 0.5 - q * mass / damping.value,
                 spread * mass / damping.value,
             ),
+            lag_rate: q,
         }
+    }
+
+    /// The force in a row, whatever else it reports as normal force.
+    pub fn force(&self, row: &ContactRow) -> f64 {
+        let (dt, speed) = (row.time_step, row.separation_speed);
+        let overlap = row.overlap - self.overlap_lead.value * dt * speed;
+        let reported = row.normal_force + row.lift;
+        self.stiffness.value * overlap - self.damping.value * speed - self.lag_rate * dt * reported
     }
 }
 

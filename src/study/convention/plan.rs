@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
+use super::linear_form::sticking;
 use super::normal::{self, NormalLaw, pull};
 use super::power::NormalPower;
 use super::properties::{growing_properties, power_properties};
@@ -64,20 +65,21 @@ impl Plan {
             .collect();
         let turning = (self.kind == ContactKind::Pair).then_some(turning);
         let (sticking, refined) = (&rows[STICKING], &rows[REFINED]);
-        let (normal, tangential) = if self.convention.law.is_linear() {
-            let (coarse, fine) = (sticking.concat(), refined.concat());
-            let normal = NormalLaw::read(&coarse, &fine, clock.mass.value);
-            let test = &self.tests[0];
-            let declared = test.convention.law(test.stiffness_ratio);
-            let stiffness = declared.tangential_stiffness;
-            let tangential = TangentialLaw::read(sticking, refined, turning, stiffness);
-            (Normal::Linear(normal), tangential)
-        } else {
-            let mass = self.kind.effective_mass(clock.mass.value);
-            let normal = NormalPower::read(&[sticking.concat(), refined.concat()].concat(), mass);
-            let stiffening = normal.stiffening();
-            let tangential = TangentialLaw::read_growing(sticking, refined, turning, stiffening);
-            (Normal::Power(normal), tangential)
+        let normal = self.read_normal(sticking, refined, clock);
+        let tangential = match &normal {
+            Normal::Linear(_) => {
+                let test = &self.tests[0];
+                let declared = test.convention.law(test.stiffness_ratio);
+                let stiffness = declared.tangential_stiffness;
+                TangentialLaw::read(sticking, refined, turning, stiffness)
+            }
+            Normal::Power(law) => {
+                TangentialLaw::read_growing(sticking, refined, turning, law.stiffening())
+            }
+        };
+        let (normal, rows) = match tangential.lifts() {
+            true => self.without_lift(&tangential, &rows, clock),
+            false => (normal, rows),
         };
         Laws {
             pull: match &normal {
@@ -89,6 +91,47 @@ impl Plan {
             rows,
             plan: self,
         }
+    }
+
+    /// The normal law in motions with two time steps.
+    fn read_normal(
+        &self,
+        coarse: &[Vec<ContactRow>],
+        fine: &[Vec<ContactRow>],
+        clock: &Clock,
+    ) -> Normal {
+        let (coarse, fine, mass) = (coarse.concat(), fine.concat(), clock.mass.value);
+        match self.convention.law.is_linear() {
+            true => Normal::Linear(NormalLaw::read(&coarse, &fine, mass)),
+            false => {
+                let mass = self.kind.effective_mass(mass);
+                Normal::Power(NormalPower::read(&[coarse, fine].concat(), mass))
+            }
+        }
+    }
+
+    /// The normal law beside a spring that has a part along the normal, and the rows of all motions without that part. As
+    /// long as a contact sticks it follows from the spring, and where it slides from the normal law.
+    fn without_lift(
+        &self,
+        tangential: &TangentialLaw,
+        rows: &[Vec<ContactRow>],
+        clock: &Clock,
+    ) -> (Normal, Vec<Vec<ContactRow>>) {
+        let mut lifted: Vec<Vec<ContactRow>> =
+            rows.iter().map(|own| tangential.with_lift(own)).collect();
+        let [coarse, fine] = [STICKING, REFINED].map(|range| {
+            let motions = lifted[range].iter();
+            motions
+                .map(|own| sticking(own).to_vec())
+                .collect::<Vec<_>>()
+        });
+        let normal = self.read_normal(&coarse, &fine, clock);
+        for row in &mut lifted[SLIDING] {
+            let reported = row.normal_force + row.lift;
+            *row = row.lifted_by(reported - normal.force(row));
+        }
+        (normal, lifted)
     }
 }
 
@@ -104,6 +147,16 @@ enum Normal {
     Linear(NormalLaw),
     /// Any power of the overlap.
     Power(NormalPower),
+}
+
+impl Normal {
+    /// The force in a row, whatever else it reports as normal force.
+    fn force(&self, row: &ContactRow) -> f64 {
+        match self {
+            Self::Linear(law) => law.force(row),
+            Self::Power(law) => law.force(row),
+        }
+    }
 }
 
 /// The laws of one kind.
@@ -144,6 +197,7 @@ impl Laws {
             let (row, ratio) = largest_operand(gentle, &self.tangential, share)?;
             let slides = |(test, motion): &TestedMotion| {
                 let rows = contact_rows(self.plan.kind, test, motion, clock);
+                let rows = self.tangential.with_lift(&rows);
                 rows.get(row).map(is_at_limit)
             };
             let [below, above] = [motions.first()?, motions.get(1)?].map(slides);

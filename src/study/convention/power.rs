@@ -31,8 +31,10 @@ pub struct NormalPower {
     pub overlap_lead: Measured,
     /// λ, lag of the velocity in the force behind the reported overlap, in steps.
     pub velocity_lag: Measured,
-    /// p and s of the best fit.
-    at: [f64; 2],
+    /// p, s, o and λ of the best fit.
+    at: [f64; 4],
+    /// Effective mass of the contact.
+    mass: f64,
 }
 
 impl NormalPower {
@@ -49,8 +51,15 @@ impl NormalPower {
             damping_exponent,
             overlap_lead,
             velocity_lag,
-            at: [found.at[0], found.at[1]],
+            at: found.at,
+            mass,
         }
+    }
+
+    /// The force in a row, whatever else it reports as normal force.
+    pub fn force(&self, row: &ContactRow) -> f64 {
+        let parts = parts(row, self.mass, self.at);
+        self.stiffness.value * parts[0] + self.damping.value * parts[1]
     }
 
     /// Growth of the stiffness dN/dδ, as the best fit has it.
@@ -66,7 +75,7 @@ impl NormalPower {
         let Some(row) = rows.first() else {
             return Measured::UNKNOWN;
         };
-        let [p, s] = self.at.map(|exponent| libm::pow(row.overlap, exponent));
+        let [p, s] = [self.at[0], self.at[1]].map(|exponent| libm::pow(row.overlap, exponent));
         let (spring, damping) = (
             self.stiffness.value * p,
             self.damping.value * s * row.separation_speed,
@@ -94,13 +103,17 @@ fn start(with: &impl Fn([f64; 4]) -> Rows) -> [f64; 4] {
 }
 
 /// Terms and force of every row, at p, s, o and λ.
-fn terms(rows: &[&ContactRow], mass: f64, [p, s, lead, lag]: [f64; 4]) -> Rows {
-    let terms = rows.iter().map(|row| {
-        let earlier = (0.5 - lag) * row.time_step;
-        let speed = row.separation_speed + earlier * row.normal_force / mass;
-        let overlap = row.overlap - lead * row.time_step * row.separation_speed;
-        let damping = -speed * libm::pow(overlap, s);
-        (vec![libm::pow(overlap, p), damping], row.normal_force)
-    });
+fn terms(rows: &[&ContactRow], mass: f64, numbers: [f64; 4]) -> Rows {
+    let terms = rows
+        .iter()
+        .map(|row| (parts(row, mass, numbers).to_vec(), row.normal_force));
     terms.collect()
+}
+
+/// What K and η_n are multiplied with in a row, at p, s, o and λ.
+fn parts(row: &ContactRow, mass: f64, [p, s, lead, lag]: [f64; 4]) -> [f64; COEFFICIENTS] {
+    let earlier = (0.5 - lag) * row.time_step;
+    let speed = row.separation_speed + earlier * (row.normal_force + row.lift) / mass;
+    let overlap = row.overlap - lead * row.time_step * row.separation_speed;
+    [libm::pow(overlap, p), -speed * libm::pow(overlap, s)]
 }

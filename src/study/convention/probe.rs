@@ -57,7 +57,7 @@ pub fn probe<E>(
         Some(&laws[index])
     };
     let in_space = space::properties(of_spheres, clock.velocity_lag.value, declared);
-    let cycles = cycle::properties(driven, |kind| of(kind).map(Laws::tangential));
+    let cycles = cycle::properties(driven, &clock, |kind| of(kind).map(Laws::tangential));
     let floor_ratio = floor_ratio(of, declared);
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
     let tests = near_slip.concat();

@@ -35,7 +35,7 @@ impl SlidingLaw {
         let terms: Vec<([f64; 2], f64)> = sliding
             .map(|(row, _)| {
                 let damping = law.damping_at(row) * law.surface_speed(row).abs();
-                ([row.normal_force, damping], row.tangential_force.abs())
+                ([row.normal_force, damping], row.friction_force())
             })
             .collect();
         let [friction, damping] = fit(&terms);
@@ -50,7 +50,7 @@ impl SlidingLaw {
 /// Marks the rows that slide: those with the most frequent ratio of forces.
 fn slides(rows: &[ContactRow]) -> Vec<bool> {
     let ratios = rows.iter();
-    let ratios = ratios.map(|row| row.tangential_force.abs() / row.normal_force);
+    let ratios = ratios.map(|row| row.friction_force() / row.normal_force);
     let ratios: Vec<f64> = ratios.collect();
     let same = |left: f64, right: f64| (left - right).abs() < SAME_RATIO * right;
     let like = |ratio: f64| ratios.iter().filter(|&&other| same(other, ratio)).count();
@@ -84,19 +84,20 @@ fn memory(
     })
 }
 
-/// Length of the spring at the end of a stretch of sliding between two rows that stick: as measured, as it would be if
-/// it followed the limit, and as it was before, carried on as the contact turned.
+/// Length of the spring after a stretch of sliding between two rows that stick, before it grows again: as measured, as it
+/// would be if it followed the limit, and as it was before, turned on with the contact.
 fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> [f64; 3] {
     let [before, last, next] = [0, stretch.len() - 2, stretch.len() - 1].map(|at| &stretch[at]);
-    let factor = law.carried(last, next);
-    let sliding = stretch[..=stretch.len() - 2].windows(2);
-    let turned: f64 = sliding.map(|two| law.carried(&two[0], &two[1])).product();
+    let length = |row: &ContactRow, along: f64| [along, row.lift].map(|part| law.length(row, part));
     let counted = operand_damping * law.damping_at(last) * law.surface_speed(last);
-    [
-        (law.length(next, law.spring_force(next)) - law.growth_of_length(next)) / factor,
-        law.length(last, last.tangential_force + counted),
-        law.length(before, law.spring_force(before)) * turned,
-    ]
+    let [followed, _] = law.turned(length(last, last.tangential_force + counted), last, next);
+    let [frozen, _] = stretch
+        .windows(2)
+        .fold(length(before, law.spring_force(before)), |spring, two| {
+            law.turned(spring, &two[0], &two[1])
+        });
+    let measured = law.length(next, law.spring_force(next)) - law.growth_of_length(next);
+    [measured, followed, frozen]
 }
 
 /// Index of the row with the largest ratio of operand to limit, and that ratio; `operand_damping` is the share of the
@@ -109,7 +110,7 @@ pub fn largest_operand(
     let ratio = |row: &ContactRow| {
         let damping = law.damping_at(row) * law.surface_speed(row);
         let operand = law.spring_force(row) - operand_damping * damping;
-        operand.abs() / (row.friction * row.normal_force)
+        operand.hypot(row.lift) / (row.friction * row.normal_force)
     };
     let ratios = rows.iter().map(ratio).enumerate();
     ratios.max_by(|(_, left), (_, right)| left.total_cmp(right))
@@ -118,5 +119,5 @@ pub fn largest_operand(
 /// Whether a row is at the limit rather than a [`MARGIN`] below or above it.
 pub fn is_at_limit(row: &ContactRow) -> bool {
     let limit = row.friction * row.normal_force;
-    (row.tangential_force.abs() / limit - 1.0).abs() < 0.5 * MARGIN
+    (row.friction_force() / limit - 1.0).abs() < 0.5 * MARGIN
 }

@@ -271,9 +271,45 @@ impl TangentialLaw {
         self.spring_growth(row) * self.form.remembered(row)
     }
 
-    /// The factor by which it changes between two rows beside its growth.
-    pub fn carried(&self, before: &ContactRow, row: &ContactRow) -> f64 {
-        self.form.carried(before, row)
+    /// Parts of that along tangent and normal, after the contact has turned between two rows.
+    pub fn turned(&self, length: [f64; 2], before: &ContactRow, row: &ContactRow) -> [f64; 2] {
+        self.form.turned(length, before, row)
+    }
+
+    /// Whether nothing turns the spring with its contact, so that its force has a part along the normal.
+    pub fn lifts(&self) -> bool {
+        self.left_behind.is_some()
+    }
+
+    /// This law without damping, as it is in a motion with a restitution of 1.
+    pub fn undamped(self) -> Self {
+        Self {
+            damping: Measured::new(0.0, 0.0),
+            ..self
+        }
+    }
+
+    /// `rows` of a contact that sticks with what its spring exerts along the normal as their lift.
+    pub fn with_lift(&self, rows: &[ContactRow]) -> Vec<ContactRow> {
+        if !self.lifts() {
+            return rows.to_vec();
+        }
+        let length = |row: &ContactRow| self.length(row, self.spring_force(row));
+        let mut last: Option<(&ContactRow, f64)> = None;
+        let lifted = rows.iter().map(|row| {
+            let [_, along_normal] = match last {
+                Some((before, along_normal)) => {
+                    self.turned([length(before), along_normal], before, row)
+                }
+                None => {
+                    let start = length(row) - self.growth_of_length(row);
+                    self.form.begun(row).map(|part| start * part)
+                }
+            };
+            last = Some((row, along_normal));
+            row.lifted_by(-self.stiffness.value * self.form.exerted(row) * along_normal)
+        });
+        lifted.collect()
     }
 
     /// The part of such a length that its coefficients leave open.

@@ -1,19 +1,13 @@
-//! The exact limit where nothing turns the tangential spring, against the bodies themselves moved in small steps, and the
-//! native DEM against the limit. Parameters are chosen here; no number is taken from elsewhere, but for those of one table
-//! that another program gave.
+//! The exact limit where nothing turns the tangential spring, against the bodies themselves moved in small steps. Parameters
+//! are chosen here; no number is taken from elsewhere, but for those of one table that another program gave.
 
 #[path = "fixed_spring/march.rs"]
 mod march;
 
 use march::{Bodies, State, extrapolated};
-use std::thread;
-use tristack::code::Code;
-use tristack::dem::compress_stack;
 use tristack::model::{
-    Arms, Case, ContactArms, ContactConvention, HistoryUpdate, Law, Power, Stack, TangentialHistory,
+    Arms, ContactArms, ContactConvention, HistoryUpdate, Law, Power, Stack, TangentialHistory,
 };
-use tristack::series::{Mechanics, YieldEstimates};
-use tristack::study::yield_force::plan;
 use tristack::theory::{Event, Limit, quasistatic_limit};
 
 /// A stack and its contacts, as plain numbers.
@@ -292,65 +286,4 @@ fn every_rule_but_the_fixed_spring_has_one_limit() {
     assert_eq!([Projected, Linearised].map(force), [force(Rotated); 2]);
     assert!((force(Rotated) - 30.227_048_117).abs() < 1e-9);
     assert!((force(Fixed) - 30.112_860_110).abs() < 1e-9);
-}
-
-/// Slip onset and peak of a case, whose series obeys mechanics.
-fn measured(case: &Case) -> [f64; 2] {
-    let series = compress_stack(case, || true).expect("a finite series");
-    let mechanics = Mechanics::read(&series, case);
-    let violations: Vec<_> = mechanics.violations().collect();
-    assert!(violations.is_empty(), "{case:?} {violations:?}");
-    let estimates = YieldEstimates::read(&series, case);
-    assert_eq!(estimates.departure, None);
-    [estimates.slip, estimates.peak].map(|estimate| estimate.expect("an estimate").force)
-}
-
-#[test]
-fn onset_of_the_native_dem_is_the_limit() {
-    for own in [
-        Problem {
-            stiffness: 100.0,
-            mu: 0.3,
-            kappa: 2.5,
-            ..PLAIN
-        },
-        Problem {
-            arms: ARMS,
-            mu: 0.27,
-            ..PLAIN
-        },
-        Problem {
-            kappa: 0.62,
-            mu: 0.23,
-            ..PLAIN
-        },
-        Problem {
-            bodies: 3,
-            mu: 0.37,
-            ..PLAIN
-        },
-        Problem {
-            power: Power::Hertz,
-            kappa: 4.3,
-            floor_ratio: 1.3,
-            ..PLAIN
-        },
-    ] {
-        let measurement = plan(Code::NATIVE, &own.stack(), own.convention());
-        let cases = &measurement.cases[..3];
-        let forces: Vec<[f64; 2]> = thread::scope(|scope| {
-            let runs: Vec<_> = cases
-                .iter()
-                .map(|case| scope.spawn(|| measured(case)))
-                .collect();
-            runs.into_iter()
-                .map(|run| run.join().expect("a run"))
-                .collect()
-        });
-        let at_rest = forces[0][0] / 3.0 - 2.0 * forces[1][0] + 8.0 / 3.0 * forces[2][0];
-        let exact = measurement.limit.slip_onset.unwrap();
-        let apart = own.apart(at_rest, exact);
-        println!("{own:?}: {at_rest} {exact} {apart:e}");
-        assert!(apart < 1e-6, "{own:?}: {at_rest} {exact} {apart:e}");
-    }
 }

@@ -1,9 +1,13 @@
 //! The native DEM as physics: what a contact must do, for any number of cylinders, and the same bits
 //! everywhere.
 
+use std::thread;
 use tristack::code::Code;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
-use tristack::model::{ContactConvention, PAPER_RESTITUTION, Stack, sha256_hex};
+use tristack::model::{
+    Arms, Case, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
+};
+use tristack::series::{Mechanics, YieldEstimates};
 use tristack::study::yield_force::plan;
 
 fn law() -> SpringDashpot<f64> {
@@ -158,4 +162,71 @@ fn series_has_the_same_bits_everywhere() {
     let series = compress_stack(&case, || true).expect("a finite series");
     let expected = "e6cc20d5f6a4a7b490bb97ce43d018c8d16891bc8b95aea61806c44e40aba7be";
     assert_eq!(sha256_hex(&series.to_csv()), expected);
+}
+
+/// Slip onset and peak of a case, whose series obeys mechanics.
+fn onset_and_peak(case: &Case) -> [f64; 2] {
+    let series = compress_stack(case, || true).expect("a finite series");
+    let mechanics = Mechanics::read(&series, case);
+    let violations: Vec<_> = mechanics.violations().collect();
+    assert!(violations.is_empty(), "{case:?} {violations:?}");
+    let estimates = YieldEstimates::read(&series, case);
+    assert_eq!(estimates.departure, None);
+    [estimates.slip, estimates.peak].map(|estimate| estimate.expect("an estimate").force)
+}
+
+/// Between two and three bodies, any arms, closed bottom contacts, Hertz's law: what happens first is where theory has it.
+#[test]
+fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
+    let stack = |mu, stiffness, stiffness_ratio| Stack {
+        stiffness_ratio,
+        ..Stack::paper(mu, stiffness)
+    };
+    let paper = ContactConvention::PAPER;
+    let arm = |torque, kinematic| ContactArms { torque, kinematic };
+    let with_arms = ContactConvention {
+        arms: Arms {
+            pair: arm(-0.5, -0.2),
+            floor: arm(-0.8, 0.3),
+        },
+        ..paper
+    };
+    let hertz = ContactConvention {
+        law: Law {
+            floor_ratio: 1.3,
+            ..Law::of_power(Power::Hertz)
+        },
+        ..paper
+    };
+    let three = Stack {
+        bodies: 3,
+        ..stack(0.37, 137.0, 2.3)
+    };
+    for (stack, convention) in [
+        (stack(0.3, 100.0, 2.5), paper),
+        (stack(0.27, 137.0, 2.3), with_arms),
+        (stack(0.23, 137.0, 0.62), paper),
+        (three, paper),
+        (stack(0.31, 137.0, 4.3), hertz),
+    ] {
+        let stack = Stack {
+            cylinder_friction: 0.7,
+            ..stack
+        };
+        let measurement = plan(Code::NATIVE, &stack, convention);
+        let cases = &measurement.cases[..3];
+        let forces: Vec<[f64; 2]> = thread::scope(|scope| {
+            let runs = cases
+                .iter()
+                .map(|case| scope.spawn(|| onset_and_peak(case)));
+            let runs: Vec<_> = runs.collect();
+            runs.into_iter()
+                .map(|run| run.join().expect("a run"))
+                .collect()
+        });
+        let at_rest = forces[0][0] / 3.0 - 2.0 * forces[1][0] + 8.0 / 3.0 * forces[2][0];
+        let exact = measurement.limit.slip_onset.unwrap();
+        let apart = (at_rest - exact).abs() / (exact + f64::from(stack.bodies) + 1.0);
+        assert!(apart < 1e-6, "{stack:?}: {at_rest} {exact} {apart:e}");
+    }
 }

@@ -36,9 +36,10 @@ def outcomes(directory):
     return last, results[-1]["cargo_mutants_version"]
 
 
-def all_mutants():
-    """All mutants of the scope (.cargo/mutants.toml), by their full names."""
-    command = ["cargo", "mutants", "--list"]
+def all_mutants(areas):
+    """All mutants of the files of the areas, by their full names."""
+    files = [argument for area in areas for file in area["files"] for argument in ("--file", file)]
+    command = ["cargo", "mutants", "--no-config", "--list", *files]
     listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     return listed.stdout.splitlines()
 
@@ -79,7 +80,7 @@ def main():
     directory = Path(sys.argv[1])
     last, version = outcomes(directory)
     areas = tomllib.loads((HERE / "areas.toml").read_text())["area"]
-    mutants = all_mutants()
+    mutants = all_mutants(areas)
     reasons = tomllib.loads((HERE / "survivors.toml").read_text())["survivor"]
     survivors = collections.Counter(
         without_place(name) for name in mutants if last.get(name) == "survived"

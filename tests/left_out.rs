@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::fmt::Display;
 use std::fs;
 use std::process::Stdio;
-use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled};
+use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled, Unknown};
 use tristack::dem::run_contact_test;
 use tristack::model::{
     Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, Power, SlidingSpring,
@@ -209,7 +209,9 @@ fn after_settling(
 fn an_unknown_rule_counts_where_it_matters() {
     let (force, trajectory) = after_settling("lammps", |settled| {
         let why = "pair_sliding_spring_memory is 0.300000, not 1 or 0".to_owned();
-        settled.unknown.push((ConventionKey::SlidingSpring, why));
+        settled
+            .unknown
+            .push(Unknown::new(ConventionKey::SlidingSpring, why));
     });
     assert_eq!(force.verdict(), Verdict::Agrees, "{:?}", force.notes());
     assert!(force.notes().is_empty());
@@ -223,7 +225,9 @@ fn an_unknown_rule_counts_where_it_matters() {
 fn an_unknown_arm_leaves_nothing_to_judge_by() {
     let (force, trajectory) = after_settling("liggghts", |settled| {
         let why = "its motions do not show it".to_owned();
-        settled.unknown.push((ConventionKey::FloorTorqueArm, why));
+        settled
+            .unknown
+            .push(Unknown::new(ConventionKey::FloorTorqueArm, why));
     });
     let reason = "not judged: convention.floor.torque_arm is left out of its manifest and not known: its motions do \
                   not show it";

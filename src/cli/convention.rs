@@ -56,8 +56,8 @@ fn tell_settled(code: Code) {
             measured.join(", ")
         );
     }
-    for (key, because) in &settled.unknown {
-        let matters = key.matters();
+    for own in &settled.unknown {
+        let (key, because, matters) = (own.key, &own.because, own.matters());
         tell!("{code}: {key} is left out of its manifest and not known ({because}); {matters}");
     }
 }

@@ -68,17 +68,9 @@ impl ConventionKey {
     }
 
     /// Whether any value of it moves the quasi-static limit, as those of the arms do (docs/theory.md, section 2.3). Of the rules
-    /// for a turning spring one alone does, which the probe tells by a property of its own.
+    /// for a turning spring one alone does, which the probe tells by a property of its own ([`Unknown::moves_limit`]).
     pub fn moves_limit(self) -> bool {
         Self::ARMS.contains(&self)
-    }
-
-    /// The same in words.
-    pub fn matters(self) -> &'static str {
-        match self.moves_limit() {
-            true => "the yield force depends on it",
-            false => "the yield force does not depend on it",
-        }
     }
 
     /// Puts `value` into the coefficient of `arms` that it names, if it names one.
@@ -159,8 +151,39 @@ pub struct Settled {
     pub inertia_uncertainty: f64,
     /// The same of the velocity lag.
     pub lag_uncertainty: f64,
-    /// The keys that are left out and that the probe does not decide, each with the reason.
-    pub unknown: Vec<(ConventionKey, String)>,
+    /// The keys that are left out and that the probe does not decide.
+    pub unknown: Vec<Unknown>,
+}
+
+/// A key that a manifest leaves out and that no probe decides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// The key.
+    pub key: ConventionKey,
+    /// Why it is not known.
+    pub because: String,
+    /// Whether the quasi-static limit depends on what is not known of it: on any arm, and on whether a spring turns with its
+    /// contact, but not on the rule by which it does.
+    pub moves_limit: bool,
+}
+
+impl Unknown {
+    /// A `key` of which nothing is known, `because` of something.
+    pub fn new(key: ConventionKey, because: String) -> Self {
+        Self {
+            key,
+            because,
+            moves_limit: key.moves_limit() || key == ConventionKey::HistoryUpdate,
+        }
+    }
+
+    /// Whether the limit depends on it, in words.
+    pub fn matters(&self) -> &'static str {
+        match self.moves_limit {
+            true => "the yield force depends on it",
+            false => "the yield force does not depend on it",
+        }
+    }
 }
 
 impl Settled {
@@ -206,10 +229,21 @@ impl Settled {
         arms.filter_map(|key| key.arm(&self.arm_uncertainty)).sum()
     }
 
+    /// Whether it is known if springs turn with their contacts.
+    pub fn knows_turning(&self) -> bool {
+        let is_open = |own: &Unknown| own.key == ConventionKey::HistoryUpdate && own.moves_limit;
+        !self.unknown.iter().any(is_open)
+    }
+
+    /// Whether everything is known that the quasi-static limit depends on.
+    pub fn knows_limit(&self) -> bool {
+        !self.unknown.iter().any(|own| own.moves_limit)
+    }
+
     /// Why `key` is unknown; `None` where it is not.
     pub fn reason(&self, key: ConventionKey) -> Option<&str> {
         let mut unknown = self.unknown.iter();
-        unknown.find_map(|(own, because)| (*own == key).then_some(because.as_str()))
+        unknown.find_map(|own| (own.key == key).then_some(own.because.as_str()))
     }
 }
 
@@ -224,7 +258,9 @@ impl Declaration {
             arm_uncertainty: Arms::PAPER,
             inertia_uncertainty: 0.0,
             lag_uncertainty: 0.0,
-            unknown: unknown.map(|&key| (key, because.to_owned())).collect(),
+            unknown: unknown
+                .map(|&key| Unknown::new(key, because.to_owned()))
+                .collect(),
         }
     }
 }

@@ -35,7 +35,7 @@ mod task;
 mod witness;
 mod written;
 
-pub use convention::{ConventionKey, Declaration, Settled};
+pub use convention::{ConventionKey, Declaration, Settled, Unknown};
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub(crate) use full_parameters::PARAMETERS;

@@ -4,7 +4,7 @@ use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
 };
 use super::verdict::{Ground, Grounds, Verdict};
-use crate::code::{Code, ConventionKey, Identity, InstalledCode};
+use crate::code::{Code, Identity, InstalledCode, Unknown};
 use crate::runs::{
     Outlook, Progress, Reading, RunError, SelectedCode, Settings, Workload, outlook, read_all,
 };
@@ -21,8 +21,8 @@ pub trait Study {
     /// The code that is judged.
     fn code(&self) -> Code;
 
-    /// Whether its result depends on `key` of the convention of the code.
-    fn depends_on(&self, _key: ConventionKey) -> bool {
+    /// Whether its result depends on what is `unknown` of the convention of the code.
+    fn depends_on(&self, _unknown: &Unknown) -> bool {
         true
     }
 
@@ -98,8 +98,9 @@ pub struct Judged<S, F> {
 impl<S: Study> Judged<S, S::Finding> {
     /// Withdraws a judgement that depends on a part of the convention which neither the manifest nor the probe says.
     fn hold_to_settled(&mut self) {
-        for (key, because) in self.code.settled().unknown {
-            if self.study.depends_on(key) {
+        for unknown in self.code.settled().unknown {
+            if self.study.depends_on(&unknown) {
+                let Unknown { key, because, .. } = unknown;
                 self.grounds.add(Ground::NotJudged {
                     note: format!(
                         "not judged: {key} is left out of its manifest and not known: {because}"

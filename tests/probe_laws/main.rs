@@ -396,3 +396,23 @@ fn a_linear_law_is_not_driven() {
     let findings = findings(convention(Law::LINEAR), native);
     assert!(findings.iter().all(|own| !own.property.contains("cycle")));
 }
+
+/// A spring that turns by half of what its contact does: the part that is left behind is turned into twice, by the sine of half
+/// the turn, so that a quarter of it is seen.
+#[test]
+fn a_spring_that_follows_by_half_is_neither_fixed_nor_turned() {
+    let found = findings(convention(Law::LINEAR), |test| {
+        let twin = Twin {
+            follows: 0.5,
+            ..Twin::asked_for(test)
+        };
+        run_contact_test_with(test, twin).expect("a finite motion")
+    });
+    let share = found
+        .iter()
+        .find(|own| own.property == "pair_spring_left_behind");
+    let share = share.expect("a share");
+    let measured = share.measured.expect("a number");
+    assert!((measured - 0.25).abs() < 1e-4, "{measured}");
+    assert_eq!(share.verdict, Verdict::Differs);
+}

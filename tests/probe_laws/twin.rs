@@ -24,19 +24,23 @@ pub struct Twin {
     pub rescaling: f64,
     /// The arm r₁ of torque and spring.
     pub arm: f64,
+    /// Share of the turn of a pair by which its spring turns.
+    pub follows: f64,
 }
 
-/// The spring, and the overlap in the last step.
+/// The spring along tangent and normal, and overlap and normal in the last step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Memory {
-    spring: f64,
+    spring: [f64; 2],
     overlap: f64,
+    normal: [f64; 2],
 }
 
 impl Composite<f64> for Memory {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut f64, &f64)) {
         self.spring.visit(&other.spring, visit);
         self.overlap.visit(&other.overlap, visit);
+        self.normal.visit(&other.normal, visit);
     }
 }
 
@@ -60,7 +64,18 @@ impl Twin {
             force_share: share(own.history.keeps_force()),
             rescaling: share(own.history.is_rescaled()),
             arm: test.convention.arms.pair.torque,
+            follows: 1.0,
         }
+    }
+}
+
+impl Memory {
+    /// The spring in the frame of a contact that has turned to `normal`, against which it turns by this `share`.
+    fn turned(&self, normal: [f64; 2], share: f64) -> [f64; 2] {
+        let ([x, y], [along, lift]) = (self.normal, self.spring);
+        let turn = libm::atan2(x * normal[1] - y * normal[0], x * normal[0] + y * normal[1]);
+        let (sine, cosine) = libm::sincos(share * turn);
+        [cosine * along - sine * lift, cosine * lift + sine * along]
     }
 }
 
@@ -84,19 +99,30 @@ impl ContactModel<f64> for Twin {
         let speed = contact.sliding_speed - arm * contact.spin;
         if memory.overlap > overlap {
             let ratio = (overlap / memory.overlap).sqrt();
-            memory.spring *= libm::pow(ratio, self.rescaling);
+            let factor = libm::pow(ratio, self.rescaling);
+            memory.spring = memory.spring.map(|part| part * factor);
         }
         memory.overlap = overlap;
-        let grown = memory.spring + libm::pow(kt, self.force_share) * speed * contact.time_step;
-        let trial = -libm::pow(kt, 1.0 - self.force_share) * grown - et * speed;
+        let [along, lift] = memory.turned(contact.normal, 1.0 - self.follows);
+        memory.normal = contact.normal;
+        let growth = libm::pow(kt, self.force_share) * speed * contact.time_step;
+        let grown = [along + growth, lift];
+        let [along, lift] = grown.map(|part| -libm::pow(kt, 1.0 - self.force_share) * part);
+        let trial = [along - et * speed, lift];
         let limit = contact.friction * normal.abs();
-        let sticks = trial.abs() < limit;
+        let size = trial[0].hypot(trial[1]);
+        let sticks = size < limit;
         if sticks {
             memory.spring = grown;
         }
+        let [tangential, lift] = match sticks {
+            true => trial,
+            // At the frictionless wall both are 0.
+            false => trial.map(|part| part * (limit / size.max(f64::MIN_POSITIVE))),
+        };
         ContactForce {
-            normal,
-            tangential: if sticks { trial } else { limit.copysign(trial) },
+            normal: normal + lift,
+            tangential,
             arm,
         }
     }

@@ -63,6 +63,15 @@ impl Form {
         }
     }
 
+    /// The same with this transport and this share that is left behind.
+    pub fn with_turning(self, [transport, left_behind]: [Measured; 2]) -> Self {
+        Self {
+            transport: transport.value,
+            left_behind: left_behind.value,
+            ..self
+        }
+    }
+
     fn coefficients(self) -> usize {
         match self.third_order {
             true => COEFFICIENTS_OF_THIRD_ORDER,

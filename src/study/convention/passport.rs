@@ -82,8 +82,8 @@ impl Passport<'_> {
 /// What of `findings` is no agreement: properties that are not as declared, and keys that are left out and not known.
 pub fn reservations(findings: &Findings) -> Vec<String> {
     let unknown = findings.settled.unknown.iter();
-    let unknown = unknown.map(|(key, because)| {
-        let matters = key.matters();
+    let unknown = unknown.map(|own| {
+        let (key, because, matters) = (own.key, &own.because, own.matters());
         format!("{key} is left out and not known: {because}; {matters}")
     });
     let unseen = findings.findings.iter().filter_map(|own| {
@@ -103,7 +103,10 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {
         let same = others
             .clone()
-            .filter(|other| has_same_limit(code, *other) && is_same(measured, *other, keys));
+            .filter(|other| has_same_limit(code, *other) && is_same(measured, *other, keys))
+            .filter(|other| {
+                turns(measured).is_some_and(|own| turns(&other.settled()) == Some(own))
+            });
         same.collect()
     };
     let damping = code.convention().law.damping;
@@ -122,6 +125,13 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
             .collect(),
         same_arms: alike(ConventionKey::moves_limit),
     }
+}
+
+/// Whether springs turn with their contacts, if that is known.
+fn turns(settled: &Settled) -> Option<bool> {
+    settled
+        .knows_turning()
+        .then(|| settled.convention.history_update.turns())
 }
 
 /// Whether the laws of two codes have the same limit: they are the same but for their damping.
@@ -194,7 +204,7 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
         key.set_arm(&mut one, key.arm(&arms).filter(|_| known(&key))?);
         Some(force(one)? - paper_force?)
     };
-    let all_known = ConventionKey::ARMS.iter().all(known);
+    let all_known = measured.knows_limit();
     ArmEffects {
         stack,
         paper_force,

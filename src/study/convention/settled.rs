@@ -3,7 +3,7 @@
 use super::finding::{Property, TOLERANCE};
 use super::properties::{HISTORY_UPDATES, LEFT_BEHIND, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
 use super::regression::Measured;
-use crate::code::{ConventionKey, Declaration, Settled};
+use crate::code::{ConventionKey, Declaration, Settled, Unknown};
 use crate::model::{ARM_RANGE, HistoryUpdate};
 
 /// Finest decimal that a measured number keeps. Rounding by half of it moves the yield force by less than a hundredth of
@@ -20,7 +20,13 @@ pub(super) fn settled(declaration: &Declaration, properties: &[Property]) -> Set
         let own = properties.iter().filter(|own| own.key() == Some(key));
         let own: Vec<&Property> = own.collect();
         if let Err(because) = take(&mut settled, key, &own) {
-            settled.unknown.push((key, because));
+            let unknown = Unknown::new(key, because);
+            let moves_limit =
+                unknown.moves_limit && !(key == ConventionKey::HistoryUpdate && turns(&own));
+            settled.unknown.push(Unknown {
+                moves_limit,
+                ..unknown
+            });
         }
     }
     settled
@@ -103,20 +109,33 @@ fn in_range(measured: Measured, [least, most]: [f64; 2]) -> Measured {
     }
 }
 
-/// What the contact does to its spring as it turns. Whether the spring is left behind is told only where that is seen or
-/// declared.
+/// What the contact does to its spring as it turns.
 fn history_update(properties: &[&Property]) -> Result<HistoryUpdate, String> {
-    let is_share = |own: &&Property| own.name.ends_with(LEFT_BEHIND);
-    let (shares, turns): (Vec<&Property>, Vec<&Property>) =
-        properties.iter().copied().partition(is_share);
-    let is_fixed = match shares.is_empty() {
-        true => false,
-        false => alternative(&[(true, 1.0), (false, 0.0)], &shares)?,
-    };
-    match is_fixed {
+    match is_left_behind(properties)? {
         true => Ok(HistoryUpdate::Fixed),
-        false => alternative(&HISTORY_UPDATES, &turns),
+        false => {
+            let turns = properties.iter().filter(|own| !is_share(own));
+            alternative(&HISTORY_UPDATES, &turns.copied().collect::<Vec<_>>())
+        }
     }
+}
+
+/// Whether the spring is one that nothing turns. Its share that is left behind is told only where that is seen or declared.
+fn is_left_behind(properties: &[&Property]) -> Result<bool, String> {
+    let shares: Vec<&Property> = properties.iter().copied().filter(is_share).collect();
+    match shares.is_empty() {
+        true => known(properties).map(|_| false),
+        false => alternative(&[(true, 1.0), (false, 0.0)], &shares),
+    }
+}
+
+/// Whether the spring turns with its contact, by whatever rule.
+fn turns(properties: &[&Property]) -> bool {
+    is_left_behind(properties) == Ok(false)
+}
+
+fn is_share(own: &&Property) -> bool {
+    own.name.ends_with(LEFT_BEHIND)
 }
 
 /// The only one of `alternatives` that `properties` are consistent with.
@@ -187,7 +206,7 @@ mod tests {
     fn reason(key: ConventionKey, properties: &[Property]) -> String {
         let unknown = settled_by(key, properties).unknown;
         assert_eq!(unknown.len(), 1, "{unknown:?}");
-        unknown[0].1.clone()
+        unknown[0].because.clone()
     }
 
     #[test]
@@ -256,6 +275,30 @@ mod tests {
             &[dumb("pair_kinematic_arm"), damping],
         );
         assert_eq!(why, NOT_SHOWN);
+    }
+
+    /// By which rule a spring turns leaves the limit alone; whether it turns does not.
+    #[test]
+    fn a_limit_depends_on_whether_a_spring_turns_alone() {
+        let transport = |value| property("pair_history_update", value, 1e-8);
+        let share = |value| property("pair_spring_left_behind", value, 1e-8);
+        let key = ConventionKey::HistoryUpdate;
+        for (properties, moves_limit) in [
+            (vec![transport(0.3)], false),
+            (vec![transport(0.3), share(0.0)], false),
+            (vec![transport(-0.25), share(0.25)], true),
+            (
+                vec![property("pair_history_update", f64::NAN, f64::INFINITY)],
+                true,
+            ),
+        ] {
+            let unknown = settled_by(key, &properties).unknown;
+            let moves: Vec<bool> = unknown.iter().map(|own| own.moves_limit).collect();
+            assert_eq!(moves, [moves_limit], "{unknown:?}");
+        }
+        let fixed = settled_by(key, &[transport(-1.0), share(1.0)]);
+        assert_eq!(fixed.convention.history_update, HistoryUpdate::Fixed);
+        assert_eq!(fixed.unknown, []);
     }
 
     #[test]

@@ -82,34 +82,47 @@ impl TangentialLaw {
         }
         let turned: Vec<&[ContactRow]> =
             motions.iter().copied().chain([sticking(turning)]).collect();
-        let fixed = Self::fitted(&motions, law.form.fixed(), law.exponent, arms);
-        fixed.if_left_behind(&turned).unwrap_or(law)
+        law.or_left_behind(&turned, ROUNDS, |form| {
+            Self::fitted(&motions, form, law.exponent, arms)
+        })
     }
 
-    /// This law of a spring that nothing turns, with what the `motions` that turn say of that, if it explains what none that
-    /// follows its contact does: springs that are kept whole, or projected, leave more of the forces.
-    fn if_left_behind(self, motions: &[&[ContactRow]]) -> Option<Self> {
+    /// This law, or one of a spring of which a share is left behind, where that explains of the `motions` what no spring does
+    /// that follows its contact. The law of a form is `fitted`; any share is looked for in so many
+    /// `rounds`, and the whole of a spring in none.
+    fn or_left_behind(
+        self,
+        motions: &[&[ContactRow]],
+        rounds: usize,
+        fitted: impl Fn(Form) -> Self,
+    ) -> Self {
         let radius = self.radius.value;
-        let left = |transport: f64, left_behind: f64| {
-            let form = Form {
-                transport,
-                left_behind,
-                ..self.form
-            };
-            Some(form.deviations(motions, radius)?.0)
+        let left = |form: Form| {
+            let left = form.deviations(motions, radius);
+            left.map_or(f64::INFINITY, |(mean, _)| mean)
         };
-        let with = left(-1.0, 1.0)?;
-        let explains = [left(0.0, 0.0)?, left(-1.0, 0.0)?]
-            .iter()
-            .all(|without| with < EXPLAINED * without);
-        explains.then(|| {
-            let [transport, left_behind] = self.form.fit_turning(motions, radius);
-            Self {
+        let without = left(self.form);
+        let explains = |form: Form| left(form) < EXPLAINED * without;
+        let is_seen = |share: Measured| share.value.abs() > share.uncertainty.max(TOLERANCE);
+        let mut law = fitted(self.form.fixed());
+        let nothing_turns_it = explains(law.form);
+        let mut turning = law.form.fit_turning(motions, radius);
+        for _ in 0..rounds {
+            if explains(law.form) || !is_seen(turning[1]) {
+                break;
+            }
+            law = fitted(law.form.with_turning(turning));
+            turning = law.form.fit_turning(motions, radius);
+        }
+        let [transport, left_behind] = turning;
+        match nothing_turns_it || explains(law.form) && is_seen(left_behind) {
+            true => Self {
                 transport,
                 left_behind: Some(left_behind),
-                ..self
-            }
-        })
+                ..law
+            },
+            false => self,
+        }
     }
 
     /// The same beside a normal force that is not linear, whose stiffness has the growth `normal`.
@@ -149,8 +162,8 @@ impl TangentialLaw {
         }
         let turning = turning.map(sticking).into_iter();
         let all: Vec<&[ContactRow]> = motions.iter().copied().chain(turning).collect();
-        let [law, fixed] = [law.form, law.form.fixed()].map(|form| fitted(form, &all));
-        fixed.if_left_behind(&all).unwrap_or(law)
+        // Growth and memory would take up what a part of a spring leaves behind: it is all or nothing.
+        fitted(law.form, &all).or_left_behind(&all, 0, |form| fitted(form, &all))
     }
 
     /// The law of the same form that fits with `transport`.

@@ -2,7 +2,7 @@
 
 use super::extrapolate::{DIVISIONS, extrapolate, orders, weights};
 use super::plan::{ImpactQuantity, ImpactStudy, Reference};
-use crate::code::{Code, ConventionKey};
+use crate::code::{Code, ConventionKey, Unknown};
 use crate::model::ImpactTarget;
 use crate::runs::{ImpactReading, ImpactRun, Workload};
 use crate::series::Rebound;
@@ -74,7 +74,7 @@ impl Study for ImpactStudy {
         self.code
     }
 
-    fn depends_on(&self, key: ConventionKey) -> bool {
+    fn depends_on(&self, unknown: &Unknown) -> bool {
         let (torque_arm, kinematic_arm) = match self.impact.target {
             ImpactTarget::Pair => (
                 ConventionKey::PairTorqueArm,
@@ -86,7 +86,7 @@ impl Study for ImpactStudy {
             ),
         };
         let oblique = self.quantity.is_oblique();
-        match key {
+        match unknown.key {
             ConventionKey::TensileForce => self.is_damped(),
             ConventionKey::CoulombOperand => self.is_damped() && oblique,
             ConventionKey::SlidingSpring => self.reference() == Reference::Twin,

@@ -2,7 +2,7 @@
 
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::code::{Code, ConventionKey, Provenance};
+use crate::code::{Code, Provenance, Unknown};
 use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
@@ -226,8 +226,8 @@ impl Study for PreparationPlan {
         self.code
     }
 
-    fn depends_on(&self, key: ConventionKey) -> bool {
-        key.moves_limit()
+    fn depends_on(&self, unknown: &Unknown) -> bool {
+        unknown.moves_limit
     }
 
     fn workloads(&self) -> Vec<Workload> {

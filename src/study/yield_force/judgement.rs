@@ -5,7 +5,7 @@ use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, pr
 use super::peak::peak_allowance;
 use super::plan::{Measurement, Method};
 use super::runs::{MIDDLE_RUN, SPEEDS};
-use crate::code::{Code, ConventionKey};
+use crate::code::{Code, Unknown};
 use crate::runs::{RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::{
@@ -39,8 +39,8 @@ impl Study for Measurement {
         self.code
     }
 
-    fn depends_on(&self, key: ConventionKey) -> bool {
-        key.moves_limit()
+    fn depends_on(&self, unknown: &Unknown) -> bool {
+        unknown.moves_limit
     }
 
     fn workloads(&self) -> Vec<Workload> {

@@ -87,6 +87,10 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
             ["--floor-arm", "-1", "-0.5 for yade"],
         ),
         (
+            "sweep --code lammps --mu 0.3 --stiffness 100 --history-update fixed",
+            ["--history-update", "fixed", "projected for lammps"],
+        ),
+        (
             "sweep --code native --mu 0.5:0.1:0.1 --stiffness 100",
             ["--mu", "0.5:0.1:0.1", "A:B:STEP"],
         ),

@@ -3,7 +3,7 @@
 use crate::lie::{Kind, Lie, LyingLaw};
 use tristack::code::{Code, Identity, Provenance, Run};
 use tristack::dem::{SpringDashpot, compress_stack_with};
-use tristack::model::{CRITICAL_FRICTION, Case, Stack};
+use tristack::model::{CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use tristack::runs::RunSummary;
 use tristack::series::Series;
 use tristack::study::yield_force::{Measurement, plan};
@@ -40,8 +40,13 @@ impl Honest {
     }
 
     pub fn new(code: Code, stack: &Stack) -> Self {
+        Self::with(code, stack, code.convention())
+    }
+
+    /// The same with any convention.
+    pub fn with(code: Code, stack: &Stack, convention: ContactConvention) -> Self {
         let mut honest = Self {
-            measurement: plan(code, stack, code.convention()),
+            measurement: plan(code, stack, convention),
             tolerance: f64::NAN,
         };
         let said = honest.judge(&Lie::none());

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tristack::code::Code;
-use tristack::model::Stack;
+use tristack::model::{ContactConvention, Stack};
 use tristack::series::Law;
 use tristack::study::Verdict;
 
@@ -124,6 +124,28 @@ fn what_agreed_once_agrees_no_more() {
     ] {
         let said = honest.judge(&lie);
         assert_ne!(said.verdict, Verdict::Agrees, "{lie:?}: {:?}", said.notes);
+    }
+}
+
+/// Cylinders whose spring nothing turns slip by its whole force, of which a part is along the normal: that they stick is told
+/// from all of it.
+#[test]
+fn a_spring_that_nothing_turns_lets_cylinders_slip_by_its_whole_force() {
+    let native = Code::named("native").expect("it is built in");
+    for (mu, stiffness) in engine::STACKS {
+        let stack = Stack::paper(mu, stiffness);
+        let honest = Honest::with(native, &stack, ContactConvention::PAPER);
+        let said = |part: f64| honest.judge(&Lie::of(Kind::CylinderFriction, part));
+        // At a wall that moves, ringing adds a part to the force.
+        let enough = said(0.1);
+        assert_eq!(enough.verdict, Verdict::Agrees, "{mu} {:?}", enough.notes);
+        let too_little = said(-1e-3);
+        assert_ne!(
+            too_little.verdict,
+            Verdict::Agrees,
+            "{mu} {:?}",
+            too_little.notes
+        );
     }
 }
 

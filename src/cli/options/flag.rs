@@ -14,6 +14,7 @@ pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
         "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
         "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",
         "convention.floor.kinematic_arm" => "--floor-kinematic-arm",
+        "convention.history_update" => "--history-update",
         "convention.law" => "--law",
         "convention.law.floor_ratio" => "--floor-ratio",
         "convention.law.floor_kappa" => "--floor-kappa",

@@ -309,6 +309,17 @@ mod tests {
     }
 
     #[test]
+    fn a_condition_holds_or_is_noted() {
+        let held = |holds: bool| {
+            let mut grounds = Grounds::new();
+            grounds.hold(holds, "it is broken");
+            (grounds.verdict(), grounds.reason())
+        };
+        assert_eq!(held(true), (Verdict::Agrees, String::new()));
+        assert_eq!(held(false), (Verdict::Differs, "it is broken".to_owned()));
+    }
+
+    #[test]
     fn the_worst_ground_decides() {
         let doubt = Ground::Doubt("a doubt".to_owned());
         let violation = Ground::Violation("a violation".to_owned());
@@ -335,6 +346,13 @@ mod tests {
                     Ground::Failed(String::new()),
                 ],
                 Verdict::Failed,
+            ),
+            (
+                vec![
+                    Ground::Undecidable(String::new()),
+                    Ground::Missing(String::new()),
+                ],
+                Verdict::Missing,
             ),
         ] {
             assert_eq!(grounds(&list).verdict(), verdict, "{list:?}");
@@ -365,10 +383,13 @@ mod tests {
             note: "another arm".to_owned(),
             contradicted: true,
         };
+        let judged = grounds(&[Ground::Held, deviation(3.0)]);
+        assert_eq!(judged.deviation(), Some((3.0, 1.0)));
+        assert!(judged.is_judged() && !judged.is_contradicted());
         let grounds = grounds(&[deviation(3.0), not_judged]);
         assert_eq!(grounds.verdict(), Verdict::Inconclusive);
         assert_eq!(grounds.deviation(), None);
-        assert!(grounds.is_contradicted());
+        assert!(!grounds.is_judged() && grounds.is_contradicted());
     }
 
     #[test]
@@ -390,6 +411,11 @@ mod tests {
             "the uncertainty 2.0e0 exceeds the tolerance 1.0e0"
         );
         assert_eq!(grounds(&[unsaid(0.1, 0.5)]).reason(), "");
+        // As many digits as tell them apart.
+        assert_eq!(
+            grounds(&[unsaid(1.004, 0.5)]).reason(),
+            "the error 1.004e0 exceeds the tolerance 1.000e0"
+        );
     }
 
     #[test]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Sums up what cargo-mutants has left in DIR (see `run`) in reference/reliability/mutants.json.
+"""Sums up what cargo-mutants has left in DIR (see `run`) in reference/reliability/mutants.json. What stands there of areas
+of which nothing is in DIR stays.
 
     tests/mutants/summarise.py DIR
 
@@ -49,20 +50,23 @@ def without_place(name):
     return re.sub(r"^([^:]+):\d+:\d+: ", r"\1: ", name)
 
 
-def commit(area, directory):
-    """The sources that were mutated, as `run` has noted them."""
-    return (directory / f"{area['name'].replace(' ', '-')}-0-first" / "commit").read_text().strip()
+def commit_path(area, directory):
+    """The file in which `run` notes the sources that were mutated."""
+    return directory / f"{area['name'].replace(' ', '-')}-0-first" / "commit"
+
+
+def belongs(name, area):
+    """Whether a mutant is in a file of `area`."""
+    return any(PurePosixPath(name.split(":")[0]).match(file) for file in area["files"])
 
 
 def row(area, mutants, last, directory):
     """Counts of one area."""
-    def belongs(name):
-        return any(PurePosixPath(name.split(":")[0]).match(file) for file in area["files"])
-
-    own = [name for name in mutants if belongs(name)]
+    own = [name for name in mutants if belongs(name, area)]
     count = collections.Counter(last.get(name, "not_run") for name in own)
     kinds = ["caught", "timeout", "unviable", "survived", "not_run"]
-    about = {"area": area["name"], "files": area["files"], "commit": commit(area, directory), "mutants": len(own)}
+    sources = commit_path(area, directory).read_text().strip()
+    about = {"area": area["name"], "files": area["files"], "commit": sources, "mutants": len(own)}
     return about | {kind: count[kind] for kind in kinds}
 
 
@@ -80,8 +84,14 @@ def main():
     directory = Path(sys.argv[1])
     last, version = outcomes(directory)
     areas = tomllib.loads((HERE / "areas.toml").read_text())["area"]
-    mutants = all_mutants(areas)
+    tried = [area for area in areas if commit_path(area, directory).exists()]
+    before = json.loads(RESULT.read_text())
+    kept = {row["area"]: row for row in before["areas"]}
+    mutants = all_mutants(tried)
+    is_tried = lambda entry: any(belongs(entry["mutant"], area) for area in tried)
     reasons = tomllib.loads((HERE / "survivors.toml").read_text())["survivor"]
+    untried = [entry for entry in before["survivors"] if not is_tried(entry)]
+    reasons = [entry for entry in reasons if is_tried(entry)]
     survivors = collections.Counter(
         without_place(name) for name in mutants if last.get(name) == "survived"
     )
@@ -90,8 +100,8 @@ def main():
         "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
         "cargo_mutants_version": version,
         "not_run": collections.Counter(name.split(":")[0] for name in mutants if name not in last),
-        "areas": [row(area, mutants, last, directory) for area in areas],
-        "survivors": [entry for entry in reasons if entry["mutant"] in survivors],
+        "areas": [row(area, mutants, last, directory) if area in tried else kept[area["name"]] for area in areas],
+        "survivors": [entry for entry in reasons if entry["mutant"] in survivors] + untried,
     }
     RESULT.parent.mkdir(parents=True, exist_ok=True)
     RESULT.write_text(json.dumps(summary, indent=2, ensure_ascii=False) + "\n")

@@ -77,9 +77,13 @@ impl Plan {
                 TangentialLaw::read_growing(sticking, refined, turning, law.stiffening())
             }
         };
-        let (normal, rows) = match tangential.lifts() {
-            true => self.without_lift(&tangential, &rows, clock),
-            false => (normal, rows),
+        let lifted = tangential
+            .lifts()
+            .then(|| self.without_lift(&tangential, &rows, clock))
+            .filter(|(lifted, _, sticks)| lifted.left(sticks) < normal.left(&reported(sticks)));
+        let (normal, tangential, rows) = match lifted {
+            Some((lifted, rows, _)) => (lifted, tangential, rows),
+            None => (normal, tangential.without_lift(), rows),
         };
         Laws {
             pull: match &normal {
@@ -110,14 +114,15 @@ impl Plan {
         }
     }
 
-    /// The normal law beside a spring that has a part along the normal, and the rows of all motions without that part. As
-    /// long as a contact sticks it follows from the spring, and where it slides from the normal law.
+    /// The normal law beside a spring that has a part along the normal, the rows of all motions without that part, and those
+    /// from which the law was read. As long as a contact sticks the part follows from the spring, and where it slides from the
+    /// normal law.
     fn without_lift(
         &self,
         tangential: &TangentialLaw,
         rows: &[Vec<ContactRow>],
         clock: &Clock,
-    ) -> (Normal, Vec<Vec<ContactRow>>) {
+    ) -> (Normal, Vec<Vec<ContactRow>>, Vec<ContactRow>) {
         let mut lifted: Vec<Vec<ContactRow>> =
             rows.iter().map(|own| tangential.with_lift(own)).collect();
         let [coarse, fine] = [STICKING, REFINED].map(|range| {
@@ -131,8 +136,13 @@ impl Plan {
             let reported = row.normal_force + row.lift;
             *row = row.lifted_by(reported - normal.force(row));
         }
-        (normal, lifted)
+        (normal, lifted, [coarse, fine].concat().concat())
     }
+}
+
+/// `rows` with the normal force that was reported.
+fn reported(rows: &[ContactRow]) -> Vec<ContactRow> {
+    rows.iter().map(|row| row.lifted_by(0.0)).collect()
 }
 
 /// `spin` to eleven digits, so that recorded motions are found on machines whose last digits differ. This shifts it by
@@ -156,6 +166,12 @@ impl Normal {
             Self::Linear(law) => law.force(row),
             Self::Power(law) => law.force(row),
         }
+    }
+
+    /// What the law leaves of the normal forces, squared.
+    fn left(&self, rows: &[ContactRow]) -> f64 {
+        let off = rows.iter().map(|row| row.normal_force - self.force(row));
+        off.map(|off| off * off).sum()
     }
 }
 

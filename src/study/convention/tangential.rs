@@ -42,6 +42,8 @@ pub struct TangentialLaw {
     pub transport: Measured,
     /// Share of the spring along the normal that is kept when the contact turns, where it is seen ([`Form::left_behind`]).
     pub left_behind: Option<Measured>,
+    /// Whether the normal force has the part along the normal of a spring that is left behind.
+    exerts_lift: bool,
     /// The form of the best fit.
     form: Form,
 }
@@ -103,6 +105,11 @@ impl TangentialLaw {
         };
         let without = left(self.form);
         let explains = |form: Form| left(form) < EXPLAINED * without;
+        let forces = motions.iter().copied().flatten();
+        let squares = forces.map(|row| row.tangential_force * row.tangential_force);
+        let count = motions.iter().map(|rows| rows.len()).sum::<usize>() as f64;
+        let mean = squares.sum::<f64>() / count;
+        let is_exact = |form: Form| left(form) < TOLERANCE * TOLERANCE * mean;
         let is_seen = |share: Measured| share.value.abs() > share.uncertainty.max(TOLERANCE);
         let mut law = fitted(self.form.fixed());
         let nothing_turns_it = explains(law.form);
@@ -115,7 +122,8 @@ impl TangentialLaw {
             turning = law.form.fit_turning(motions, radius);
         }
         let [transport, left_behind] = turning;
-        match nothing_turns_it || explains(law.form) && is_seen(left_behind) {
+        let is_share = explains(law.form) && is_exact(law.form) && is_seen(left_behind);
+        match nothing_turns_it || is_share {
             true => Self {
                 transport,
                 left_behind: Some(left_behind),
@@ -219,6 +227,7 @@ impl TangentialLaw {
             damping_arm: found[DAMPING_SPIN_OVERLAP].over(found[DAMPING]),
             transport: Measured::new(0.0, 0.0),
             left_behind: None,
+            exerts_lift: true,
         }
         .with_common_radius(found[SPRING_SPIN].over(found[SPRING]))
     }
@@ -289,9 +298,17 @@ impl TangentialLaw {
         self.form.turned(length, before, row)
     }
 
-    /// Whether nothing turns the spring with its contact, so that its force has a part along the normal.
+    /// Whether the spring is left behind, so that its force has a part along the normal.
     pub fn lifts(&self) -> bool {
-        self.left_behind.is_some()
+        self.left_behind.is_some() && self.exerts_lift
+    }
+
+    /// This law of a contact whose normal force has nothing of the spring.
+    pub fn without_lift(self) -> Self {
+        Self {
+            exerts_lift: false,
+            ..self
+        }
     }
 
     /// This law without damping, as it is in a motion with a restitution of 1.

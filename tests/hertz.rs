@@ -4,6 +4,9 @@
 
 mod common;
 
+#[path = "common/at_rest.rs"]
+mod at_rest;
+
 #[path = "hertz/asymptotics.rs"]
 mod asymptotics;
 #[path = "hertz/exponent.rs"]

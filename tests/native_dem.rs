@@ -1,13 +1,15 @@
 //! The native DEM as physics: what a contact must do, for any number of cylinders, and the same bits
 //! everywhere.
 
-use std::thread;
+#[path = "common/at_rest.rs"]
+mod at_rest;
+
+use at_rest::onset_and_peak;
 use tristack::code::Code;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::model::{
-    Arms, Case, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
+    Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
 };
-use tristack::series::{Mechanics, YieldEstimates};
 use tristack::study::yield_force::plan;
 
 fn law() -> SpringDashpot<f64> {
@@ -164,18 +166,7 @@ fn series_has_the_same_bits_everywhere() {
     assert_eq!(sha256_hex(&series.to_csv()), expected);
 }
 
-/// Slip onset and peak of a case, whose series obeys mechanics.
-fn onset_and_peak(case: &Case) -> [f64; 2] {
-    let series = compress_stack(case, || true).expect("a finite series");
-    let mechanics = Mechanics::read(&series, case);
-    let violations: Vec<_> = mechanics.violations().collect();
-    assert!(violations.is_empty(), "{case:?} {violations:?}");
-    let estimates = YieldEstimates::read(&series, case);
-    assert_eq!(estimates.departure, None);
-    [estimates.slip, estimates.peak].map(|estimate| estimate.expect("an estimate").force)
-}
-
-/// Between two and three bodies, any arms, closed bottom contacts, Hertz's law: what happens first is where theory has it.
+/// Two and three bodies on the floor, any arms, closed bottom contacts, Hertz's law.
 #[test]
 fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
     let stack = |mu, stiffness, stiffness_ratio| Stack {
@@ -214,17 +205,7 @@ fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
             ..stack
         };
         let measurement = plan(Code::NATIVE, &stack, convention);
-        let cases = &measurement.cases[..3];
-        let forces: Vec<[f64; 2]> = thread::scope(|scope| {
-            let runs = cases
-                .iter()
-                .map(|case| scope.spawn(|| onset_and_peak(case)));
-            let runs: Vec<_> = runs.collect();
-            runs.into_iter()
-                .map(|run| run.join().expect("a run"))
-                .collect()
-        });
-        let at_rest = forces[0][0] / 3.0 - 2.0 * forces[1][0] + 8.0 / 3.0 * forces[2][0];
+        let [at_rest, _] = onset_and_peak(&measurement);
         let exact = measurement.limit.slip_onset.unwrap();
         let apart = (at_rest - exact).abs() / (exact + f64::from(stack.bodies) + 1.0);
         assert!(apart < 1e-6, "{stack:?}: {at_rest} {exact} {apart:e}");

@@ -228,8 +228,8 @@ fn sentence(passport: &Passport) -> String {
             "It is not the code that its manifest declares: no yield force is judged."
         }
         _ if !passport.findings.measured.knows_limit() => {
-            "An arm is not known, or whether the spring of a pair turns with it, on which the yield force depends: no yield force \
-             is judged."
+            "The yield force depends on an arm that is not known, or on whether the spring of a pair turns with it, which is not: no \
+             yield force is judged."
         }
         _ if !unknown.is_empty() => {
             "Nothing contradicts its manifest. It has a rule that is none of those that tristack knows, or that its motions do \

@@ -1,45 +1,18 @@
 //! The native DEM against the limit: three wall speeds, as a crosscheck plans them, extrapolated to none.
 
 use super::Problem;
-use std::thread;
+use super::at_rest::onset_and_peak;
 use tristack::code::Code;
-use tristack::dem::compress_stack;
-use tristack::model::{Case, TangentialHistory};
-use tristack::series::{Mechanics, YieldEstimates};
+use tristack::model::TangentialHistory;
 use tristack::study::yield_force::plan;
-
-/// Slip onset and peak of a case, whose series obeys mechanics.
-fn measured(case: &Case) -> [f64; 2] {
-    let series = compress_stack(case, || true).expect("a finite series");
-    let mechanics = Mechanics::read(&series, case);
-    let violations: Vec<_> = mechanics.violations().collect();
-    assert!(violations.is_empty(), "{case:?} {violations:?}");
-    let estimates = YieldEstimates::read(&series, case);
-    assert_eq!(estimates.departure, None);
-    [estimates.slip, estimates.peak].map(|estimate| estimate.expect("an estimate").force)
-}
 
 /// Deviations of slip onset and peak, extrapolated over the wall speed, from their limits, in F + 3.
 fn deviations(own: &Problem) -> [f64; 2] {
     let measurement = plan(Code::NATIVE, &own.stack(), own.convention());
     let limit = &measurement.limit;
     assert!(measurement.is_gentle);
-    let cases = &measurement.cases[..3];
-    let forces: Vec<[f64; 2]> = thread::scope(|scope| {
-        let runs: Vec<_> = cases
-            .iter()
-            .map(|case| scope.spawn(|| measured(case)))
-            .collect();
-        runs.into_iter()
-            .map(|run| run.join().expect("a run"))
-            .collect()
-    });
-    let at_rest = |which: usize| {
-        let [fast, middle, slow] = [0, 1, 2].map(|run| forces[run][which]);
-        fast / 3.0 - 2.0 * middle + 8.0 / 3.0 * slow
-    };
     let limits = [limit.slip_onset.unwrap(), limit.peak_force.unwrap()];
-    let found = [at_rest(0), at_rest(1)];
+    let found = onset_and_peak(&measurement);
     println!("{own:?}: {found:?} {limits:?}");
     [0, 1].map(|which| (found[which] - limits[which]) / (limits[which] + 3.0))
 }

@@ -394,6 +394,80 @@ mod tests {
     }
 
     #[test]
+    fn a_faster_wall_allows_the_order_to_be_off_in_proportion() {
+        let forces = [10.4, 10.2, 10.1];
+        let allowance = |faster| {
+            let speeds = SPEEDS.map(|speed| faster * speed);
+            ConvergenceOrder::of(&speeds, &forces, 0.0).allowance
+        };
+        assert!((allowance(0.5) - 0.05).abs() < 1e-15);
+        assert!((allowance(3.0) - 0.15).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_order_at_speeds_of_unequal_ratios_is_that_of_the_power() {
+        let speeds = [6.0, 2.0, 1.0];
+        let found = |law: &dyn Fn(f64) -> f64| {
+            let [fast, middle, slow] = speeds.map(law);
+            order(&speeds, (fast - middle) / (middle - slow)).unwrap()
+        };
+        for power in [-3.0, -1.0, 0.5, 1.0, 2.0, 3.5] {
+            let order = found(&|speed| libm::pow(speed, power));
+            assert!((order - power).abs() < 1e-9, "{power}: {order}");
+        }
+        let of_logarithm = found(&libm::log);
+        assert!(of_logarithm.abs() < 1e-9, "{of_logarithm}");
+    }
+
+    #[test]
+    fn a_wrong_order_costs_its_deviation_times_the_excess_of_the_slowest_run() {
+        let runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
+        let linear = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
+        let observed = |observed| Extrapolation {
+            force: 10.0,
+            order: ConvergenceOrder {
+                observed,
+                ..linear.order
+            },
+            ..linear
+        };
+        assert!((observed(Some(1.5)).wrong_order(10.25) - 0.125).abs() < 1e-15);
+        assert!((observed(Some(0.25)).wrong_order(9.5) - 0.375).abs() < 1e-15);
+        assert_eq!(observed(None).wrong_order(10.25), 0.0);
+    }
+
+    #[test]
+    fn one_expected_order_is_a_number_and_two_are_a_range() {
+        assert_eq!(ConvergenceOrder::range((1.0, 1.0)), "1");
+        assert_eq!(
+            ConvergenceOrder::range(ConvergenceOrder::OF_RAMPS),
+            "0.5 to 2"
+        );
+    }
+
+    #[test]
+    fn few_printed_digits_are_an_error_and_noise() {
+        let printed = PrintedDigits {
+            digits: 6,
+            finest: 6,
+            half_unit: 1e-6,
+        };
+        let mut runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
+        for run in &mut runs {
+            run.printed = Some(printed);
+            run.slip.as_mut().unwrap().sensitivity = 3.0;
+        }
+        let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
+        // 50 rows count, each off by half a unit of the wall force and of the margin three times two half units.
+        let one_run = 50.0 * 7.0 * 1e-6;
+        assert!((result.budget.print_precision / (5.0 * one_run) - 1.0).abs() < 1e-12);
+        let rounded = round_off(&runs[2].slip.unwrap(), STEPS[2], 100.0);
+        let noise = 1e-9 + rounded + one_run;
+        let allowance = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], noise).allowance;
+        assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
         // Each of two differences of which the smaller is 0.1 may be off by 0.002.
         let order = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], 1e-3);

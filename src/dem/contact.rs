@@ -510,6 +510,136 @@ mod tests {
         assert_eq!((memory.length, memory.normal), (0.8, [-0.6, 0.8]));
     }
 
+    /// The law of the paper with a spring that nothing turns.
+    fn fixed() -> SpringDashpot<f64> {
+        SpringDashpot {
+            history_update: HistoryUpdate::Fixed,
+            ..paper()
+        }
+    }
+
+    /// A pair whose tangent is (-0.8, -0.6).
+    const PAIR: Contact<f64> = Contact {
+        counterpart: Counterpart::Cylinder,
+        normal: [-0.6, 0.8],
+        ..CONTACT
+    };
+
+    fn is_near(found: [f64; 2], expected: [f64; 2]) -> bool {
+        found
+            .iter()
+            .zip(expected)
+            .all(|(found, expected)| (found - expected).abs() < 1e-15)
+    }
+
+    #[test]
+    fn a_fixed_spring_of_a_pair_grows_along_the_tangent_and_pushes_along_the_normal_too() {
+        let mut memory = Spring {
+            length: 0.0,
+            normal: [0.3, 0.1],
+        };
+        let force = fixed().evaluate(&PAIR, &mut memory);
+        // Longer by 0.05 t; the force is -0.4 u - 0.05 t = (-0.064, 0.002).
+        assert!(is_near(memory.normal, [0.26, 0.07]), "{memory:?}");
+        assert_eq!(memory.length, 0.0);
+        assert!((force.normal - 1.0 - 0.04).abs() < 1e-15, "{force:?}");
+        assert!((force.tangential - 0.05).abs() < 1e-15, "{force:?}");
+    }
+
+    #[test]
+    fn a_fixed_spring_of_a_pair_slides_at_the_limit_of_its_whole_force() {
+        let mut memory = Spring {
+            length: 0.0,
+            normal: [-3.96, 0.03],
+        };
+        let force = fixed().evaluate(&PAIR, &mut memory);
+        // The spring of this step is (-4, 0), the force that would stick (1.64, 0.03).
+        let sticking: [f64; 2] = [1.64, 0.03];
+        let size = libm::hypot(sticking[0], sticking[1]);
+        let along = sticking.map(|part| 0.5 * part / size);
+        let exerted = [
+            -0.6 * (force.normal - 1.0) - 0.8 * force.tangential,
+            0.8 * (force.normal - 1.0) - 0.6 * force.tangential,
+        ];
+        assert!(is_near(exerted, along), "{exerted:?} {along:?}");
+        assert_eq!(memory.normal, [-3.96, 0.03]);
+    }
+
+    #[test]
+    fn a_vector_is_below_a_limit_by_its_size() {
+        assert!([3.0, 4.0].is_below(5.5) && ![3.0, 4.0].is_below(4.5));
+    }
+
+    #[test]
+    fn a_torque_turns_by_its_time_over_the_moment_of_inertia() {
+        assert!((Plane::kick(3.0, 0.5, 0.25) - 1.5_f64).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_fixed_spring_at_a_wall_is_a_length() {
+        let [mut fixed_memory, mut turned_memory] = [stretched(0.3), stretched(0.3)];
+        let force = fixed().evaluate(&CONTACT, &mut fixed_memory);
+        let turned = paper().evaluate(&CONTACT, &mut turned_memory);
+        assert_eq!(
+            (force.normal, force.tangential),
+            (turned.normal, turned.tangential)
+        );
+        assert_eq!(fixed_memory.length, 0.35);
+        assert_eq!(fixed_memory.normal, CONTACT.normal);
+    }
+
+    #[test]
+    fn a_spring_is_changed_where_it_is_kept() {
+        let changed = |update| {
+            let mut memory = stretched(3.0);
+            memory.change(update, |part| 2.0 * part);
+            (memory.length, memory.normal)
+        };
+        assert_eq!(changed(HistoryUpdate::Rotated), (6.0, [0.0, 1.0]));
+        assert_eq!(changed(HistoryUpdate::Fixed), (6.0, [0.0, 2.0]));
+    }
+
+    #[test]
+    fn in_space_a_pair_turns_its_spring_unless_that_is_fixed_and_a_wall_has_none_to_turn() {
+        let turned = |history_update, counterpart| {
+            let law = SpringDashpot::<f64> {
+                history_update,
+                ..paper()
+            };
+            let contact = Contact {
+                counterpart,
+                normal: [0.6, 0.8, 0.0],
+                sliding_speed: [0.0; 3],
+                ..IN_SPACE
+            };
+            let mut memory: Spring<f64, Space> = Spring {
+                length: [0.5, 0.0, 0.0],
+                normal: IN_SPACE.normal,
+            };
+            law.evaluate(&contact, &mut memory);
+            memory.length
+        };
+        let is_near = |found: [f64; 3], expected: [f64; 3]| {
+            let differences = found.iter().zip(expected);
+            differences
+                .map(|(one, other)| (one - other).abs())
+                .sum::<f64>()
+                < 1e-15
+        };
+        let kept = [0.5, 0.0, 0.0];
+        for (update, pair) in [
+            (HistoryUpdate::Fixed, kept),
+            (HistoryUpdate::Rotated, [0.4, -0.3, 0.0]),
+            (HistoryUpdate::Projected, [0.32, -0.24, 0.0]),
+        ] {
+            let found = turned(update, Counterpart::Cylinder);
+            assert!(is_near(found, pair), "{update:?}: {found:?}");
+            assert_eq!(turned(update, Counterpart::Wall), kept);
+        }
+        let linearised = turned(HistoryUpdate::Linearised, Counterpart::Cylinder);
+        assert!(!is_near(linearised, kept), "{linearised:?}");
+    }
+
     const IN_SPACE: Contact<f64, Space> = Contact {
         counterpart: Counterpart::Wall,
         normal: [0.0, 1.0, 0.0],

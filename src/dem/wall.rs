@@ -64,6 +64,22 @@ mod tests {
     }
 
     #[test]
+    fn a_cylinder_overlaps_a_wall_by_what_is_missing_to_its_radius() {
+        let overlap = |facing, offset, height| {
+            let wall = PlaneWall {
+                facing,
+                offset,
+                speed: 0.0,
+                friction: 0.0,
+            };
+            wall.overlap::<Plane>([3.0, height])
+        };
+        assert_eq!(overlap(Facing::Up, 0.5, 1.25), 0.25);
+        assert_eq!(overlap(Facing::Up, 0.5, 1.75), -0.25);
+        assert_eq!(overlap(Facing::Down, -4.0, 3.25), 0.25);
+    }
+
+    #[test]
     fn the_same_holds_in_space() {
         for facing in SIDES {
             let normal = facing.normal::<f64, Space>(1.0);

@@ -183,6 +183,72 @@ mod tests {
     }
 
     #[test]
+    fn every_key_of_a_file_is_a_part_of_the_law() {
+        let text = "power = 1.5\ntangential_stiffening = \"pairs\"\ndamping = \"viscoelastic\"";
+        let law: Law = toml::from_str(text).unwrap();
+        let expected = Law {
+            tangential_stiffening: TangentialStiffening::Pairs,
+            damping: DampingGrowth::Viscoelastic,
+            ..Law::HERTZ
+        };
+        assert_eq!(law, expected);
+    }
+
+    #[test]
+    fn gravity_is_slow_for_what_it_would_leave_behind() {
+        use TangentialHistory::{Displacement, DisplacementRescaled, Force, ForceRescaled};
+        let slow = |law: Law, history| Law { history, ..law }.needs_slow_ramp();
+        let stiffening = Law {
+            tangential_stiffening: TangentialStiffening::Every,
+            ..Law::LINEAR
+        };
+        for history in [DisplacementRescaled, ForceRescaled] {
+            assert!(slow(Law::LINEAR, history), "{history}");
+        }
+        // A force that is remembered, where the stiffness depends on the overlap.
+        assert!(slow(Law::HERTZ, Force) && slow(stiffening, Force) && !slow(Law::LINEAR, Force));
+        assert!(!slow(Law::HERTZ, Displacement) && !slow(stiffening, Displacement));
+        let viscoelastic = |law| Law {
+            damping: DampingGrowth::Viscoelastic,
+            ..law
+        };
+        assert!(slow(viscoelastic(Law::HERTZ), Displacement));
+        assert!(!slow(viscoelastic(Law::LINEAR), Displacement));
+    }
+
+    #[test]
+    fn pairs_stiffen_with_every_contact_or_alone() {
+        let stiffer = |tangential_stiffening| {
+            let law = Law {
+                tangential_stiffening,
+                ..Law::LINEAR
+            };
+            [law.of_pairs(2.5, 0.7), law.of_walls(2.5, 0.7)].map(|contact| {
+                contact.at(0.5).tangential_stiffness / contact.at(0.0).tangential_stiffness
+            })
+        };
+        // 2/(2 - 0.5).
+        let more = 4.0 / 3.0;
+        for (stiffening, expected) in [
+            (TangentialStiffening::None, [1.0, 1.0]),
+            (TangentialStiffening::Pairs, [more, 1.0]),
+            (TangentialStiffening::Every, [more, more]),
+        ] {
+            let found = stiffer(stiffening);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-15, "{stiffening:?}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_force_is_steepest_at_the_largest_overlap() {
+        let floor = Law::HERTZ.of_walls(2.5, 0.7);
+        assert!((floor.highest_stiffness() - 1.5 * HERTZ_FLOOR_RATIO).abs() < 1e-15);
+        assert_eq!(Law::LINEAR.of_pairs(2.5, 0.7).highest_stiffness(), 1.0);
+    }
+
+    #[test]
     fn values_out_of_range_name_their_key() {
         let key = |law: Law| law.validate().unwrap_err().key;
         let soft = Law {

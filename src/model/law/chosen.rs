@@ -195,6 +195,21 @@ mod tests {
     }
 
     #[test]
+    fn a_file_names_the_growth_of_damping_unless_it_is_the_usual_one() {
+        for damping in DampingGrowth::ALL {
+            let law = Law {
+                damping,
+                ..Law::HERTZ
+            };
+            let written = toml::to_string(&law).unwrap();
+            let line = format!("damping = \"{}\"", damping.as_str());
+            let is_usual = law == Law::HERTZ;
+            assert_eq!(written.contains(&line), !is_usual, "{written}");
+            assert_eq!(written.contains("damping"), !is_usual, "{written}");
+        }
+    }
+
+    #[test]
     fn gravity_is_slow_for_what_it_would_leave_behind() {
         use TangentialHistory::{Displacement, DisplacementRescaled, Force, ForceRescaled};
         let slow = |law: Law, history| Law { history, ..law }.needs_slow_ramp();
@@ -224,7 +239,8 @@ mod tests {
                 ..Law::LINEAR
             };
             [law.of_pairs(2.5, 0.7), law.of_walls(2.5, 0.7)].map(|contact| {
-                contact.at(0.5).tangential_stiffness / contact.at(0.0).tangential_stiffness
+                assert_eq!(contact.unstiffened(0.5), 1.0 / 2.5);
+                contact.at(0.5).tangential_stiffness / contact.unstiffened(0.5)
             })
         };
         // 2/(2 - 0.5).

@@ -566,13 +566,16 @@ mod tests {
     }
 
     #[test]
-    fn a_vector_is_below_a_limit_by_its_size() {
+    fn a_vector_is_below_a_limit_by_its_size_and_has_a_direction_without_it() {
+        let in_space = <Space as Geometry<f64>>::direction([2.0, 0.0, -4.0], 4.0);
+        assert_eq!(in_space, [0.5, 0.0, -1.0]);
         assert!([3.0, 4.0].is_below(5.5) && ![3.0, 4.0].is_below(4.5));
     }
 
     #[test]
     fn a_torque_turns_by_its_time_over_the_moment_of_inertia() {
         assert!((Plane::kick(3.0, 0.5, 0.25) - 1.5_f64).abs() < 1e-15);
+        assert_eq!(Space::kick([3.0, 0.0, -1.0], 0.5, 0.25), [1.5, 0.0, -0.5]);
     }
 
     #[test]

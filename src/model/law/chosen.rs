@@ -210,6 +210,18 @@ mod tests {
     }
 
     #[test]
+    fn words_and_schema_are_those_of_files() {
+        for stiffening in TangentialStiffening::ALL {
+            let written = toml::Value::try_from(stiffening).unwrap();
+            assert_eq!(written.as_str(), Some(stiffening.as_str()));
+        }
+        let schema = schemars::schema_for!(Power);
+        let values = Power::ALL.map(|power| serde_json::Value::from(power.value()));
+        assert_eq!(schema.get("title"), Some(&"Power".into()));
+        assert_eq!(schema.get("enum"), Some(&values.to_vec().into()));
+    }
+
+    #[test]
     fn gravity_is_slow_for_what_it_would_leave_behind() {
         use TangentialHistory::{Displacement, DisplacementRescaled, Force, ForceRescaled};
         let slow = |law: Law, history| Law { history, ..law }.needs_slow_ramp();

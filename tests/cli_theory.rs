@@ -92,6 +92,40 @@ fn csv_has_one_line_a_case() {
     assert_eq!(text.lines().count(), 3);
 }
 
+/// The peak of the paper at its own speed, and what it rests on: F + C v.
+#[test]
+fn a_wall_speed_adds_to_the_peak_what_theory_knows() {
+    let bench = Bench::without_codes();
+    let line = "theory --mu 0.2 --stiffness 1e4 --speed 1e-6";
+    let case = &json_rows(&standard_output(
+        &mut bench.tristack(&format!("{line} --format json")),
+    ))[0];
+    let number = |key: &str| case[key].as_f64().expect("a number");
+    let added = number("peak_per_speed") * number("wall_speed");
+    assert!((number("peak_at_speed") - number("quasistatic") - added).abs() < 1e-12);
+    // docs/theory.md, section 8.7.
+    assert!((number("peak_per_speed") - 41760.8).abs() < 0.05, "{case}");
+    assert!((number("onset_per_speed") - 1.68161).abs() < 5e-6, "{case}");
+    let table = standard_output(&mut bench.tristack(line));
+    assert!(table.contains("at wall speed v"), "{table}");
+    assert!(
+        table.ends_with("forces in m g, v = 1e-6 r sqrt(k_n/m)\n"),
+        "{table}"
+    );
+
+    // Contact 2-3 is closed at the onset.
+    let closed = "theory --mu 0.3 --stiffness 1e2 --kappa 0.8 --speed 1e-6";
+    let case = &json_rows(&standard_output(
+        &mut bench.tristack(&format!("{closed} --format json")),
+    ))[0];
+    assert!(case["peak_at_speed"].is_null() && case["quasistatic"].is_number());
+    let table = standard_output(&mut bench.tristack(closed));
+    assert!(
+        table.contains("what a speed adds is not known here"),
+        "{table}"
+    );
+}
+
 #[test]
 fn every_command_has_help_with_an_example() {
     let bench = Bench::without_codes();

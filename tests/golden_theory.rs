@@ -5,7 +5,9 @@ use serde::Deserialize;
 use std::path::Path;
 use std::process::Command;
 use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
-use tristack::theory::{Event, Predictions, closed_form_limit, followed_limit, rigid_yield};
+use tristack::theory::{
+    Event, LimitCurve, Predictions, closed_form_limit, followed_limit, rigid_yield,
+};
 
 fn rows<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
     let path = format!("{}/reference/golden/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -276,4 +278,67 @@ fn rigid_disks_of_another_kind_of_solver_slide_at_the_rigid_limit() {
         .output();
     let anew = anew.expect("it starts");
     assert_eq!(String::from_utf8_lossy(&anew.stdout), recorded);
+}
+
+/// What a wall speed adds, by bodies in the plane whose springs are displacements and whose derivatives are differences
+/// (reference/witness/first_order.py). Such differences over 1e-6 are rounded to 1e-10 of k_n r; at the stiffness 10⁴ that
+/// is 1e-6 of a weight, and as much of the lag, which the onset follows alone.
+#[test]
+fn a_wall_speed_adds_what_the_balances_of_the_bodies_say() {
+    #[derive(Deserialize)]
+    struct Row {
+        stiffness: f64,
+        kappa: f64,
+        mu: f64,
+        spring: String,
+        pair_torque_arm: f64,
+        pair_kinematic_arm: f64,
+        floor_torque_arm: f64,
+        floor_kinematic_arm: f64,
+        force: f64,
+        onset_per_speed: f64,
+        peak_per_speed: f64,
+    }
+    let witness = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/witness/first_order.csv");
+    let mut reader = csv::Reader::from_path(witness).expect("the record");
+    let rows: Vec<Row> = reader
+        .deserialize()
+        .map(|row| row.expect("a row"))
+        .collect();
+    assert_eq!(rows.len(), 14);
+    let mut worst = [Worst::default(), Worst::default(), Worst::default()];
+    for row in rows {
+        let stack = Stack {
+            stiffness_ratio: row.kappa,
+            ..Stack::paper(row.mu, row.stiffness)
+        };
+        let arms = Arms {
+            pair: ContactArms {
+                torque: row.pair_torque_arm,
+                kinematic: row.pair_kinematic_arm,
+            },
+            floor: ContactArms {
+                torque: row.floor_torque_arm,
+                kinematic: row.floor_kinematic_arm,
+            },
+        };
+        let convention = ContactConvention {
+            arms,
+            ..match row.spring.as_str() {
+                "fixed" => ContactConvention::PAPER,
+                _ => ContactConvention::TURNING,
+            }
+        };
+        let curve = LimitCurve::new(&stack, &convention);
+        let limit = curve.limit(&stack);
+        let added = curve.speed_excess(&stack, &limit).expect("an excess");
+        let name = format!("{stack:?} {}", row.spring);
+        worst[0].compare(limit.yield_force, Some(row.force), &name);
+        worst[1].compare(Some(added.onset), Some(row.onset_per_speed), &name);
+        worst[2].compare(Some(added.peak), Some(row.peak_per_speed), &name);
+    }
+    let [limit, onset, peak] = worst;
+    limit.must_stay_below(1e-8, "limit beside the witness");
+    onset.must_stay_below(1e-5, "onset per speed");
+    peak.must_stay_below(1e-8, "peak per speed");
 }

@@ -4,13 +4,15 @@
 #[path = "common/at_rest.rs"]
 mod at_rest;
 
-use at_rest::onset_and_peak;
+use at_rest::{onset_and_peak, three_speeds};
 use tristack::code::Code;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::model::{
-    Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
+    Arms, ContactArms, ContactConvention, CoulombOperand, Law, PAPER_RESTITUTION, Power,
+    SlidingSpring, Stack, sha256_hex,
 };
-use tristack::study::yield_force::plan;
+use tristack::study::yield_force::{Measurement, plan};
+use tristack::theory::LimitCurve;
 
 fn law() -> SpringDashpot<f64> {
     SpringDashpot::like(0.0, &ContactConvention::TURNING, 2.5)
@@ -209,5 +211,68 @@ fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
         let exact = measurement.limit.slip_onset.unwrap();
         let apart = (at_rest - exact).abs() / (exact + f64::from(stack.bodies) + 1.0);
         assert!(apart < 1e-6, "{stack:?}: {at_rest} {exact} {apart:e}");
+    }
+}
+
+/// What a wall speed adds to onset and peak, per speed, at vanishing speed and time step; and how far the straight line
+/// through the slower two of three speeds is from the parabola, as a part of it.
+fn added_per_speed(measurement: &Measurement) -> [[f64; 2]; 2] {
+    let at = |time_step: f64| {
+        let mut finer = measurement.clone();
+        for case in &mut finer.cases {
+            case.protocol.time_step *= time_step;
+        }
+        let fastest = measurement.cases[0].protocol.wall_speed;
+        three_speeds(&finer).map(|[fast, middle, slow]| {
+            let parabola = 10.0 * middle - 2.0 * fast - 8.0 * slow;
+            let line = 4.0 * (middle - slow);
+            [parabola / fastest, line / fastest]
+        })
+    };
+    let (coarse, fine) = (at(0.5), at(0.25));
+    [0, 1].map(|which| {
+        let [slope, line] = [0, 1].map(|kind| 2.0 * fine[which][kind] - coarse[which][kind]);
+        [slope, (line / slope - 1.0).abs()]
+    })
+}
+
+/// What a speed adds is what theory says, for springs that turn and one that does not, any arms, Hertz's law and spheres.
+#[test]
+fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
+    let stack = |mu, stiffness, stiffness_ratio| Stack {
+        stiffness_ratio,
+        ..Stack::paper(mu, stiffness)
+    };
+    let spring_alone = ContactConvention {
+        coulomb_operand: CoulombOperand::Spring,
+        sliding_spring: SlidingSpring::FollowsLimit,
+        ..ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5))
+    };
+    let hertz = ContactConvention {
+        law: Law::of_power(Power::Hertz),
+        ..ContactConvention::PAPER
+    };
+    let three = Stack {
+        bodies: 3,
+        ..stack(0.37, 137.0, 2.3)
+    };
+    for (stack, convention) in [
+        (stack(0.2, 100.0, 2.5), ContactConvention::PAPER),
+        (stack(0.3, 137.0, 2.3), spring_alone),
+        (stack(0.31, 137.0, 4.3), hertz),
+        (three, ContactConvention::TURNING),
+    ] {
+        let measurement = plan(Code::NATIVE, &stack, convention);
+        let curve = LimitCurve::new(&measurement.stack, &measurement.convention);
+        let added = curve.speed_excess(&stack, &measurement.limit).unwrap();
+        let found = added_per_speed(&measurement);
+        for (expected, [found, curved]) in [added.onset, added.peak].into_iter().zip(found) {
+            // The parabola is closer than the straight line by far.
+            let apart = (found / expected - 1.0).abs();
+            assert!(
+                apart < curved && curved < 0.02,
+                "{stack:?}: {found} in place of {expected}, {apart:e} {curved:e}"
+            );
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! `tristack theory`.
 
-use super::options::{ConventionOptions, Format, StackListOptions};
+use super::options::{ConventionOptions, Format, StackListOptions, positive};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::output::{theories_by_stack, theory};
@@ -17,6 +17,9 @@ pub(super) struct Arguments {
     stack: StackListOptions,
     #[command(flatten)]
     convention: ConventionOptions,
+    /// Wall speed in r sqrt(k_n/m): adds the peak that a DEM has at it, to first order
+    #[arg(long, value_name = "V", value_parser = positive)]
+    speed: Option<f64>,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -29,6 +32,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .of(Code::NATIVE, arguments.stack.bodies())?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
     let predictions: Vec<Predictions> = Predictions::of_each(&stacks, &convention)
+        .map(|own| match arguments.speed {
+            Some(speed) => own.at_speed(speed),
+            None => own,
+        })
         .take_while(|_| !INTERRUPT.requested())
         .collect();
     let people = || theories_by_stack(&predictions);

@@ -81,6 +81,20 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .means("how far the wall has moved when the floor slips")
     .number("peak_travel", "r", |own| own.quasistatic.peak_travel)
     .means("the same at the peak")
+    .number("wall_speed", "r √(k_n/m)", |own| {
+        own.moving.map(|wall| wall.speed)
+    })
+    .means("the speed of the wall that `--speed` gives")
+    .number("peak_at_speed", "m g", |own| own.moving_peak())
+    .means("F at the peak of a DEM whose wall has that speed, to first order in it")
+    .number("peak_per_speed", "m g √(m/k_n)/r", |own| {
+        Some(own.moving?.excess?.peak)
+    })
+    .means("what the speed adds to the peak, per speed")
+    .number("onset_per_speed", "m g √(m/k_n)/r", |own| {
+        Some(own.moving?.excess?.onset)
+    })
+    .means("what it adds to the onset of slip, per speed")
     .rows(predictions)
 }
 
@@ -101,7 +115,11 @@ pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
         );
         heading + &one_case(case).terminal()
     });
-    tables.collect::<Vec<_>>().join("\n") + "forces in m g\n"
+    let units = match predictions.first().and_then(|case| case.moving) {
+        Some(wall) => format!("forces in m g, v = {:e} r sqrt(k_n/m)\n", wall.speed),
+        None => "forces in m g\n".to_owned(),
+    };
+    tables.collect::<Vec<_>>().join("\n") + &units
 }
 
 /// One theory of one stack: its name, its yield force, and a remark.
@@ -148,6 +166,13 @@ fn one_case(case: &Predictions) -> Table {
     } else if exact.yield_force.is_none() && exact.floor_slip_force.is_some() {
         let remark = format!("if {} is ignored", exact.event);
         lines.push(("", exact.floor_slip_force, remark));
+    }
+    if let Some(moving) = case.moving {
+        let remark = match moving.excess {
+            Some(excess) => format!("peak, {} v above the limit", digits::<7>(excess.peak)),
+            None => "what a speed adds is not known here".to_owned(),
+        };
+        lines.push(("at wall speed v", case.moving_peak(), remark));
     }
     Columns::<Line>::for_people()
         .left("theory", |(name, ..)| name.to_string())

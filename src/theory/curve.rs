@@ -3,7 +3,7 @@
 use super::closing::closing_limit;
 use super::events::Event;
 use super::limit::Limit;
-use super::path::{BottomContact, FollowedPath, followed_path, limit_on};
+use super::path::{BottomContact, FollowedPath, SpeedExcess, followed_path, limit_on};
 use super::quasistatic::closed_form_limit;
 use crate::model::{ContactConvention, Stack};
 use std::cell::OnceCell;
@@ -62,6 +62,27 @@ impl LimitCurve {
             }
             _ => limit,
         }
+    }
+
+    /// What a finite wall speed adds to the `limit` of `stack`, which is on the curve, to first order in the speed. `None`
+    /// unless the floor slips first and with c = 0, where springs are rescaled, and where the sliding stack does not give
+    /// way.
+    ///
+    /// ```
+    /// use tristack::model::{ContactConvention, Stack};
+    /// use tristack::theory::LimitCurve;
+    /// let stack = Stack::paper(0.2, 1e4);
+    /// let curve = LimitCurve::new(&stack, &ContactConvention::TURNING);
+    /// let excess = curve.speed_excess(&stack, &curve.limit(&stack)).unwrap();
+    /// // At the wall speed 1e-6 the force peaks 0.5 % of the load above the limit.
+    /// assert!((1e-6 * excess.peak - 0.0418).abs() < 1e-4);
+    /// ```
+    pub fn speed_excess(&self, stack: &Stack, limit: &Limit) -> Option<SpeedExcess> {
+        if limit.event != Event::FloorSlip || limit.yield_force.is_none() {
+            return None;
+        }
+        self.path(BottomContact::Ignored)
+            .speed_excess(stack, &self.convention)
     }
 
     fn path(&self, bottom: BottomContact) -> &FollowedPath {

@@ -27,8 +27,8 @@ pub use impact::{NormalImpact, SlidingChange, integrated_impact, normal_impact, 
 pub(crate) use impact::{damping_exponent, has_closed_form};
 pub use limit::Limit;
 pub use overlap::pair_overlap;
-pub use path::followed_limit;
-pub use predictions::{Prediction, Predictions};
+pub use path::{SpeedExcess, followed_limit};
+pub use predictions::{MovingWall, Prediction, Predictions};
 pub use quasistatic::closed_form_limit;
 pub use regimes::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, CriticalState, EquilibriumPath,

@@ -6,6 +6,7 @@
 
 mod balance;
 mod remembered;
+mod speed;
 
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
@@ -15,6 +16,7 @@ pub(super) use balance::BottomContact;
 use balance::{Beginning, Contacts, FIXED, Leg, State, TURNING};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 pub(super) use remembered::{RememberedBranch, remembered_overlap_at_rest};
+pub use speed::SpeedExcess;
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
 /// Start of the path on its first ray, relative to the angle that the gravity ramp turns to first order. The ray leaves

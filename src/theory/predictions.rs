@@ -1,8 +1,8 @@
 //! Every theory for one stack, side by side.
 
 use super::{
-    ElasticRoot, Limit, LimitCurve, RigidYield, elastic_root, naive_load, perturbation_load,
-    rigid_yield,
+    ElasticRoot, Limit, LimitCurve, RigidYield, SpeedExcess, elastic_root, naive_load,
+    perturbation_load, rigid_yield,
 };
 use crate::model::{ContactConvention, Stack};
 
@@ -43,6 +43,17 @@ pub struct Predictions {
     pub elastic_root: Option<ElasticRoot>,
     /// Exact quasi-static limit of the DEM.
     pub quasistatic: Limit,
+    /// The DEM at a finite wall speed, if one was asked for.
+    pub moving: Option<MovingWall>,
+}
+
+/// What a moving wall adds to the quasi-static limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovingWall {
+    /// Its speed in r √(k_n/m).
+    pub speed: f64,
+    /// What is added per speed; `None` where [`LimitCurve::speed_excess`] knows none.
+    pub excess: Option<SpeedExcess>,
 }
 
 impl Predictions {
@@ -83,6 +94,24 @@ impl Predictions {
             ),
             elastic_root,
             quasistatic: curve.limit(stack),
+            moving: None,
         }
+    }
+
+    /// The same with what a wall of this `speed` in r √(k_n/m) adds to first order.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> Self {
+        let curve = LimitCurve::new(&self.stack, &self.convention);
+        let excess = curve.speed_excess(&self.stack, &self.quasistatic);
+        Self {
+            moving: Some(MovingWall { speed, excess }),
+            ..self
+        }
+    }
+
+    /// F of the peak at the speed of the wall, to first order.
+    pub fn moving_peak(&self) -> Option<f64> {
+        let moving = self.moving?;
+        Some(self.quasistatic.peak_force? + moving.excess?.peak * moving.speed)
     }
 }

@@ -142,7 +142,11 @@ fn the_counts_of_rows_are_those_of_the_tables() {
         );
     }
     expected.extend([of("no-yield"), of("failed") + of("missing")]);
-    expected.push(rows("literal").len() as f64);
+    let literal = rows("literal");
+    expected.extend([
+        literal.len() as f64,
+        count(&literal, "verdict", "agrees") as f64,
+    ]);
     assert_numbers(&item("judged rows"), &expected);
 }
 

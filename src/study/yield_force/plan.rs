@@ -11,7 +11,7 @@ use crate::model::{
     Stack,
 };
 use crate::series::{Estimate, YieldEstimates};
-use crate::theory::Limit;
+use crate::theory::{Limit, LimitCurve};
 use serde::{Deserialize, Serialize};
 
 /// Time step of all runs but one.
@@ -85,6 +85,9 @@ pub struct Measurement {
     /// By how much the limit may be off because arms were measured and not declared, in m g; absent where all are
     /// declared.
     pub convention_uncertainty: Option<f64>,
+    /// C, by which the peak rises per wall speed in r √(k_n/m), in m g, to first order; absent where it is not known, or not
+    /// needed because the speed is extrapolated.
+    pub peak_excess: Option<f64>,
     /// How its yield force is read.
     pub method: Method,
     /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
@@ -212,10 +215,13 @@ pub(crate) fn planned(
         has_slow_ramps: limit.needs_slow_ramp,
         ..RunRoles::PLANNED
     };
+    let curve = (method == Method::Literal).then(|| LimitCurve::new(stack, &convention));
+    let excess = curve.and_then(|curve| curve.speed_excess(stack, &limit));
     Measurement {
         code,
         stack: *stack,
         convention,
+        peak_excess: excess.map(|excess| excess.peak),
         method,
         convention_uncertainty: convention_uncertainty(code, stack, &convention),
         is_gentle: is_gentle(fastest, stack, &convention),

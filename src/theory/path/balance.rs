@@ -33,15 +33,15 @@ pub(super) struct State {
     /// L, load carried by cylinder 1.
     pub(super) load: f64,
     /// G = 2r − ρ.
-    pair_overlap: f64,
+    pub(super) pair_overlap: f64,
     /// θ, rotation of cylinder 2.
-    rotation: f64,
+    pub(super) rotation: f64,
     /// b, tangential force of the contact 1–2.
-    pair_shear: f64,
+    pub(super) pair_shear: f64,
     /// e, tangential force of the floor contact.
-    floor_shear: f64,
+    pub(super) floor_shear: f64,
     /// p, part of the force of the tangential spring 1–2 along the normal; 0 of a spring that turns with its contact.
-    pair_lift: f64,
+    pub(super) pair_lift: f64,
 }
 
 /// Numbers of a state if springs turn with their contacts.
@@ -64,7 +64,7 @@ impl State {
         }
     }
 
-    /// The first numbers of the state.
+    /// The first numbers of the state, followed by 0 beyond its last one.
     pub(super) fn to_array<const N: usize>(self) -> [f64; N] {
         let numbers: [f64; FIXED] = [
             self.turned,
@@ -75,7 +75,7 @@ impl State {
             self.floor_shear,
             self.pair_lift,
         ];
-        std::array::from_fn(|index| numbers[index])
+        std::array::from_fn(|index| numbers.get(index).copied().unwrap_or(0.0))
     }
 
     /// A state that is no equilibrium.
@@ -99,7 +99,7 @@ pub(super) enum Leg {
 }
 
 impl Leg {
-    fn floor_force(self, load: f64, epsilon: f64, ring: &Ring) -> f64 {
+    pub(super) fn floor_force(self, load: f64, epsilon: f64, ring: &Ring) -> f64 {
         let borne = self.floor_force_slope(ring) * load;
         match self {
             Self::GravityRamp => borne,
@@ -107,7 +107,7 @@ impl Leg {
         }
     }
 
-    fn floor_force_slope(self, ring: &Ring) -> f64 {
+    pub(super) fn floor_force_slope(self, ring: &Ring) -> f64 {
         let share = ring.bodies.recip();
         match self {
             Self::GravityRamp => share + 1.0,
@@ -148,14 +148,14 @@ pub(super) struct Beginning {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contacts {
     pub(super) ring: Ring,
-    law: ContactLaw,
-    wall: ContactLaw,
-    arms: Arms,
+    pub(super) law: ContactLaw,
+    pub(super) wall: ContactLaw,
+    pub(super) arms: Arms,
     pub(super) epsilon: f64,
     pub(super) bottom: BottomContact,
     /// Turn of the tangential spring 1–2 relative to its contact, per turn of the contact: 0 if it turns with the contact,
     /// 1 if nothing turns it.
-    left_behind: f64,
+    pub(super) left_behind: f64,
 }
 
 /// One of the two contacts with friction, in one state.

@@ -103,7 +103,7 @@ fn of_rows(reproduction: &Reproduction) -> String {
     format!(
         "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} \
          inconclusive{named}, {} without yield, {} failed or missing. Not among them: {} rows at \
-         the paper’s literal settings ([](#table-literal)), which two wall speeds cannot decide.",
+         the paper’s literal settings ([](#table-literal)), of which {} agree.",
         rows.len(),
         rows.len() - recorded,
         count(Verdict::Agrees),
@@ -111,7 +111,12 @@ fn of_rows(reproduction: &Reproduction) -> String {
         count(Verdict::Inconclusive),
         count(Verdict::NoYield),
         count(Verdict::Failed) + count(Verdict::Missing),
-        reproduction.literal.len()
+        reproduction.literal.len(),
+        reproduction
+            .literal
+            .iter()
+            .filter(|row| row.verdict() == Verdict::Agrees)
+            .count()
     )
 }
 

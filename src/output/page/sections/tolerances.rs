@@ -94,8 +94,9 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
         ),
         rows(
             "literal",
-            "At the paper’s literal wall speed $10^{-6}$ and time step $10^{-3}$, yield force by the peak. Two wall speeds \
-             say little of how well a row is known, so that none is decided; [](#figure-convergence) has further speeds.",
+            "At the paper’s literal wall speed $10^{-6}$ and time step $10^{-3}$, yield force by the peak, less what theory \
+             expects the speed to add to first order; a second run at twice the speed shows what is left. \
+             [](#figure-convergence) has further speeds.",
             &reproduction.literal,
         ),
         Block::paragraph("What each kind of evidence does not prove:"),

@@ -1,0 +1,560 @@
+//! What a finite wall speed adds to onset and peak, to first order (docs/theory.md, section 8.7).
+//!
+//! Forces balance along the driven path up to the damping, which is linear in the rates: places and springs lag behind the
+//! path of equilibria by a part linear in the speed. Springs remember the way, so that this part is integrated along it.
+//! Once the floor slides, the stack moves linearly about the equilibrium at the onset, for which it has a mass.
+
+use super::balance::{Contacts, Leg, State};
+use super::{FollowedPath, RELATIVE_TOLERANCE};
+use crate::model::{ContactConvention, CoulombOperand, Stack};
+use crate::theory::events::{Event, locate};
+use crate::theory::root::bracketed_root;
+use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, SVector, Vector3, Vector4};
+
+/// What is added to F = f/(m g) per wall speed in r √(k_n/m), to first order in the speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedExcess {
+    /// Of the onset of slip: damping makes springs lag behind the forces.
+    pub onset: f64,
+    /// Of the peak: the sliding stack needs a time to give way, during which the wall loads on.
+    pub peak: f64,
+}
+
+/// y₁, x₂, y₂ and the rotation of cylinder 2, or changes of them; x₂ is the distance of body 2 from the axis.
+type Place = Vector4<f64>;
+/// b and p of the pair and e of the floor, or changes of them.
+type Springs = Vector3<f64>;
+
+/// Numbers of the state that is integrated: that of the path, and the springs' part of the lag.
+const NUMBERS: usize = 10;
+
+/// Numbers of a sliding motion: place, velocity, time since the wall was where the floor slips at rest, and 1.
+const SLIDING: usize = 10;
+/// Time between two looks at the sliding motion, in the time scale of the stack.
+const LOOK: f64 = 0.05;
+/// Looks after which a motion that has not given back what it gained has no peak.
+const LOOKS: usize = 20_000;
+/// Change of the place over which a slope is taken, in the smaller overlap.
+const DIFFERENCE: f64 = 1e-4;
+
+/// A stack in equilibrium under the wall.
+struct Equilibrium<'a> {
+    contacts: &'a Contacts,
+    state: State,
+    /// sin ψ and cos ψ.
+    direction: [f64; 2],
+    /// ρ.
+    distance: f64,
+    floor_overlap: f64,
+}
+
+/// The motion of an equilibrium per wall travel.
+struct Rates {
+    place: Place,
+    springs: Springs,
+    /// Of the overlap of the wall with cylinder 1.
+    wall_overlap: f64,
+}
+
+/// Forces on the four coordinates per change of place, of springs, and per velocity.
+struct Response {
+    place: Matrix4<f64>,
+    springs: Matrix4x3<f64>,
+    velocity: Matrix4<f64>,
+}
+
+impl<'a> Equilibrium<'a> {
+    fn new(contacts: &'a Contacts, state: State) -> Self {
+        let (sin, cos) = libm::sincos(contacts.ring.angle + state.turned);
+        let floor_force = Leg::Wall.floor_force(state.load, contacts.epsilon, &contacts.ring);
+        Self {
+            contacts,
+            state,
+            direction: [sin, cos],
+            distance: 2.0 - state.pair_overlap,
+            floor_overlap: contacts.wall.overlap(floor_force),
+        }
+    }
+
+    /// The same stack elsewhere, with other springs.
+    fn moved(&self, place: &Place, springs: &Springs) -> Self {
+        let [sin, cos] = self.direction;
+        let along = self.distance * sin + place[1];
+        let up = self.distance * cos + place[0] - place[2];
+        let distance = libm::hypot(along, up);
+        let state = State {
+            pair_overlap: 2.0 - distance,
+            pair_shear: self.state.pair_shear + springs[0],
+            pair_lift: self.state.pair_lift + springs[1],
+            floor_shear: self.state.floor_shear + springs[2],
+            ..self.state
+        };
+        Self {
+            contacts: self.contacts,
+            state,
+            direction: [along / distance, up / distance],
+            distance,
+            floor_overlap: self.floor_overlap - place[2],
+        }
+    }
+
+    /// ρ̇ of a velocity.
+    fn opening(&self) -> RowVector4<f64> {
+        let [sin, cos] = self.direction;
+        RowVector4::new(cos, sin, -cos, 0.0)
+    }
+
+    /// ψ̇ of a velocity.
+    fn turning(&self) -> RowVector4<f64> {
+        let [sin, cos] = self.direction;
+        RowVector4::new(-sin, cos, sin, 0.0) / self.distance
+    }
+
+    /// The sliding speed of pair and floor of a velocity (docs/theory.md, Eq. 15).
+    fn sliding(&self) -> [RowVector4<f64>; 2] {
+        let arms = &self.contacts.arms;
+        let pair = 1.0 + arms.pair.kinematic * self.state.pair_overlap;
+        let floor = 1.0 + arms.floor.kinematic * self.floor_overlap;
+        [
+            self.turning() * self.distance + RowVector4::new(0.0, 0.0, 0.0, -pair),
+            RowVector4::new(0.0, 1.0, 0.0, floor),
+        ]
+    }
+
+    /// The overlap rates of pair and floor of a velocity.
+    fn closing(&self) -> [RowVector4<f64>; 2] {
+        [-self.opening(), RowVector4::new(0.0, 0.0, -1.0, 0.0)]
+    }
+
+    /// Rates of the springs of a velocity (docs/theory.md, Eqs. 39, 81 and 109).
+    fn spring_rates(&self) -> Matrix3x4<f64> {
+        let contacts = self.contacts;
+        let [upper, lower] = self.steepening();
+        let [pair_sliding, floor_sliding] = self.sliding();
+        let [pair_closing, floor_closing] = self.closing();
+        let (b, p, e) = (
+            self.state.pair_shear,
+            self.state.pair_lift,
+            self.state.floor_shear,
+        );
+        let turning = self.turning() * contacts.left_behind;
+        let pair = contacts.law.at(self.state.pair_overlap);
+        let floor = contacts.wall.at(self.floor_overlap);
+        Matrix3x4::from_rows(&[
+            pair_sliding * pair.tangential_stiffness + turning * p + pair_closing * (b * upper),
+            turning * -b + pair_closing * (p * upper),
+            floor_sliding * floor.tangential_stiffness + floor_closing * (e * lower),
+        ])
+    }
+
+    /// Relative growth of the forces of both springs with the overlaps.
+    fn steepening(&self) -> [f64; 2] {
+        let contacts = self.contacts;
+        match contacts.law.history.keeps_force() {
+            true => [0.0; 2],
+            false => [
+                contacts.law.tangential_steepening(self.state.pair_overlap),
+                contacts.wall.tangential_steepening(self.floor_overlap),
+            ],
+        }
+    }
+
+    /// How the forces on the coordinates answer, the wall's left out. On a floor that slides, |t| = μ n in place of the
+    /// spring and its damper.
+    fn response(&self, sliding_friction: Option<f64>) -> Response {
+        let contacts = self.contacts;
+        let bodies = contacts.ring.bodies;
+        let [sin, cos] = self.direction;
+        let arms = &contacts.arms;
+        let (upper, lower) = (
+            1.0 + arms.pair.torque * self.state.pair_overlap,
+            1.0 + arms.floor.torque * self.floor_overlap,
+        );
+        let (b, e) = (self.state.pair_shear, self.state.floor_shear);
+        let pressing = contacts.law.force(self.state.pair_overlap) + self.state.pair_lift;
+        let turning = self.turning();
+        let [pair_closing, floor_closing] = self.closing();
+        // Forces of the contacts: along the normal of the pair, along its tangent, of the floor upwards and inwards.
+        let assembled = |along: RowVector4<f64>,
+                         across: RowVector4<f64>,
+                         up: RowVector4<f64>,
+                         inwards: RowVector4<f64>| {
+            Matrix4::from_rows(&[
+                (along * cos + across * sin) * bodies,
+                along * sin - across * cos - inwards,
+                up - along * cos - across * sin,
+                across * upper - inwards * lower,
+            ])
+        };
+        let none = RowVector4::zeros();
+        let friction = sliding_friction.unwrap_or(0.0);
+        let up = floor_closing * contacts.wall.stiffness(self.floor_overlap);
+        let pressed = pair_closing * contacts.law.stiffness(self.state.pair_overlap);
+        let mut place = assembled(pressed, none, up, up * friction);
+        // What turns with the pair, and what the arms change.
+        let turned = Matrix4::from_rows(&[
+            turning * (bodies * (b * cos - pressing * sin)),
+            turning * (pressing * cos + b * sin),
+            turning * (pressing * sin - b * cos),
+            pair_closing * (b * arms.pair.torque) - floor_closing * (e * arms.floor.torque),
+        ]);
+        place += turned;
+        let held = f64::from(u8::from(sliding_friction.is_none()));
+        let springs = Matrix4x3::new(
+            bodies * sin,
+            bodies * cos,
+            0.0,
+            -cos,
+            sin,
+            -held,
+            -sin,
+            -cos,
+            0.0,
+            upper,
+            0.0,
+            -lower * held,
+        );
+        let [pair_sliding, floor_sliding] = self.sliding();
+        let pair = contacts.law.at(self.state.pair_overlap);
+        let floor = contacts.wall.at(self.floor_overlap);
+        let up = floor_closing * floor.damping_normal;
+        let velocity = assembled(
+            pair_closing * pair.damping_normal,
+            pair_sliding * pair.damping_tangential,
+            up,
+            floor_sliding * (floor.damping_tangential * held) + up * friction,
+        );
+        Response {
+            place,
+            springs,
+            velocity,
+        }
+    }
+
+    /// The motion along the path, per wall travel.
+    fn rates(&self) -> Rates {
+        let contacts = self.contacts;
+        let slope = contacts.derivative(&self.state, Leg::Wall, false);
+        let [sin, cos] = self.direction;
+        let floor_stiffness = contacts.wall.stiffness(self.floor_overlap);
+        let sinking = Leg::Wall.floor_force_slope(&contacts.ring) * slope.load / floor_stiffness;
+        let lower = -sinking;
+        let upper = lower - slope.pair_overlap * cos - self.distance * sin;
+        let place = Place::new(
+            upper,
+            self.distance * cos - slope.pair_overlap * sin,
+            lower,
+            slope.rotation,
+        );
+        let springs = Springs::new(slope.pair_shear, slope.pair_lift, slope.floor_shear);
+        // The wall travels by the growth of its overlap, L′/k, and by what cylinder 1 sinks.
+        let stiffness = self.wall_stiffness();
+        let travel = slope.load - stiffness * upper;
+        Rates {
+            place: place * (stiffness / travel),
+            springs: springs * (stiffness / travel),
+            wall_overlap: slope.load / travel,
+        }
+    }
+
+    fn wall_overlap(&self) -> f64 {
+        let force = self.state.load - self.contacts.epsilon;
+        self.contacts.wall.overlap(force.max(0.0))
+    }
+
+    fn wall_stiffness(&self) -> f64 {
+        self.contacts.wall.stiffness(self.wall_overlap())
+    }
+
+    fn wall_damping(&self) -> f64 {
+        self.contacts.wall.at(self.wall_overlap()).damping_normal
+    }
+
+    /// The lag of place and springs behind the path at the wall speed 1, `kept` being what the springs keep of the way.
+    fn lag(&self, rates: &Rates, kept: &Springs) -> (Place, Springs) {
+        let response = self.response(None);
+        let mut stiffness = response.place + response.springs * self.spring_rates();
+        stiffness[(0, 0)] -= self.wall_stiffness();
+        let mut force = response.springs * kept + response.velocity * rates.place;
+        force[0] -= self.wall_damping() * rates.wall_overlap;
+        let place = stiffness
+            .lu()
+            .solve(&-force)
+            .unwrap_or(Place::repeat(f64::NAN));
+        (place, kept + self.spring_rates() * place)
+    }
+
+    /// What springs keep of the way, per wall travel: the way there and the way back are not the same.
+    fn kept_rate(&self, rates: &Rates, kept: &Springs) -> Springs {
+        let (place, springs) = self.lag(rates, kept);
+        self.change_of_rates(&place, &springs) * rates.place
+            - self.change_of_rates(&rates.place, &rates.springs) * place
+    }
+
+    /// The change of [`Equilibrium::spring_rates`] with a change of place and springs.
+    fn change_of_rates(&self, place: &Place, springs: &Springs) -> Matrix3x4<f64> {
+        let size = place.amax();
+        if size == 0.0 {
+            return Matrix3x4::zeros();
+        }
+        let step = DIFFERENCE * self.state.pair_overlap.min(self.floor_overlap) / size;
+        let at = |step: f64| {
+            self.moved(&(place * step), &(springs * step))
+                .spring_rates()
+        };
+        (at(step) - at(-step)) / (2.0 * step)
+    }
+}
+
+/// The path under the wall together with what springs keep of the lag.
+struct LaggingLeg<'a>(&'a Contacts);
+
+impl ODE<f64, [f64; NUMBERS]> for LaggingLeg<'_> {
+    fn diff(&self, _parameter: f64, numbers: &[f64; NUMBERS], slope: &mut [f64; NUMBERS]) {
+        let state = State::from_array(*numbers);
+        let [.., b, p, e] = *numbers;
+        let equilibrium = Equilibrium::new(self.0, state);
+        let along = self.0.derivative(&state, Leg::Wall, false);
+        let rates = equilibrium.rates();
+        let kept = equilibrium.kept_rate(&rates, &Springs::new(b, p, e));
+        // The parameter is the logarithm of the angle turned, the wall travels by its angle over the rate of it.
+        let turn_per_travel = (equilibrium.turning() * rates.place)[0];
+        *slope = along.to_array::<NUMBERS>();
+        for (slope, kept) in slope[NUMBERS - 3..].iter_mut().zip(&kept) {
+            *slope = kept / turn_per_travel;
+        }
+        *slope = slope.map(|component| component * state.turned);
+    }
+}
+
+impl FollowedPath {
+    /// What a finite speed adds where the floor of `stack`, which is on the path, slips with c = 0; `None` where springs are
+    /// rescaled, or where the sliding stack does not give way.
+    pub(in crate::theory) fn speed_excess(
+        &self,
+        stack: &Stack,
+        convention: &ContactConvention,
+    ) -> Option<SpeedExcess> {
+        if convention.law.history.is_rescaled() {
+            return None;
+        }
+        let slip = locate(self, Event::FloorSlip, stack).filter(|&slip| slip > self.settled)?;
+        let mut numbers = self.state(self.settled).to_array::<NUMBERS>();
+        numbers[NUMBERS - 3..].fill(0.0);
+        let method = ExplicitRungeKutta::dop853()
+            .rtol(RELATIVE_TOLERANCE * 1e3)
+            .atol(RELATIVE_TOLERANCE * self.contacts.epsilon);
+        let solution = IVP::ode(&LaggingLeg(&self.contacts), self.settled, slip, numbers)
+            .method(method)
+            .solve()
+            .ok()?;
+        let numbers = *solution.y.last()?;
+        let [.., b, p, e] = numbers;
+        let onset = Onset {
+            equilibrium: Equilibrium::new(&self.contacts, self.state(slip)),
+            kept: Springs::new(b, p, e),
+        };
+        onset.excess(stack, convention)
+    }
+}
+
+/// The state in which the floor slips at rest, and what springs have kept of the lag by then.
+struct Onset<'a> {
+    equilibrium: Equilibrium<'a>,
+    kept: Springs,
+}
+
+impl Onset<'_> {
+    fn excess(&self, stack: &Stack, convention: &ContactConvention) -> Option<SpeedExcess> {
+        let equilibrium = &self.equilibrium;
+        let friction = stack.floor_friction;
+        let rates = equilibrium.rates();
+        let (place, springs) = equilibrium.lag(&rates, &self.kept);
+        // e − μ d along the path, and what the lag adds to it.
+        let [_, floor_closing] = equilibrium.closing();
+        let [_, floor_sliding] = equilibrium.sliding();
+        let floor = equilibrium.contacts.wall.at(equilibrium.floor_overlap);
+        let stiffness = equilibrium
+            .contacts
+            .wall
+            .stiffness(equilibrium.floor_overlap);
+        let pressing = |place: &Place| (floor_closing * place)[0] * stiffness;
+        let damping = match convention.coulomb_operand {
+            CoulombOperand::SpringAndDamping => {
+                (floor_sliding * rates.place)[0] * floor.damping_tangential
+            }
+            CoulombOperand::Spring => 0.0,
+        };
+        let damped = damping - friction * (floor_closing * rates.place)[0] * floor.damping_normal;
+        let growth = rates.springs[2] - friction * pressing(&rates.place);
+        let late = -(springs[2] - friction * pressing(&place) + damped) / growth;
+        let start = place + rates.place * late;
+        let springs = springs + rates.springs * late;
+        let pair_rates = equilibrium.spring_rates();
+        let mut kept = springs - pair_rates * start;
+        kept[2] = 0.0;
+
+        let mut motion = self.sliding_motion(stack, convention, &kept);
+        motion.state.fixed_rows_mut::<4>(0).copy_from(&start);
+        motion.state.fixed_rows_mut::<4>(4).copy_from(&rates.place);
+        motion.state[8] = late;
+        motion.state[9] = 1.0;
+        let onset = motion.force(&motion.state);
+        let peak = motion.largest_force(LOOK * stack.time_scale(convention))?;
+        Some(SpeedExcess {
+            onset: onset * stack.stiffness,
+            peak: peak * stack.stiffness,
+        })
+    }
+
+    /// The linear motion of the stack on a sliding floor under a wall that moves with the speed 1, its pair sticking.
+    fn sliding_motion(
+        &self,
+        stack: &Stack,
+        convention: &ContactConvention,
+        kept: &Springs,
+    ) -> SlidingMotion {
+        let equilibrium = &self.equilibrium;
+        let response = equilibrium.response(Some(stack.floor_friction));
+        let place = response.place + response.springs * equilibrium.spring_rates();
+        let (stiffness, damping) = (equilibrium.wall_stiffness(), equilibrium.wall_damping());
+        let mut wall = SMatrix::<f64, 1, SLIDING>::zeros();
+        (wall[0], wall[4], wall[8], wall[9]) = (stiffness, damping, stiffness, damping);
+        let mut forces = SMatrix::<f64, 4, SLIDING>::zeros();
+        forces.fixed_columns_mut::<4>(0).copy_from(&place);
+        forces
+            .fixed_columns_mut::<4>(4)
+            .copy_from(&response.velocity);
+        forces.column_mut(9).copy_from(&(response.springs * kept));
+        let upper = forces.row(0) - wall;
+        forces.row_mut(0).copy_from(&upper);
+        let turning = forces.row(3) / convention.moment_of_inertia;
+        forces.row_mut(3).copy_from(&turning);
+        let mut rates = SMatrix::<f64, SLIDING, SLIDING>::zeros();
+        rates.fixed_view_mut::<4, 4>(0, 4).fill_diagonal(1.0);
+        rates.fixed_rows_mut::<4>(4).copy_from(&forces);
+        rates[(8, 9)] = 1.0;
+        SlidingMotion {
+            rates,
+            wall,
+            state: SVector::zeros(),
+        }
+    }
+}
+
+/// A linear motion from a state on, and the wall force that it has beyond that of the equilibrium.
+struct SlidingMotion {
+    rates: SMatrix<f64, SLIDING, SLIDING>,
+    wall: SMatrix<f64, 1, SLIDING>,
+    state: SVector<f64, SLIDING>,
+}
+
+impl SlidingMotion {
+    fn force(&self, state: &SVector<f64, SLIDING>) -> f64 {
+        (self.wall * state)[0]
+    }
+
+    /// The largest wall force until what was gained is lost again.
+    fn largest_force(&self, time_step: f64) -> Option<f64> {
+        let step = (self.rates * time_step).exp();
+        let start = self.force(&self.state);
+        let mut state = self.state;
+        let (mut before, mut largest) = (self.state, start);
+        let mut has_risen = false;
+        for _ in 0..LOOKS {
+            let next = step * state;
+            let force = self.force(&next);
+            if force > largest {
+                (before, largest, has_risen) = (state, force, true);
+            }
+            if has_risen && force < start {
+                return Some(self.summit(&before, 2.0 * time_step));
+            }
+            state = next;
+        }
+        None
+    }
+
+    /// The largest force within a time after `state` in which it has one maximum.
+    fn summit(&self, state: &SVector<f64, SLIDING>, time: f64) -> f64 {
+        let after = |time: f64| (self.rates * time).exp() * state;
+        let slope = |time: f64| self.force(&(self.rates * after(time)));
+        let summit = bracketed_root(slope, 0.0, time).unwrap_or(0.5 * time);
+        self.force(&after(summit))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::model::{ContactConvention, CoulombOperand, Law, Stack, TangentialHistory};
+    use crate::theory::{LimitCurve, SpeedExcess};
+
+    fn excess(stack: &Stack, convention: &ContactConvention) -> SpeedExcess {
+        let curve = LimitCurve::new(stack, convention);
+        curve.speed_excess(stack, &curve.limit(stack)).unwrap()
+    }
+
+    /// δF = 1.3550 v and 12.32 v by the integral of (59) and by (60), which hold for springs that turn and arms 0
+    /// (docs/theory.md, section 8.1).
+    #[test]
+    fn the_onset_is_late_by_what_springs_lag_behind() {
+        for (friction, expected, digit) in [(0.2, 1.3550, 5e-5), (0.3, 12.32, 5e-3)] {
+            let found = excess(&Stack::paper(friction, 1e2), &ContactConvention::TURNING);
+            assert!((found.onset - expected).abs() < digit, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_spring_that_counts_alone_slips_at_another_time() {
+        let stack = Stack::paper(0.3, 1e2);
+        let alone = ContactConvention {
+            coulomb_operand: CoulombOperand::Spring,
+            ..ContactConvention::TURNING
+        };
+        let (with_damping, alone) = (
+            excess(&stack, &ContactConvention::TURNING),
+            excess(&stack, &alone),
+        );
+        // Its damper pushes too while the floor still sticks.
+        assert!(
+            alone.onset > with_damping.onset,
+            "{alone:?} {with_damping:?}"
+        );
+    }
+
+    #[test]
+    fn nothing_is_added_where_theory_knows_no_way() {
+        let paper = ContactConvention::PAPER;
+        let none = |stack: &Stack, convention: &ContactConvention| {
+            let curve = LimitCurve::new(stack, convention);
+            let limit = curve.limit(stack);
+            assert!(curve.speed_excess(stack, &limit).is_none());
+            limit
+        };
+        // The cylinders slip first.
+        let rough = Stack {
+            cylinder_friction: 0.2,
+            ..Stack::paper(0.3, 1e2)
+        };
+        assert_eq!(none(&rough, &paper).yield_force, None);
+        // Contact 2-3 is closed at the onset.
+        let closed = Stack {
+            stiffness_ratio: 0.62,
+            ..Stack::paper(0.23, 137.0)
+        };
+        assert!(none(&closed, &paper).rises_after_onset());
+        let rescaled = ContactConvention {
+            law: Law {
+                history: TangentialHistory::DisplacementRescaled,
+                ..Law::HERTZ
+            },
+            ..ContactConvention::TURNING
+        };
+        assert!(
+            none(&Stack::paper(0.2, 1e2), &rescaled)
+                .yield_force
+                .is_some()
+        );
+    }
+}

@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
         };
         self.grounds.add(Ground::Remark(format!(
             "at the paper's wall speed and time step the peak is {excess:+.1e} of the limit away from it, \
-             {expected}; with the wall twice as fast {:.1e} more than expected",
+             {expected}; with the wall twice as fast it changes by {:.1e} of the limit beside that",
             left / reference
         )));
     }

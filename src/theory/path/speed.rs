@@ -53,8 +53,12 @@ struct Equilibrium<'a> {
     floor_overlap: f64,
 }
 
-/// The motion of an equilibrium per wall travel.
+/// The motion of an equilibrium along the path.
 struct Rates {
+    /// Per turn of the pair, as the path has them.
+    place_per_turn: Place,
+    springs_per_turn: Springs,
+    /// Per wall travel: at the wall speed 1 these are velocities.
     place: Place,
     springs: Springs,
     /// Of the overlap of the wall with cylinder 1.
@@ -214,7 +218,7 @@ impl<'a> Equilibrium<'a> {
         }
     }
 
-    /// The motion along the path, per wall travel.
+    /// The motion along the path.
     fn rates(&self) -> Rates {
         let contacts = self.contacts;
         let slope = contacts.derivative(&self.state, Leg::Wall, false);
@@ -234,6 +238,8 @@ impl<'a> Equilibrium<'a> {
         let stiffness = self.wall_stiffness();
         let travel = slope.load - stiffness * upper;
         Rates {
+            place_per_turn: place,
+            springs_per_turn: springs,
             place: place * (stiffness / travel),
             springs: springs * (stiffness / travel),
             wall_overlap: slope.load / travel,
@@ -267,11 +273,12 @@ impl<'a> Equilibrium<'a> {
         (place, kept + self.spring_rates() * place)
     }
 
-    /// What springs keep of the way, per wall travel: the way there and the way back are not the same.
-    fn kept_rate(&self, rates: &Rates, kept: &Springs) -> Springs {
-        let (place, springs) = self.lag(rates, kept);
-        self.change_of_rates(&place, &springs) * rates.place
-            - self.change_of_rates(&rates.place, &rates.springs) * place
+    /// What springs keep of the way, per turn of the pair: the way there and the way back are not the same.
+    fn kept_rate(&self, kept: &Springs) -> Springs {
+        let rates = self.rates();
+        let (place, springs) = self.lag(&rates, kept);
+        self.change_of_rates(&place, &springs) * rates.place_per_turn
+            - self.change_of_rates(&rates.place_per_turn, &rates.springs_per_turn) * place
     }
 
     /// The change of [`Equilibrium::spring_rates`] with a change of place and springs.
@@ -339,14 +346,10 @@ impl ODE<f64, [f64; NUMBERS]> for LaggingLeg<'_> {
         let [.., b, p, e] = *numbers;
         let equilibrium = Equilibrium::new(self.0, state);
         let along = self.0.derivative(&state, Leg::Wall, false);
-        let rates = equilibrium.rates();
-        let kept = equilibrium.kept_rate(&rates, &Springs::new(b, p, e));
-        // The parameter is the logarithm of the angle turned, the wall travels by its angle over the rate of it.
-        let turn_per_travel = (equilibrium.turning() * rates.place)[0];
+        let kept = equilibrium.kept_rate(&Springs::new(b, p, e));
+        // The parameter is the logarithm of the angle turned.
         *slope = along.to_array::<NUMBERS>();
-        for (slope, kept) in slope[NUMBERS - 3..].iter_mut().zip(&kept) {
-            *slope = kept / turn_per_travel;
-        }
+        slope[NUMBERS - 3..].copy_from_slice(kept.as_slice());
         *slope = slope.map(|component| component * state.turned);
     }
 }
@@ -547,6 +550,21 @@ mod tests {
         // The damper holds the floor beyond the limit until the spring has reached it.
         assert_eq!(alone.onset, with_damping.onset);
         assert!(alone.peak > with_damping.peak, "{alone:?} {with_damping:?}");
+    }
+
+    /// A law whose contacts have no stiffness when they just touch.
+    #[test]
+    fn the_wall_that_just_touches_a_soft_contact_stands_still() {
+        let hertz = ContactConvention {
+            law: Law::HERTZ,
+            ..ContactConvention::PAPER
+        };
+        let stack = Stack {
+            stiffness_ratio: 4.3,
+            ..Stack::paper(0.31, 137.0)
+        };
+        let found = excess(&stack, &hertz);
+        assert!(found.onset > 0.0 && found.peak > found.onset, "{found:?}");
     }
 
     /// Softest to stiffest, where differences of forces would be lost in rounding.

@@ -623,11 +623,8 @@ mod tests {
             memory.length
         };
         let is_near = |found: [f64; 3], expected: [f64; 3]| {
-            let differences = found.iter().zip(expected);
-            differences
-                .map(|(one, other)| (one - other).abs())
-                .sum::<f64>()
-                < 1e-15
+            let mut pairs = found.iter().zip(expected);
+            pairs.all(|(one, other)| (one - other).abs() < 1e-15)
         };
         let kept = [0.5, 0.0, 0.0];
         for (update, pair) in [

@@ -83,7 +83,7 @@ fn refused(bench: &Bench, line: &str, expected: &[&str]) {
 }
 
 #[test]
-fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
+fn five_series_agree_and_three_leave_parts_of_the_budget_open() {
     let (bench, speeds) = bench_with(ContactConvention::TURNING);
     let (status, tables, message) = judged(&bench, &format!("{THREE} {speeds} {STACK} {FURTHER}"));
     assert_eq!(status, Some(0), "{message}");
@@ -106,25 +106,50 @@ fn five_series_agree_and_three_leave_parts_of_the_budget_unknown() {
     );
     let row = &tables[0][0];
     assert_eq!(row["verdict"], "inconclusive");
-    assert_eq!(row["not_known"], "time_step, preparation");
     assert_eq!(row["error"].as_f64(), Some(error));
-    assert!(
-        message.contains("twice the time step (--coarse-step)"),
-        "{message}"
-    );
+    // Of the time step only a bound is known, which is too large.
+    assert_eq!(row["not_known"], "");
+    for words in [
+        "the part of the time step in the uncertainty is at most ",
+        "twice the time step (--coarse-step)",
+    ] {
+        assert!(message.contains(words), "{message}");
+    }
+    assert!(!message.contains("--short-ramp"), "{message}");
+    let how = |tables: &[Vec<Value>], part: &str| {
+        let row = tables[2].iter().find(|row| row["part"] == part);
+        row.expect(part)["how"].as_str().expect(part).to_owned()
+    };
+    for part in ["time_step", "preparation"] {
+        assert!(how(&tables, part).starts_with("at most: "));
+    }
+
+    let line = format!("{THREE} {speeds} {STACK} --short-ramp short.csv");
+    let (_, tables, _) = judged(&bench, &line);
+    assert!(how(&tables, "time_step").starts_with("at most: "));
+    assert!(how(&tables, "preparation").contains("ramp halved"));
+}
+
+/// Where the wall presses in the first row, nobody knows how the stack began.
+#[test]
+fn a_series_that_does_not_show_the_state_at_rest_leaves_the_preparation_unknown() {
+    let (bench, speeds) = bench_with(ContactConvention::TURNING);
+    let text = fs::read_to_string(bench.path("v1.csv")).expect("a series");
+    let presses = |line: &str| {
+        let force = line.split(',').nth(2).and_then(|force| force.parse().ok());
+        force.is_none_or(|force: f64| force > 0.0)
+    };
+    let pressed: Vec<&str> = text.lines().filter(|line| presses(line)).collect();
+    assert!(pressed.len() < text.lines().count());
+    fs::write(bench.path("v1.csv"), pressed.join("\n") + "\n").expect("a file");
+    let line = format!("{THREE} {speeds} {STACK} --coarse-step coarse.csv");
+    let (status, tables, message) = judged(&bench, &line);
+    assert_eq!(status, Some(4), "{message}");
+    assert_eq!(tables[0][0]["not_known"], "preparation");
     assert!(
         message.contains("half the gravity ramp (--short-ramp)"),
         "{message}"
     );
-    let unknown = tables[2].iter().filter(|part| part["value"].is_null());
-    let unknown: Vec<&Value> = unknown.map(|part| &part["part"]).collect();
-    assert!(unknown.contains(&&"time_step".into()) && unknown.contains(&&"preparation".into()));
-
-    let (_, tables, _) = judged(
-        &bench,
-        &format!("{THREE} {speeds} {STACK} --short-ramp short.csv"),
-    );
-    assert_eq!(tables[0][0]["not_known"], "time_step");
 }
 
 /// The same number as a crosscheck gives, which knows the speeds from its plan.
@@ -300,6 +325,12 @@ fn what_is_wrong_with_files_and_options_is_said() {
     for (line, expected) in cases {
         refused(&bench, &line, expected);
     }
+    let slowest = speeds.rsplit(',').next().expect("a speed");
+    refused(
+        &bench,
+        &format!("judge --series v1.csv --speeds {slowest} {STACK} --kappa 1"),
+        &["`--series` is 1", "three or more files", "is not known"],
+    );
     for (line, expected) in [
         ("judge away --mu 0.3", "cannot be used with"),
         ("judge away --kappa 2", "cannot be used with"),
@@ -524,4 +555,47 @@ fn a_passport_that_does_not_say_the_arms_is_refused() {
     );
     let both = format!("{line} --passport passports/yade.json --pair-arm -0.5");
     refused(&bench, &both, &["--passport", "--pair-arm"]);
+}
+
+/// A single series is judged by what theory expects its wall speed to add: as it is, with another force, and on a floor of
+/// another friction.
+#[test]
+fn one_series_agrees_and_one_that_is_off_differs() {
+    for (convention, spring) in [
+        (ContactConvention::PAPER, "fixed"),
+        (ContactConvention::TURNING, "rotated"),
+    ] {
+        let bench = Bench::without_codes();
+        let mut case = measurement(convention).cases[2];
+        case.protocol.time_step = 0.02;
+        put(&bench, "one.csv", &case);
+        let mut slippery = case;
+        slippery.stack.floor_friction *= 0.999;
+        put(&bench, "slippery.csv", &slippery);
+        put(&bench, "off.csv", &case);
+        change(&bench, "off.csv", |fields| {
+            let mut fields: Vec<String> = fields.iter().map(|field| (*field).to_owned()).collect();
+            // Of the wall, and those of the floor.
+            for column in [2, 12, 13, 14, 15] {
+                let force = &mut fields[column];
+                *force = (1.0001 * force.parse::<f64>().expect("a number")).to_string();
+            }
+            fields
+        });
+        let speed = case.protocol.wall_speed;
+        let line = |name: &str| {
+            format!("judge --series {name} --speeds {speed} {STACK} --history-update {spring}")
+        };
+        let (status, tables, message) = judged(&bench, &line("one.csv"));
+        assert_eq!(status, Some(0), "{message}");
+        let row = &tables[0][0];
+        let number = |name: &str| row[name].as_f64().expect("a number");
+        assert!(number("error").abs() < number("tolerance"));
+        assert!(number("tolerance") < 1e-5, "{}", number("tolerance"));
+        assert_eq!(tables[1].len(), 1);
+        for name in ["slippery.csv", "off.csv"] {
+            let (status, _, message) = judged(&bench, &line(name));
+            assert_eq!(status, Some(2), "{name}: {message}");
+        }
+    }
 }

@@ -46,8 +46,9 @@ pub(super) struct Arguments {
     /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv, with other laws laws.md and laws.svg as well
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "profile", "mu", "stiffness", "only_failures", "summary", "junit"])]
+    /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows; measured in the way of
+    /// --profile
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "mu", "stiffness", "only_failures", "summary", "junit"])]
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
@@ -67,7 +68,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     if let Some(row) = &arguments.explain {
         return explain(
             row,
-            &arguments.stacks.others,
+            &arguments.stacks,
             arguments.law,
             arguments.shortcuts,
             &arguments.run,

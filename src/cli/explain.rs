@@ -2,16 +2,15 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::settle;
-use super::options::{
-    Format, Friction, RunOptions, StackOptions, Stiffness, as_flag, find_all, single,
-};
+use super::options::{Format, Friction, RunOptions, Stiffness, as_flag, find_all, single};
 use super::progress::Reporter;
+use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::model::{Power, Stack};
 use crate::output::{explained, explanation, wrapped_to_screen};
 use crate::study::Campaign;
-use crate::study::yield_force::{measure_with_twin, plan};
+use crate::study::yield_force::measure_with_twin;
 
 /// One row of a crosscheck.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,10 +44,10 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     })
 }
 
-/// Measures one row, of a stack with the parameters of `others`, and prints every step from its runs to its verdict.
+/// Measures one row in the way of the profile of `stacks` and with their other parameters, and prints every step from its runs to its verdict.
 pub(super) fn explain(
     row: &RowName,
-    others: &StackOptions,
+    stacks: &StackSet,
     power: Power,
     shortcuts: bool,
     options: &RunOptions,
@@ -58,16 +57,12 @@ pub(super) fn explain(
         true => power,
         false => row.code.convention().law.power,
     };
-    let stack = others.stack(row.mu, row.stiffness, power)?;
+    let stack = stacks.others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
     let codes = find_all(&[row.code]);
     settle(&codes, options)?;
-    let measurement = plan(
-        row.code,
-        &stack,
-        row.code.stack_convention(power, stack.bodies),
-    );
+    let measurement = stacks.profile().measurement(row.code, &stack, power);
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

@@ -10,7 +10,9 @@ use crate::model::{ContactLaw, InvalidValue, Stack, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text, junit};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
-use crate::study::yield_force::{JudgedSeries, SPEEDS, SeriesInput, judge_series, no_yield};
+use crate::study::yield_force::{
+    JudgedSeries, Method, SeriesInput, compared_run, judge_series, no_yield,
+};
 use crate::theory::quasistatic_limit;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -23,13 +25,14 @@ const ROUNDING: f64 = 1e-9;
 /// The options of series that nobody has planned.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SeriesArguments {
-    /// Three or more series of one stack at different wall speeds (CSV, docs/formats.md), instead of a plan
-    #[arg(long, value_name = "FILE", num_args = 3.., requires_all = ["speeds", "mu", "stiffness"], conflicts_with_all = ["only_failures", "summary"])]
+    /// Series of one stack (CSV, docs/formats.md) instead of a plan: three or more at different wall speeds, which are
+    /// extrapolated, or one, of whose speed theory knows what it adds
+    #[arg(long, value_name = "FILE", num_args = 1.., requires_all = ["speeds", "mu", "stiffness"], conflicts_with_all = ["only_failures", "summary"])]
     pub series: Vec<PathBuf>,
     /// Their wall speeds in r sqrt(k_n/m), in the order of the files, separated by commas
     #[arg(
         long,
-        value_name = "V1,V2,V3",
+        value_name = "V1,V2,...",
         value_delimiter = ',',
         requires = "series",
         value_parser = positive
@@ -51,7 +54,7 @@ pub(super) struct SeriesArguments {
         value_parser = positive
     )]
     dt: Option<f64>,
-    /// The series of a run at the middle one of the three slowest speeds with twice the time step
+    /// The series of a run with twice the time step, at the middle one of the three slowest speeds or at the only one
     #[arg(long, value_name = "FILE", requires = "series")]
     coarse_step: Option<PathBuf>,
     /// The series of a run at that speed with half the gravity ramp
@@ -88,10 +91,11 @@ pub(super) fn run(
     }
     let faster: Vec<&str> = judged.faster.iter().map(|run| run.name.as_str()).collect();
     if !faster.is_empty() {
-        tell!(
-            "the three slowest are extrapolated; {} are read alone",
-            faster.join(", ")
-        );
+        let read = match judged.measurement.method {
+            Method::AtOneSpeed => "the slowest is judged",
+            _ => "the three slowest are extrapolated",
+        };
+        tell!("{read}; {} are read alone", faster.join(", "));
     }
     let convention = judged.measurement.convention;
     let arms = convention.arms;
@@ -132,7 +136,7 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     let wall = convention.wall_law(stack.stiffness_ratio);
     let mut series = at_speeds(arguments, (&stack, &wall))?;
     series.sort_by(|one, other| other.wall_speed.total_cmp(&one.wall_speed));
-    let middle = &series[series.len() - SPEEDS.len() + 1];
+    let compared = &series[compared_run(series.len())];
     let [coarse, hastened] = [
         ("--coarse-step", &arguments.coarse_step, 2.0),
         ("--short-ramp", &arguments.short_ramp, 1.0),
@@ -140,10 +144,10 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     .map(|(flag, file, factor)| {
         let file = file.as_deref();
         file.map(|file| {
-            let time_step = factor * middle.time_step;
+            let time_step = factor * compared.time_step;
             read(
                 (flag, file),
-                middle.wall_speed,
+                compared.wall_speed,
                 Some(time_step),
                 (&stack, &wall),
             )
@@ -159,7 +163,14 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         coarse,
         hastened,
     );
-    judged.ok_or_else(|| Box::new(no_yield(&stack, &convention, &limit)).into())
+    judged.ok_or_else(|| unknown_speed(arguments.series.len()).into())
+}
+
+/// So few series of a stack that yields, for which theory does not know what the speed adds.
+fn unknown_speed(series: usize) -> InvalidValue {
+    let accepted = "three or more files: what the wall's speed adds is not known where cylinders 2 and 3 press on each \
+                    other at the onset, where springs are rescaled, and where the floor does not slip first";
+    InvalidValue::new("--series", series as f64, accepted)
 }
 
 /// The arms in the passport at `path`.
@@ -237,8 +248,8 @@ fn differ(one: f64, other: f64) -> bool {
 
 fn expected_because(flag: &str) -> &'static str {
     match flag {
-        "--coarse-step" => ", twice that of the series at the middle speed",
-        "--short-ramp" => ", that of the series at the middle speed",
+        "--coarse-step" => ", twice that of the series that it belongs to",
+        "--short-ramp" => ", that of the series that it belongs to",
         _ => ", that of --dt or of the first series",
     }
 }

@@ -36,7 +36,8 @@ pub(super) struct StackSet {
 }
 
 impl StackSet {
-    fn profile(&self) -> Profile {
+    /// The profile, in whose way stacks are measured.
+    pub fn profile(&self) -> Profile {
         self.profile.unwrap_or(Profile::Quick)
     }
 

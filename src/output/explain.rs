@@ -6,7 +6,7 @@ use crate::model::{Case, Preparation, exact};
 use crate::runs::RunSummary;
 use crate::series::{Estimate, Law};
 use crate::study::yield_force::{
-    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, TwinForce,
+    Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Method, TwinForce,
 };
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
@@ -19,6 +19,11 @@ pub(crate) fn explanation(
 ) -> String {
     let mut text = reference(row);
     text += &runs(row);
+    let peak = row.finding.as_ref().and_then(|found| found.peak);
+    if let Some(peak) = peak.filter(|_| row.study.method == Method::Literal) {
+        text += &less_speed(row, &peak);
+        text += &budget(row, &peak);
+    }
     if let Some(slip) = row.slip() {
         text += &extrapolation(row, slip);
         text += &budget(row, slip);
@@ -111,8 +116,18 @@ fn runs(row: &Judgement) -> String {
         })
         .rows(runs);
     format!(
-        "2. Runs: slip onset (judged) and peak of F = f/(m g), with the distance between interpolations of \
-         two\n   orders, and how much an error of the forces is amplified where the onset is read.\n{}{}\n",
+        "2. Runs: slip onset{} and peak{} of F = f/(m g), with the distance between interpolations of two\n   orders, and \
+         how much an error of the forces is amplified where the onset is read.\n{}{}\n",
+        if row.study.method == Method::Literal {
+            ""
+        } else {
+            " (judged)"
+        },
+        if row.study.method == Method::Literal {
+            " (judged)"
+        } else {
+            ""
+        },
         table.shown().terminal(),
         mechanics(row.runs())
     )
@@ -161,12 +176,42 @@ fn extrapolation(row: &Judgement, slip: &Extrapolation) -> String {
     )
 }
 
+/// The peak at the paper's wall speed, less what that adds.
+fn less_speed(row: &Judgement, found: &Extrapolation) -> String {
+    let runs = row.study.cases.iter().zip(row.runs());
+    let less = runs.map(|(case, run)| {
+        let speed = case.protocol.wall_speed;
+        let peak = run.estimates.peak?.force;
+        let added = row.study.speed_excess.map(|excess| excess.peak * speed);
+        Some((speed, peak, added))
+    });
+    let lines = less.flatten().map(|(speed, peak, added)| {
+        let expected = added.map_or("not known".to_owned(), |added| significant(added, 5));
+        let left = significant(peak - added.unwrap_or(0.0), 12);
+        format!(
+            "   v = {speed:e}: peak {}, of its speed {expected}, left {left}\n",
+            significant(peak, 12)
+        )
+    });
+    let lines: Vec<String> = lines.collect();
+    format!(
+        "3. Finite wall speed: what theory expects v to add to the peak, to first order (docs/theory.md, 8.7):\n{}   \
+         S = {}\n\n",
+        lines.concat(),
+        significant(found.force, 12)
+    )
+}
+
 fn budget(row: &Judgement, slip: &Extrapolation) -> String {
     let reference = row.judged_reference();
     let load = reference.map_or(f64::NAN, |force| row.study.stack.floor_load(force));
     let parts = Budget::PARTS.into_iter().filter_map(|part| {
         let value = (part.value)(&slip.budget)?;
-        Some((part.heading, part.how(&row.study.roles), value))
+        Some((
+            part.heading,
+            part.how(row.study.method, &row.study.roles),
+            value,
+        ))
     });
     let total = ("total", "sum, as if all conspired", slip.budget.total());
     let table = Columns::<(&str, &str, f64)>::for_people()

@@ -2,7 +2,7 @@
 
 use super::number::{digits, one_digit, optional, relative, significant, small};
 use super::table::{Columns, DataTable};
-use crate::study::yield_force::{Budget, BudgetPart, FoundSeries, JudgedSeries};
+use crate::study::yield_force::{Budget, BudgetPart, FoundSeries, JudgedSeries, Method, RunRoles};
 
 /// The verdict on the series, in one row, and what stands behind it.
 pub(crate) fn judged_series(judged: Option<&JudgedSeries>) -> [DataTable<'_>; 3] {
@@ -12,17 +12,17 @@ pub(crate) fn judged_series(judged: Option<&JudgedSeries>) -> [DataTable<'_>; 3]
 fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     Columns::<&JudgedSeries>::new(
         "judged_series",
-        "A row is the yield force of one stack at vanishing wall speed, from the series of a few runs, and the verdict \
-         on it.",
+        "A row is the yield force of one stack at vanishing wall speed, from the series of one run or a few, and the \
+         verdict on it.",
         "`tristack judge --series` (judged_series.csv)",
     )
     .stack(|row| row.measurement.stack)
     .convention(|row| row.measurement.convention)
     .number("slip_onset", "m g", |row| Some(row.finding.slip?.force))
-    .means("F at which the floor begins to slip, at vanishing wall speed")
+    .means("F at which the floor begins to slip, at vanishing wall speed: extrapolated, or less what theory expects of the speed")
     .shown_as("slip onset", digits::<9>)
     .number("peak_force", "m g", |row| Some(row.finding.peak?.force))
-    .means("the largest F, at vanishing wall speed")
+    .means("the largest F, at vanishing wall speed in the same way")
     .shown_as("peak", digits::<9>)
     .number("uncertainty", "m g", |row| Some(row.budget()?.total()))
     .means("numerical uncertainty of the force that is judged: the sum of the parts that are known")
@@ -67,7 +67,7 @@ fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .means("its file")
     .shown("file")
     .text("differs_in", |run| run.role)
-    .means("in what it differs from the one at the middle wall speed")
+    .means("in what it differs from the others")
     .shown("differs in")
     .number("wall_speed", "r √(k_n/m)", |run| {
         run.summary.case.protocol.wall_speed
@@ -105,8 +105,11 @@ fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
         let reference = limit.slip_onset.or(limit.yield_force)?;
         Some(judged.measurement.stack.floor_load(reference))
     });
-    let known = |(part, value): &(BudgetPart, Option<f64>)| match value {
-        Some(_) => part.how,
+    let (method, roles) = judged.map_or((Method::Extrapolated, RunRoles::PLANNED), |judged| {
+        (judged.measurement.method, judged.measurement.roles)
+    });
+    let known = move |(part, value): &(BudgetPart, Option<f64>)| match value {
+        Some(_) => part.how(method, &roles),
         None => part.known_by,
     };
     Columns::<(BudgetPart, Option<f64>)>::new(

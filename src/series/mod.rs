@@ -28,6 +28,7 @@ pub(crate) use header::Header;
 pub use header::{ColumnSource, ColumnSources};
 pub use mechanics::{Deviation, Law, Mechanics};
 pub use motion::{BodyRow, Motion, MotionRow, RowInSpace};
+pub(crate) use oscillator::left_of_touch;
 pub(crate) use polynomial::{value_at_zero, weights_at_zero};
 pub use pyramid_run::PyramidRun;
 pub use rebound::Rebound;

@@ -9,7 +9,7 @@
 //! by Δv adds an oscillation to it whose envelope is Δv w/ω_d e^(−η t/2), ω_d² = w − η²/4 (docs/theory.md, section 8.6).
 
 use super::differences::COORDINATE;
-use crate::model::{Case, ContactLaw, Power, PreparationSteps, Schedule};
+use crate::model::{Case, ContactConvention, ContactLaw, Power, PreparationSteps, Schedule, Stack};
 
 /// Time steps by which the wall may begin to move later, or forces be taken earlier, than a row says: a step each.
 const LATE_STEPS: f64 = 2.0;
@@ -49,9 +49,9 @@ struct Standing {
 }
 
 impl Standing {
-    /// Of a stack whose pairs have the stiffness 1 the lowest frequency obeys
+    /// Of a stack whose pairs have the stiffness k the lowest frequency obeys
     ///
-    /// 1/ω⁴ ≤ 0.95² + (1.55/w)² + (0.75/k_t)²,
+    /// 1/ω⁴ ≤ (0.95/k)² + (1.55/w)² + (0.75/k_t)²,
     ///
     /// k_t being the lowest tangential stiffness (lowest eigenvalues, computed for two to five bodies on the floor, moments of
     /// inertia from 0.4 to 1, w from 0.1 to 10, κ from 1e-3 to 1e4 and a κ of the floor from 0.1 to 10 times that). Dashpots η
@@ -59,8 +59,9 @@ impl Standing {
     fn of(laws: [&ContactLaw; 2]) -> Self {
         let [pair, wall] = laws;
         let tangential = pair.tangential_stiffness.min(wall.tangential_stiffness);
-        let sum =
-            0.95f64.powi(2) + (1.55 / wall.normal_stiffness).powi(2) + (0.75 / tangential).powi(2);
+        let sum = (0.95 / pair.normal_stiffness).powi(2)
+            + (1.55 / wall.normal_stiffness).powi(2)
+            + (0.75 / tangential).powi(2);
         let lags = laws.map(|law| {
             let normal = law.damping_normal / law.normal_stiffness;
             normal.min(law.damping_tangential / law.tangential_stiffness)
@@ -71,6 +72,31 @@ impl Standing {
             decay: 0.5 * square * lags[0].min(lags[1]),
         }
     }
+}
+
+/// How far a wall that touches `stack` at this `speed` may still move a body about its rest after this `time`, in r. The
+/// load stiffens contacts and lets motions decay faster.
+pub(crate) fn left_of_touch(
+    stack: &Stack,
+    convention: &ContactConvention,
+    speed: f64,
+    time: f64,
+) -> f64 {
+    let about_rest = |law: ContactLaw| {
+        let overlap = law.overlap(stack.epsilon() / f64::from(stack.bodies));
+        let there = law.at(overlap);
+        ContactLaw {
+            normal_stiffness: law.stiffness(overlap),
+            tangential_stiffness: there.tangential_stiffness,
+            damping_normal: there.damping_normal,
+            damping_tangential: there.damping_tangential,
+            ..law
+        }
+    };
+    let pair = about_rest(convention.law(stack.stiffness_ratio));
+    let wall = about_rest(convention.wall_law(stack.stiffness_ratio));
+    let Standing { frequency, decay } = Standing::of([&pair, &wall]);
+    speed / frequency * libm::exp(-decay * time)
 }
 
 impl Oscillator {

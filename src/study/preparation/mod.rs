@@ -12,5 +12,5 @@ mod study;
 pub use critical::{CriticalPush, critical_pushes};
 pub(crate) use plan::between_side_walls;
 pub use plan::{PreparationPlan, plan_preparation};
-pub use study::{Estimator, PreparationRow, PreparationStudy, study_preparation};
+pub use study::{PreparationRow, PreparationStudy, study_preparation};
 pub(crate) use study::{preparation_cases, preparation_studies};

@@ -6,21 +6,12 @@ use crate::code::{Code, Provenance, Unknown};
 use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
-use crate::study::yield_force::{COARSE_TIME_STEP_RUN, MIDDLE_RUN, SHORT_RAMP_RUN, peak_allowance};
+use crate::study::yield_force::{
+    COARSE_TIME_STEP_RUN, Estimator, MIDDLE_RUN, SHORT_RAMP_RUN, peak_allowance,
+};
 use crate::study::{Campaign, Evaluation, Ground, Grounds, Judged, Study};
 use crate::theory::{critical_push, pushed_slip_force, quasistatic_limit};
 use serde::Serialize;
-
-/// The quantity that a yield force is read off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Estimator {
-    /// The onset of slip at the floor, which needs least extrapolation.
-    SlipOnset,
-    /// The peak of f, the paper's definition, where a stack slips without yielding before it: one that
-    /// begins at the verge of slip.
-    Peak,
-}
 
 /// A row: the result of one preparation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -268,8 +259,10 @@ impl PreparationPlan {
     /// `None` without a peak.
     fn yield_force(&self, runs: &[RunSummary]) -> Option<(f64, f64, Estimator)> {
         let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
-        let slip = self.measurement.extrapolate(&estimates, |run| run.slip);
-        let peak = self.measurement.extrapolate(&estimates, |run| run.peak)?;
+        let slip = self
+            .measurement
+            .extrapolate(&estimates, Estimator::SlipOnset);
+        let peak = self.measurement.extrapolate(&estimates, Estimator::Peak)?;
         let allowance = peak_allowance(&self.measurement, peak.force).unwrap_or(0.0);
         let peak_uncertainty = peak.budget.total() + allowance;
         let same = slip.filter(|slip| {

@@ -1,21 +1,22 @@
 //! The parts of the numerical uncertainty of a yield force.
 
-use super::runs::RunRoles;
+use super::runs::{Method, RunRoles};
 
 /// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
-    /// Distance between the extrapolations of second and first order in the wall speed.
+    /// Distance between the extrapolations of second and first order in the wall speed; at one speed the second order of
+    /// what theory expects the speed to add, and what the touch of the wall has left.
     pub wall_speed: f64,
     /// Change of the middle run with the time step doubled: the error of the single step if it is of first
     /// order, three times that if it is of second. Springs that remember forces are summed up by their
     /// stiffness at the end of each step, which is off in proportion to the step of the wall: for them it is the
     /// change of the straight line through the two faster runs, from which that has vanished with the speed.
-    /// Absent if there is no such run.
+    /// A bound, or absent, if there is no such run.
     pub time_step: Option<f64>,
     /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
     /// state by an amount inversely proportional to its duration, so that this is the shift itself.
-    /// Absent if there is no such run.
+    /// A bound, or absent, if there is no such run.
     pub preparation: Option<f64>,
     /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
@@ -60,25 +61,55 @@ impl BudgetPart {
         }
     }
 
-    /// Its formula, in words, where the runs play these `roles`.
-    pub(crate) fn how(&self, roles: &RunRoles) -> &'static str {
-        match roles.coarse_and_fast {
-            Some(_) if self.name == TIME_STEP => {
+    /// Its formula, in words, where the force is read off by this `method` and the runs play these `roles`.
+    pub(crate) fn how(&self, method: Method, roles: &RunRoles) -> &'static str {
+        match (self.name, method) {
+            (WALL_SPEED, Method::AtOneSpeed) => {
+                "what is left of the touch, and the second order of what theory expects of the speed"
+            }
+            (WALL_SPEED, Method::Literal) => {
+                "change with the wall twice as fast, less what theory expects of it"
+            }
+            (ROUND_OFF, Method::Literal) => "rounding of each step of the wall",
+            (TIME_STEP, _) if roles.coarse_and_fast.is_some() => {
                 "line through runs 6 and 4 minus line through 1 and 2 (time step doubled)"
             }
+            (TIME_STEP, _) if roles.coarse_time_step.is_none() => {
+                "at most: what two steps of the wall load"
+            }
+            (PREPARATION, _) if roles.short_ramp.is_none() => {
+                "at most: distance of the start from rest, amplified"
+            }
+            (TIME_STEP, Method::AtOneSpeed) => "change with the time step doubled",
+            (PREPARATION, Method::AtOneSpeed) => "change with the gravity ramp halved",
             _ => self.how,
+        }
+    }
+
+    /// Whether there is a run that shows it, if it needs one.
+    fn has_run(&self, roles: &RunRoles) -> bool {
+        match self.name {
+            TIME_STEP => roles.coarse_time_step.is_some(),
+            PREPARATION => roles.short_ramp.is_some(),
+            _ => true,
         }
     }
 }
 
+/// Name of the part of the wall speed.
+const WALL_SPEED: &str = "wall_speed";
 /// Name of the part of the time step.
 const TIME_STEP: &str = "time_step";
+/// Name of the part of the preparation.
+const PREPARATION: &str = "preparation";
+/// Name of the part of rounding.
+const ROUND_OFF: &str = "round_off";
 
 impl Budget {
     /// The parts, in order; the uncertainty is their sum.
     pub(crate) const PARTS: [BudgetPart; 8] = [
         BudgetPart {
-            name: "wall_speed",
+            name: WALL_SPEED,
             heading: "wall speed",
             how: "parabola minus straight line",
             known_by: "",
@@ -92,7 +123,7 @@ impl Budget {
             value: |budget| budget.time_step,
         },
         BudgetPart {
-            name: "preparation",
+            name: PREPARATION,
             heading: "preparation",
             how: "run 5 minus run 2 (gravity ramp halved)",
             known_by: "a run at the middle wall speed with half the gravity ramp (--short-ramp)",
@@ -106,7 +137,7 @@ impl Budget {
             value: |budget| Some(budget.sampling),
         },
         BudgetPart {
-            name: "round_off",
+            name: ROUND_OFF,
             heading: "round-off",
             how: "random walk of rounding, amplified, weighted",
             known_by: "",
@@ -140,6 +171,13 @@ impl Budget {
     pub fn total(&self) -> f64 {
         let parts = Self::PARTS.iter();
         parts.filter_map(|part| (part.value)(self)).sum()
+    }
+
+    /// The parts of which only a bound is known where the runs play these `roles`, with their bounds.
+    pub(crate) fn bounded(&self, roles: &RunRoles) -> impl Iterator<Item = (BudgetPart, f64)> {
+        let parts = Self::PARTS.into_iter();
+        let bounded = parts.filter(|part| !part.has_run(roles));
+        bounded.filter_map(|part| Some((part, (part.value)(self)?)))
     }
 
     /// The parts that are not known.

@@ -4,7 +4,8 @@ use super::budget::Budget;
 use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
 use crate::series::{Estimate, PrintedDigits, YieldEstimates, value_at_zero, weights_at_zero};
 use crate::study::ROUNDING;
-use crate::theory::bracketed_root;
+use crate::theory::{SpeedExcess, bracketed_root};
+use serde::Serialize;
 
 /// A yield force at vanishing wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +30,39 @@ impl Extrapolation {
     }
 }
 
+/// The quantity that a yield force is read off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Estimator {
+    /// The onset of slip at the floor, which needs least extrapolation.
+    SlipOnset,
+    /// The peak of f, the paper's definition; the only one where a stack slips without yielding before it: one that begins
+    /// at the verge of slip.
+    Peak,
+}
+
+impl Estimator {
+    /// This force in one run.
+    pub(crate) fn read(self, run: &YieldEstimates) -> Option<Estimate> {
+        match self {
+            Self::SlipOnset => run.slip,
+            Self::Peak => run.peak,
+        }
+    }
+
+    /// What the wall adds to it per speed, to first order.
+    pub(crate) fn excess(self, of_both: &SpeedExcess) -> f64 {
+        match self {
+            Self::SlipOnset => of_both.onset,
+            Self::Peak => of_both.peak,
+        }
+    }
+}
+
+/// The part of second order in the wall speed over that of first, at the fastest planned speed: by about the speed itself,
+/// 2e-3, it is smaller, and 25 times as much is allowed.
+const CURVATURE: f64 = 0.05;
+
 /// The order of convergence in the wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvergenceOrder {
@@ -39,21 +73,22 @@ pub struct ConvergenceOrder {
 }
 
 impl ConvergenceOrder {
+    /// That of a single speed, and of differences that are lost in noise.
+    pub(super) const NOT_OBSERVED: Self = Self {
+        observed: None,
+        allowance: f64::INFINITY,
+    };
+
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
     pub(crate) const EXPECTED: f64 = 1.0;
 
-    /// The order of forces at three `speeds` in units of the displacement, known up to `noise`. The term of second order
-    /// is smaller than that of first by about the speed itself; at the planned speeds, at most 2e-3, that moves the order
-    /// by less than 0.01. Five times as much is allowed, and in proportion at faster ones.
+    /// The order of forces at three `speeds` in units of the displacement, known up to `noise`. At the planned speeds the
+    /// term of second order moves it by less than 0.01; five times as much is allowed, and in proportion at faster ones.
     fn of(speeds: &[f64; 3], forces: &[f64], noise: f64) -> Self {
-        const CURVATURE: f64 = 0.05;
         let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
         let smallest = differences[0].min(differences[1]);
         if smallest <= 2.0 * noise {
-            return Self {
-                observed: None,
-                allowance: f64::INFINITY,
-            };
+            return Self::NOT_OBSERVED;
         }
         let relative_noise = 2.0 * noise / smallest;
         let curvature = CURVATURE * (speeds[0] / SPEEDS[0]).max(1.0);
@@ -147,13 +182,7 @@ pub(crate) fn extrapolate_runs(
         terms.sum()
     };
     let rounded = |estimate: &Estimate, run: usize| round_off(estimate, steps[run], stiffness);
-    let printed = |estimate: &Estimate, run: usize| {
-        let few_digits = estimates[run].printed;
-        few_digits.map_or(
-            PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity,
-            |printed| printing_error(&printed, estimate),
-        )
-    };
+    let printed = |estimate: &Estimate, run: usize| printing(&estimates[run], estimate, stiffness);
     let time_step = match (roles.coarse_and_fast, roles.coarse_time_step) {
         (Some(fast), Some(middle)) => Some(change_of_line(&all, [fast, middle])?),
         (_, middle) => change(middle)?,
@@ -190,10 +219,53 @@ pub(crate) fn extrapolate_runs(
     })
 }
 
+/// Reads the force off the first of the runs, less what theory expects its wall speed to add: `added` in m g, to first
+/// order. What is left is of second order. `None` if a run that there should be shows no such force.
+pub(crate) fn at_one_speed(
+    roles: &RunRoles,
+    added: f64,
+    estimates: &[YieldEstimates],
+    steps: u64,
+    stiffness: f64,
+    estimator: Estimator,
+) -> Option<Extrapolation> {
+    let read = |run: usize| estimator.read(estimates.get(run)?);
+    let estimate = read(0)?;
+    let change = |run: Option<usize>| match run {
+        Some(run) => read(run).map(|other| Some((other.force - estimate.force).abs())),
+        None => Some(None),
+    };
+    let force = estimate.force - added;
+    let second_order = (CURVATURE * roles.speeds[0] / SPEEDS[0]).min(1.0);
+    Some(Extrapolation {
+        force,
+        first_order: force,
+        budget: Budget {
+            wall_speed: second_order * added.abs(),
+            time_step: change(roles.coarse_time_step)?,
+            preparation: change(roles.short_ramp)?,
+            sampling: estimate.sampling,
+            round_off: round_off(&estimate, steps, stiffness),
+            print_precision: printing(&estimates[0], &estimate, stiffness),
+            shortcuts: 0.0,
+            convention: None,
+        },
+        order: ConvergenceOrder::NOT_OBSERVED,
+    })
+}
+
 /// Rounding of positions in so many `steps`, a random walk, as the estimator amplifies it.
 fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
     let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
     per_step * (steps as f64).sqrt() * estimate.sensitivity
+}
+
+/// Error of an `estimate` of `run` in m g by the last digit that the code prints.
+fn printing(run: &YieldEstimates, estimate: &Estimate, stiffness: f64) -> f64 {
+    run.printed.map_or(
+        PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity,
+        |printed| printing_error(&printed, estimate),
+    )
 }
 
 /// Largest error of an estimate in m g from rows with few `printed` digits. The margin μ n − |t| of a friction below 1

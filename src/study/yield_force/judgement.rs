@@ -1,14 +1,16 @@
 //! The yield force that the runs of a measurement show, compared with the exact limit.
 
 use super::budget::Budget;
-use super::extrapolate::{ConvergenceOrder, Extrapolation, LARGEST_COORDINATE, printing_error};
-use super::peak::peak_allowance;
-use super::plan::{Measurement, Method};
-use super::runs::{MIDDLE_RUN, SPEEDS};
+use super::extrapolate::{
+    ConvergenceOrder, Estimator, Extrapolation, LARGEST_COORDINATE, printing_error,
+};
+use super::peak::{load_per_step, peak_allowance};
+use super::plan::Measurement;
+use super::runs::{Method, SPEEDS};
 use crate::code::{Code, Unknown};
 use crate::model::Protocol;
 use crate::runs::{RunSummary, Workload};
-use crate::series::YieldEstimates;
+use crate::series::{YieldEstimates, left_of_touch};
 use crate::study::{
     Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, Study, tolerance,
 };
@@ -60,7 +62,7 @@ impl Study for Measurement {
                 .grounds
                 .add(Ground::NoYield(self.limit.reason.clone())),
             Some(reference) => match self.method {
-                Method::Extrapolated => reader.extrapolate(reference),
+                Method::Extrapolated | Method::AtOneSpeed => reader.extrapolate(reference),
                 Method::Literal => reader.take_literally(reference),
             },
         }
@@ -100,8 +102,10 @@ impl<'a> Reader<'a> {
     fn extrapolate(&mut self, reference: f64) {
         let measurement = self.measurement;
         let onset = measurement.limit.slip_onset;
-        let slip = measurement.extrapolate(&self.estimates, |run| run.slip);
-        let peak = measurement.extrapolate(&self.estimates, |run| run.peak);
+        let [slip, peak] = [Estimator::SlipOnset, Estimator::Peak].map(|estimator| {
+            let found = measurement.extrapolate(&self.estimates, estimator)?;
+            self.bounded(found, estimator, reference)
+        });
         (self.finding.slip, self.finding.peak) = (slip, peak);
         let Some((peak, allowance)) = peak.zip(peak_allowance(measurement, reference)) else {
             return self.find_no_yield();
@@ -110,7 +114,7 @@ impl<'a> Reader<'a> {
         self.finding.peak_uncertainty = Some(peak_uncertainty);
         let Some((slip, onset)) = slip.zip(onset) else {
             self.compare(peak.force, peak_uncertainty, reference);
-            self.doubt_unknown_parts(&peak.budget);
+            self.doubt_unknown_parts(&peak.budget, reference);
             self.doubt_few_digits(peak.budget.print_precision, reference);
             self.doubt_measured_arms(reference);
             if onset.is_none() {
@@ -120,7 +124,7 @@ impl<'a> Reader<'a> {
             return self.doubt_deep_wall(reference);
         };
         self.compare(slip.force, slip.budget.total(), onset);
-        self.doubt_unknown_parts(&slip.budget);
+        self.doubt_unknown_parts(&slip.budget, onset);
         self.doubt_few_digits(slip.budget.print_precision, onset);
         self.doubt_measured_arms(onset);
         if reference != onset {
@@ -145,11 +149,11 @@ impl<'a> Reader<'a> {
         let (Some([slow, fast]), [paper, twice]) = (peaks.as_deref(), &protocols[..]) else {
             return self.find_no_yield();
         };
-        let added =
-            |protocol: &Protocol| measurement.peak_excess.unwrap_or(0.0) * protocol.wall_speed;
+        let peak_excess = measurement.speed_excess.map(|excess| excess.peak);
+        let added = |protocol: &Protocol| peak_excess.unwrap_or(0.0) * protocol.wall_speed;
         let force = slow.force - added(paper);
         let left = (fast.force - added(twice) - force).abs();
-        let factor = match measurement.peak_excess {
+        let factor = match peak_excess {
             Some(_) => 1.0,
             None => TWO_GRIDS,
         };
@@ -158,14 +162,30 @@ impl<'a> Reader<'a> {
         let printed = self.estimates.iter().filter_map(|run| run.printed);
         let printing = printed.map(|printed| printing_error(&printed, slow));
         let printing = printing.fold(0.0, f64::max);
-        let measured_arms = measurement.convention_uncertainty.unwrap_or(0.0);
-        let uncertainty = factor * left + slow.sampling + rounding + printing + measured_arms;
-        self.compare(force, uncertainty, reference);
+        let budget = Budget {
+            wall_speed: factor * left,
+            time_step: None,
+            preparation: None,
+            sampling: slow.sampling,
+            round_off: rounding,
+            print_precision: printing,
+            shortcuts: 0.0,
+            convention: measurement.convention_uncertainty,
+        };
+        let found = Extrapolation {
+            force,
+            first_order: force,
+            budget,
+            order: ConvergenceOrder::NOT_OBSERVED,
+        };
+        self.finding.peak = Some(found);
+        self.finding.peak_uncertainty = Some(budget.total());
+        self.compare(force, budget.total(), reference);
         self.doubt_few_digits(printing, reference);
         self.doubt_measured_arms(reference);
         self.doubt_friction();
         let excess = (slow.force - reference) / reference;
-        let expected = match measurement.peak_excess {
+        let expected = match peak_excess {
             Some(_) => format!("{:+.1e} expected of its speed", added(paper) / reference),
             None => "what its speed adds is not known".to_owned(),
         };
@@ -348,8 +368,64 @@ impl<'a> Reader<'a> {
         self.finding.runs.get(self.measurement.roles.short_ramp?)
     }
 
-    /// Nothing is decided by a deviation that an unknown part of the budget may explain.
-    fn doubt_unknown_parts(&mut self, budget: &Budget) {
+    /// `found` with bounds in place of the parts of its budget that no run shows. Of the time step it is what two steps of
+    /// the wall load: positions and forces are a step late at most. Of the preparation it is how far the starts are from
+    /// rest. What is left of the touch of the wall, which dies away faster than the speed, is not extrapolated away at one
+    /// speed. `None` where nothing is planned.
+    fn bounded(
+        &self,
+        mut found: Extrapolation,
+        estimator: Estimator,
+        reference: f64,
+    ) -> Option<Extrapolation> {
+        let Measurement {
+            stack,
+            convention,
+            limit,
+            method,
+            cases,
+            ..
+        } = self.measurement;
+        let protocol = &cases.get(method.compared_run())?.protocol;
+        let read = estimator.read(self.estimates.get(method.compared_run())?)?;
+        let amplified = stack.stiffness * read.sensitivity;
+        let step = load_per_step(self.measurement, protocol, reference)?;
+        let budget = &mut found.budget;
+        budget.time_step.get_or_insert(STEPS_LATE * step);
+        let off_rest = self.off_rest().map(|distance| amplified * distance);
+        budget.preparation = budget.preparation.or(off_rest);
+        if *method == Method::AtOneSpeed {
+            let age = limit.wall_travel.or(limit.peak_travel)? / protocol.wall_speed;
+            let left = left_of_touch(stack, convention, protocol.wall_speed, age);
+            budget.wall_speed += amplified * left;
+        }
+        Some(found)
+    }
+
+    /// The largest distance of a start from the state of rest, in r; `None` where one of them is not known.
+    fn off_rest(&self) -> Option<f64> {
+        let rest = self.measurement.limit.rest?;
+        let mut starts = self.finding.runs.iter().map(|run| run.start);
+        starts.try_fold(0.0, |most, start| {
+            let apart = start?.into_iter().zip(rest);
+            let apart = apart.map(|(own, rest): (f64, f64)| (own - rest).abs());
+            Some(apart.fold(most, f64::max))
+        })
+    }
+
+    /// Nothing is decided by a deviation that an unknown part of the budget may explain, and nothing agrees where the bound
+    /// of a part is too large.
+    fn doubt_unknown_parts(&mut self, budget: &Budget, reference: f64) {
+        let most = MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
+        for (part, bound) in budget.bounded(&self.measurement.roles) {
+            if bound > most {
+                self.doubt(format!(
+                    "the part of the {} in the uncertainty is at most {bound:.1e}, which is too much; it would be shown \
+                     by {}",
+                    part.heading, part.known_by
+                ));
+            }
+        }
         for part in budget.unknown() {
             let note = format!(
                 "the part of the {} in the uncertainty is not known; it would be by {}",
@@ -361,8 +437,9 @@ impl<'a> Reader<'a> {
     }
 
     fn doubt_equal_runs(&mut self) {
-        let middle = self.estimates[MIDDLE_RUN];
-        if self.hastened().is_some_and(|run| run.estimates == middle) {
+        let compared = self.estimates.get(self.measurement.method.compared_run());
+        let hastened = self.hastened().map(|run| &run.estimates);
+        if hastened.is_some() && hastened == compared {
             self.doubt(
                 "two runs that differ in their preparation gave the same bits: a series is that of another \
                  case, or the code takes no notice of the preparation"
@@ -449,6 +526,9 @@ impl<'a> Reader<'a> {
 /// others, since its own start is in question.
 const SAFETY_OF_REST: f64 = 2.0;
 
+/// Time steps by which what a run shows may be late.
+const STEPS_LATE: f64 = 2.0;
+
 /// Note on rows without an onset under the wall.
 const SLIDES_AT_REST: &str = "the floor slides under the stack's own weight until contact 2-3 bears it: there is no \
                               slip onset under the wall, and the peak is compared";
@@ -523,7 +603,7 @@ mod tests {
         assert_eq!(judged(&runs(&measurement, 1.001)).0, Verdict::Differs);
         // Without what theory adds, nothing is decided.
         let unknown = Measurement {
-            peak_excess: None,
+            speed_excess: None,
             ..measurement.clone()
         };
         let evaluation = unknown.evaluate(vec![made]);

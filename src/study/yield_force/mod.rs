@@ -20,21 +20,21 @@ mod twin;
 pub use budget::Budget;
 pub(crate) use budget::BudgetPart;
 pub use evidence::Evidence;
-pub use extrapolate::{ConvergenceOrder, Extrapolation, extrapolate};
+pub use extrapolate::{ConvergenceOrder, Estimator, Extrapolation, extrapolate};
 pub use judgement::{Judgement, YieldForce};
 pub(crate) use law_curve::{LawCurve, law_curves};
 pub use no_yield::NoYield;
 pub(crate) use no_yield::no_yield;
 pub(crate) use peak::peak_allowance;
-pub use plan::{Measurement, Method, plan, protocol_at_speed};
+pub use plan::{Measurement, plan, protocol_at_speed};
 pub(crate) use plan::{
     PAPER_TIME_STEP, PAPER_WALL_SPEED, REST_TIME, planned, planned_protocol, ramp_time,
 };
 pub(crate) use profile::PAPER_STIFFNESSES;
 pub use profile::Profile;
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
-pub use runs::{MIDDLE_RUN, RunRoles, SHORT_RAMP_RUN};
-pub(crate) use series::{FoundSeries, JudgedSeries, SeriesInput, judge_series};
+pub use runs::{MIDDLE_RUN, Method, RunRoles, SHORT_RAMP_RUN};
+pub(crate) use series::{FoundSeries, JudgedSeries, SeriesInput, compared_run, judge_series};
 pub(crate) use touch::max_touch_speed;
 pub use twin::TwinForce;
 pub(crate) use twin::measure_with_twin;

@@ -1,8 +1,10 @@
 //! The runs of a measurement. Theory plans them, so that cost and relative error are the same for every stack.
 
-use super::extrapolate::{ConvergenceOrder, Extrapolation, extrapolate_runs};
+use super::extrapolate::{
+    ConvergenceOrder, Estimator, Extrapolation, at_one_speed, extrapolate_runs,
+};
 use super::limits::{convention_uncertainty, known_limit};
-use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, RunRoles, SLOWEST_RUN, SPEEDS};
+use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, Method, RunRoles, SLOWEST_RUN, SPEEDS};
 use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::Code;
@@ -10,9 +12,8 @@ use crate::model::{
     Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts,
     Stack,
 };
-use crate::series::{Estimate, YieldEstimates};
-use crate::theory::{Limit, LimitCurve};
-use serde::{Deserialize, Serialize};
+use crate::series::YieldEstimates;
+use crate::theory::{Limit, LimitCurve, SpeedExcess};
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
@@ -59,16 +60,6 @@ pub(crate) const PAPER_TIME_STEP: f64 = 1e-3;
 /// Wall speeds of a literal measurement: the paper's, and twice it to estimate its error.
 const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 
-/// How the yield force is read off the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// Slip onset, extrapolated to vanishing wall speed.
-    Extrapolated,
-    /// As in the paper: the peak at the wall speed and time step of the paper.
-    Literal,
-}
-
 /// The planned measurement of a yield force: a row of a crosscheck.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
@@ -85,9 +76,9 @@ pub struct Measurement {
     /// By how much the limit may be off because arms were measured and not declared, in m g; absent where all are
     /// declared.
     pub convention_uncertainty: Option<f64>,
-    /// C, by which the peak rises per wall speed in r √(k_n/m), in m g, to first order; absent where it is not known, or not
-    /// needed because the speed is extrapolated.
-    pub peak_excess: Option<f64>,
+    /// What the wall adds per speed in r √(k_n/m), in m g, to first order; absent where it is not known, or not needed
+    /// because the speed is extrapolated.
+    pub speed_excess: Option<SpeedExcess>,
     /// How its yield force is read.
     pub method: Method,
     /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
@@ -128,16 +119,28 @@ impl Measurement {
     pub(crate) fn extrapolate(
         &self,
         estimates: &[YieldEstimates],
-        estimator: impl Fn(&YieldEstimates) -> Option<Estimate>,
+        estimator: Estimator,
     ) -> Option<Extrapolation> {
         let steps: Vec<u64> = self.cases.iter().map(Case::total_steps).collect();
-        let mut found = extrapolate_runs(
-            &self.roles,
-            estimates,
-            &steps,
-            self.stack.stiffness,
-            estimator,
-        )?;
+        let stiffness = self.stack.stiffness;
+        let mut found = match self.method {
+            Method::AtOneSpeed => {
+                let speed = self.cases.first()?.protocol.wall_speed;
+                let added = estimator.excess(&self.speed_excess?) * speed;
+                at_one_speed(
+                    &self.roles,
+                    added,
+                    estimates,
+                    *steps.first()?,
+                    stiffness,
+                    estimator,
+                )
+            }
+            Method::Extrapolated | Method::Literal => {
+                let read = |run: &YieldEstimates| estimator.read(run);
+                extrapolate_runs(&self.roles, estimates, &steps, stiffness, read)
+            }
+        }?;
         found.budget.convention = self.convention_uncertainty;
         Some(found)
     }
@@ -197,6 +200,7 @@ pub(crate) fn planned(
     let protocols = match method {
         Method::Extrapolated => planned_protocols(&limit, stack, &convention),
         Method::Literal => literal_protocols(&limit),
+        Method::AtOneSpeed => None,
     };
     let protocols = protocols.into_iter().flatten();
     let cases = protocols.map(|protocol| Case {
@@ -215,13 +219,14 @@ pub(crate) fn planned(
         has_slow_ramps: limit.needs_slow_ramp,
         ..RunRoles::PLANNED
     };
-    let curve = (method == Method::Literal).then(|| LimitCurve::new(stack, &convention));
-    let excess = curve.and_then(|curve| curve.speed_excess(stack, &limit));
+    let is_literal = method == Method::Literal;
     Measurement {
         code,
         stack: *stack,
         convention,
-        peak_excess: excess.map(|excess| excess.peak),
+        speed_excess: is_literal
+            .then(|| speed_excess(stack, &convention, &limit))
+            .flatten(),
         method,
         convention_uncertainty: convention_uncertainty(code, stack, &convention),
         is_gentle: is_gentle(fastest, stack, &convention),
@@ -230,6 +235,15 @@ pub(crate) fn planned(
         limit,
         model_form,
     }
+}
+
+/// What a moving wall adds to the `limit` of `stack`; `None` where theory does not know it.
+pub(super) fn speed_excess(
+    stack: &Stack,
+    convention: &ContactConvention,
+    limit: &Limit,
+) -> Option<SpeedExcess> {
+    LimitCurve::new(stack, convention).speed_excess(stack, limit)
 }
 
 fn planned_protocols(

@@ -90,6 +90,15 @@ impl Profile {
         self.measurements_of(&self.stacks(power, PAPER_BODIES), codes, power)
     }
 
+    /// The measurement of `stack` by `code` in its way, by a law of this power.
+    pub(crate) fn measurement(self, code: Code, stack: &Stack, power: Power) -> Measurement {
+        let convention = code.stack_convention(power, stack.bodies);
+        match self {
+            Self::Quick | Self::Standard => plan(code, stack, convention),
+            Self::Paper | Self::Literal => plan_literal(code, stack, convention),
+        }
+    }
+
     /// Measurements of other `stacks` in its way, by a law of this power.
     pub(crate) fn measurements_of(
         self,
@@ -100,15 +109,8 @@ impl Profile {
         let mut measurements = Vec::new();
         for &stack in stacks {
             for &code in codes {
-                let convention = code.stack_convention(power, stack.bodies);
-                match self {
-                    Self::Quick | Self::Standard => {
-                        measurements.push(plan(code, &stack, convention));
-                    }
-                    Self::Paper if !is_run_literally(code, &stack) => {}
-                    Self::Paper | Self::Literal => {
-                        measurements.push(plan_literal(code, &stack, convention));
-                    }
+                if self != Self::Paper || is_run_literally(code, &stack) {
+                    measurements.push(self.measurement(code, &stack, power));
                 }
             }
         }

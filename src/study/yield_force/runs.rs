@@ -1,5 +1,7 @@
 //! The runs of a measurement by their positions, which plan and extrapolation share.
 
+use serde::{Deserialize, Serialize};
+
 /// Wall speeds in units of the predicted displacement (see `speed_scale`), fastest first, each half the one before.
 pub(crate) const SPEEDS: [f64; 3] = [2e-3, 1e-3, 5e-4];
 
@@ -14,10 +16,35 @@ pub const SHORT_RAMP_RUN: usize = SPEEDS.len() + 1;
 /// Position of the run at the fastest speed with twice the time step, of springs that remember forces.
 pub(crate) const COARSE_AND_FAST_RUN: usize = SPEEDS.len() + 2;
 
+/// How the yield force is read off the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Slip onset, extrapolated to vanishing wall speed.
+    Extrapolated,
+    /// As in the paper: the peak at the wall speed and time step of the paper, less what theory expects the speed to add.
+    /// A run twice as fast shows what is left.
+    Literal,
+    /// Slip onset at one wall speed, less what theory expects the speed to add; nothing that is planned.
+    #[serde(skip)]
+    AtOneSpeed,
+}
+
+impl Method {
+    /// Position of the run with which those with another time step and another ramp are compared.
+    pub(crate) fn compared_run(self) -> usize {
+        match self {
+            Self::Extrapolated => MIDDLE_RUN,
+            Self::Literal | Self::AtOneSpeed => 0,
+        }
+    }
+}
+
 /// Which run of a measurement is which, by position. The first three differ in their wall speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunRoles {
-    /// The wall speeds of the first three runs in units of the predicted displacement, fastest first.
+    /// The wall speeds of the first three runs in units of the predicted displacement, fastest first; three times that of
+    /// the only one.
     pub speeds: [f64; 3],
     /// The run with twice the time step, if there is one.
     pub coarse_time_step: Option<usize>,

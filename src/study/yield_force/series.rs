@@ -2,8 +2,8 @@
 
 use super::budget::Budget;
 use super::judgement::YieldForce;
-use super::plan::{Measurement, RAMP_TIME, REST_TIME, plan, speed_scale};
-use super::runs::{RunRoles, SPEEDS};
+use super::plan::{Measurement, RAMP_TIME, REST_TIME, plan, speed_excess, speed_scale};
+use super::runs::{MIDDLE_RUN, Method, RunRoles, SPEEDS};
 use super::touch::is_gentle;
 use crate::code::{Code, Identity, Provenance, Run};
 use crate::model::{
@@ -16,6 +16,9 @@ use crate::theory::limit_uncertainty;
 
 /// Time in which the touch of a wall has died away: overshoots come within 20.
 const TOUCH: f64 = 20.0;
+
+/// In what the runs at different wall speeds differ.
+const WALL_SPEED: &str = "wall speed";
 
 /// A series with what is known of its run.
 #[derive(Debug, Clone)]
@@ -64,9 +67,19 @@ impl JudgedSeries {
     }
 }
 
-/// Judges series of `stack` at three or more wall speeds, fastest first, under `convention`. `coarse` is a run at the middle
-/// one of the three slowest speeds with twice the time step, `hastened` one with half the gravity ramp. Arms that were
-/// measured have an `arm_uncertainty`. `None` where nothing yields.
+/// Position of the run with which `--coarse-step` and `--short-ramp` are compared, among so many runs at other wall speeds,
+/// fastest first: the middle one of the three slowest, or the slowest of fewer.
+pub(crate) fn compared_run(speeds: usize) -> usize {
+    match speeds.checked_sub(SPEEDS.len()) {
+        Some(faster) => faster + MIDDLE_RUN,
+        None => speeds.saturating_sub(1),
+    }
+}
+
+/// Judges series of `stack` at different wall speeds, fastest first, under `convention`: extrapolates the three slowest, or
+/// reads the slowest of fewer, for which theory must know what its speed adds. `coarse` is a run with twice the time step of
+/// [`compared_run`], `hastened` one with half the gravity ramp. Arms that were measured have an `arm_uncertainty`. `None`
+/// where nothing yields, and where theory does not know what it must.
 pub(crate) fn judge_series(
     stack: &Stack,
     convention: ContactConvention,
@@ -82,9 +95,13 @@ pub(crate) fn judge_series(
             role,
         }
     };
-    let at_speeds = series.into_iter().map(found("wall speed", RAMP_TIME));
+    let at_speeds = series.into_iter().map(found(WALL_SPEED, RAMP_TIME));
     let mut faster: Vec<FoundSeries> = at_speeds.collect();
-    let mut used = faster.split_off(faster.len().checked_sub(SPEEDS.len())?);
+    let slowest = match faster.len() {
+        few if few < SPEEDS.len() => 1,
+        _ => SPEEDS.len(),
+    };
+    let mut used = faster.split_off(faster.len().checked_sub(slowest)?);
     let coarse_time_step = coarse.map(found("twice the time step", RAMP_TIME));
     let short_ramp = hastened.map(found("half the gravity ramp", 0.5 * RAMP_TIME));
     let mut further = |run: Option<FoundSeries>| {
@@ -117,9 +134,23 @@ fn measurement(
     let planned = plan(Code::NATIVE, stack, convention);
     let scale = speed_scale(&planned.limit, stack, &convention)?;
     let cases: Vec<Case> = used.iter().map(|found| found.summary.case).collect();
+    let at_one_speed = used.iter().filter(|found| found.role == WALL_SPEED).count() == 1;
     let speed = |run: usize| cases.get(run).map(|case| case.protocol.wall_speed);
-    let speeds = [speed(0)?, speed(1)?, speed(2)?];
+    let speeds = match at_one_speed {
+        true => [speed(0)?; 3],
+        false => [speed(0)?, speed(1)?, speed(2)?],
+    };
+    let excess = at_one_speed.then(|| speed_excess(stack, &convention, &planned.limit));
+    let speed_excess = match excess {
+        Some(excess) => Some(excess?),
+        None => None,
+    };
     Some(Measurement {
+        method: match at_one_speed {
+            true => Method::AtOneSpeed,
+            false => Method::Extrapolated,
+        },
+        speed_excess,
         is_gentle: is_gentle(speeds[0], stack, &convention),
         roles: RunRoles {
             speeds: speeds.map(|speed| speed / scale),
@@ -156,6 +187,11 @@ fn summary(
         series: input.series.clone(),
         provenance: Provenance::now(identity, String::new(), Vec::new(), steps, 0.0),
     });
+    // A wall that touches in the first row has moved the stack by then.
+    let touches = input.series.samples().first();
+    if touches.is_some_and(|row| row.wall_force > 0.0) {
+        summary.start = None;
+    }
     summary.mechanics = Some(Mechanics::read_without_beginning(&input.series, &case));
     summary
 }

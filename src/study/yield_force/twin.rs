@@ -1,5 +1,6 @@
 //! Measures round-off: the same runs by a build of the code that computes with more digits.
 
+use super::extrapolate::Estimator;
 use super::plan::Measurement;
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, read_all};
 use crate::series::YieldEstimates;
@@ -34,7 +35,7 @@ pub(crate) fn measure_with_twin(
         Ok(estimates) => estimates,
         Err(error) => return Some(Err(error)),
     };
-    let slip = measurement.extrapolate(&estimates, |run| run.slip)?;
+    let slip = measurement.extrapolate(&estimates, Estimator::SlipOnset)?;
     let version = package.map_or(version, |package| format!("long double, {package}"));
     Some(Ok(TwinForce {
         version,

@@ -418,6 +418,25 @@ mod tests {
     }
 
     #[test]
+    fn what_a_touch_has_left_decays_and_soft_contacts_keep_it_longer() {
+        let case = case(PAPER_RESTITUTION, 1.0, 0.1);
+        let left = |law, time| {
+            let convention = ContactConvention {
+                law,
+                ..case.convention
+            };
+            left_of_touch(&case.stack, &convention, 1e-3, time)
+        };
+        let Standing { frequency, decay } = oscillator(&case).standing;
+        assert_eq!(left(Law::LINEAR, 0.0), 1e-3 / frequency);
+        let ratio = left(Law::LINEAR, 10.0) / left(Law::LINEAR, 20.0);
+        assert!((ratio / libm::exp(10.0 * decay) - 1.0).abs() < 1e-12);
+        // Under the weight alone, Hertz's contacts are softer by the root of the overlap.
+        assert!(left(Law::HERTZ, 0.0) > 1.5 * left(Law::LINEAR, 0.0));
+        assert!(left(Law::HERTZ, 100.0) > 10.0 * left(Law::LINEAR, 100.0));
+    }
+
+    #[test]
     fn only_a_linear_law_after_a_gravity_ramp_makes_an_oscillator() {
         let linear = case(PAPER_RESTITUTION, 1.0, 0.1);
         let mut hertz = linear;

@@ -191,6 +191,32 @@ impl Budget {
 mod tests {
     use super::*;
 
+    /// A part that no run shows is only bounded, whatever the method.
+    #[test]
+    fn a_part_says_how_it_is_known() {
+        let alone = RunRoles {
+            coarse_time_step: None,
+            short_ramp: None,
+            ..RunRoles::PLANNED
+        };
+        let how = |name: &str, method: Method, roles: &RunRoles| {
+            let part = Budget::PARTS.into_iter().find(|part| part.name == name);
+            part.expect("a part").how(method, roles)
+        };
+        for method in [Method::Extrapolated, Method::AtOneSpeed] {
+            for name in [TIME_STEP, PREPARATION] {
+                assert!(how(name, method, &alone).starts_with("at most: "), "{name}");
+                assert!(!how(name, method, &RunRoles::PLANNED).contains("at most"));
+            }
+        }
+        let touch = how(WALL_SPEED, Method::AtOneSpeed, &alone);
+        assert!(touch.contains("touch") && touch.contains("second order"));
+        let literal = how(WALL_SPEED, Method::Literal, &RunRoles::PLANNED);
+        assert!(literal.contains("twice as fast"));
+        let planned = how(WALL_SPEED, Method::Extrapolated, &RunRoles::PLANNED);
+        assert_eq!(planned, "parabola minus straight line");
+    }
+
     #[test]
     fn the_budget_lists_its_parts_in_order_and_adds_them_up() {
         let budget = Budget {

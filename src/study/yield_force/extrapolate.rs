@@ -518,6 +518,70 @@ mod tests {
     }
 
     #[test]
+    fn one_run_is_read_less_what_its_speed_adds() {
+        let mut runs = estimates([10.4, 10.43, 10.39, 0.0, 0.0]);
+        for run in &mut runs {
+            run.slip.as_mut().unwrap().sensitivity = 3.0;
+            run.peak = run.slip.map(|slip| Estimate {
+                force: slip.force + 1.0,
+                ..slip
+            });
+        }
+        let roles = RunRoles {
+            speeds: [1e-3; 3],
+            coarse_time_step: Some(1),
+            short_ramp: Some(2),
+            ..RunRoles::PLANNED
+        };
+        let found = |roles: &RunRoles, added: f64, estimator| {
+            at_one_speed(roles, added, &runs, 10_000, 100.0, estimator)
+        };
+        let slip = found(&roles, 0.3, Estimator::SlipOnset).unwrap();
+        let budget = slip.budget;
+        assert!((slip.force - 10.1).abs() < 1e-12 && slip.first_order == slip.force);
+        assert_eq!(slip.order, ConvergenceOrder::NOT_OBSERVED);
+        // 25 times the speed of what is taken off.
+        assert!((budget.wall_speed - 0.0075).abs() < 1e-15);
+        assert!((budget.time_step.unwrap() - 0.03).abs() < 1e-12);
+        assert!((budget.preparation.unwrap() - 0.01).abs() < 1e-12);
+        let read = runs[0].slip.unwrap();
+        assert_eq!(budget.sampling, read.sampling);
+        assert_eq!(budget.round_off, round_off(&read, 10_000, 100.0));
+        let printed = 0.5e-16 * (1.0 + 3f64.sqrt()) * 100.0 * 3.0;
+        assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
+        assert_eq!((budget.shortcuts, budget.convention), (0.0, None));
+
+        let peak = found(&roles, -0.3, Estimator::Peak).unwrap();
+        assert!((peak.force - 11.7).abs() < 1e-12);
+        assert!((peak.budget.wall_speed - 0.0075).abs() < 1e-15);
+        // No more than all of it is open, whatever the speed.
+        let fast = RunRoles {
+            speeds: [1.0; 3],
+            ..roles
+        };
+        let fast = found(&fast, 0.3, Estimator::SlipOnset).unwrap();
+        assert_eq!(fast.budget.wall_speed, 0.3);
+        let alone = RunRoles {
+            coarse_time_step: None,
+            short_ramp: None,
+            ..roles
+        };
+        let alone = found(&alone, 0.3, Estimator::SlipOnset).unwrap().budget;
+        assert_eq!((alone.time_step, alone.preparation), (None, None));
+        let missing = RunRoles {
+            short_ramp: Some(7),
+            ..roles
+        };
+        assert_eq!(found(&missing, 0.3, Estimator::SlipOnset), None);
+        let excess = SpeedExcess {
+            onset: 1.0,
+            peak: 2.0,
+        };
+        let both = [Estimator::SlipOnset, Estimator::Peak].map(|one| one.excess(&excess));
+        assert_eq!(both, [1.0, 2.0]);
+    }
+
+    #[test]
     fn few_printed_digits_are_an_error_and_noise() {
         let printed = PrintedDigits {
             digits: 6,

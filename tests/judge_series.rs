@@ -593,6 +593,19 @@ fn one_series_agrees_and_one_that_is_off_differs() {
         assert!(number("error").abs() < number("tolerance"));
         assert!(number("tolerance") < 1e-5, "{}", number("tolerance"));
         assert_eq!(tables[1].len(), 1);
+        let mut fast = case;
+        fast.protocol.wall_speed *= 20.0;
+        put(&bench, "fast.csv", &fast);
+        let own = line("fast.csv").replace(
+            &format!("--speeds {speed} "),
+            &format!("--speeds {} ", fast.protocol.wall_speed),
+        );
+        let (status, _, message) = judged(&bench, &own);
+        assert_eq!(status, Some(4), "{message}");
+        assert!(
+            message.contains("with a slower wall it is less"),
+            "{message}"
+        );
         for name in ["slippery.csv", "off.csv"] {
             let (status, _, message) = judged(&bench, &line(name));
             assert_eq!(status, Some(2), "{name}: {message}");

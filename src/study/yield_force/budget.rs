@@ -119,14 +119,14 @@ impl Budget {
             name: TIME_STEP,
             heading: "time step",
             how: "run 4 minus run 2 (time step doubled)",
-            known_by: "a run at the middle wall speed with twice the time step (--coarse-step)",
+            known_by: "a further run with twice the time step (--coarse-step)",
             value: |budget| budget.time_step,
         },
         BudgetPart {
             name: PREPARATION,
             heading: "preparation",
             how: "run 5 minus run 2 (gravity ramp halved)",
-            known_by: "a run at the middle wall speed with half the gravity ramp (--short-ramp)",
+            known_by: "a further run with half the gravity ramp (--short-ramp)",
             value: |budget| budget.preparation,
         },
         BudgetPart {

@@ -417,6 +417,13 @@ impl<'a> Reader<'a> {
     /// of a part is too large.
     fn doubt_unknown_parts(&mut self, budget: &Budget, reference: f64) {
         let most = MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
+        if self.measurement.method == Method::AtOneSpeed && budget.wall_speed > most {
+            self.doubt(format!(
+                "the part of the wall speed in the uncertainty is {:.1e}, which is too much for one run: with a slower wall it \
+                 is less, and three runs at different speeds need no such part",
+                budget.wall_speed
+            ));
+        }
         for (part, bound) in budget.bounded(&self.measurement.roles) {
             if bound > most {
                 self.doubt(format!(

@@ -11,8 +11,9 @@ use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::study::Campaign;
 use tristack::study::preparation::{
-    Estimator, PreparationStudy, critical_pushes, plan_preparation, study_preparation,
+    PreparationStudy, critical_pushes, plan_preparation, study_preparation,
 };
+use tristack::study::yield_force::Estimator;
 use tristack::theory::{critical_push, pushed_slip_force};
 
 static INTERRUPT: Interrupt = Interrupt::new();

@@ -71,6 +71,9 @@ impl BudgetPart {
                 "change with the wall twice as fast, less what theory expects of it"
             }
             (ROUND_OFF, Method::Literal) => "rounding of each step of the wall",
+            (ROUND_OFF, Method::AtOneSpeed) => {
+                "rounding of each step of the wall, and of all as a random walk"
+            }
             (TIME_STEP, _) if roles.coarse_and_fast.is_some() => {
                 "line through runs 6 and 4 minus line through 1 and 2 (time step doubled)"
             }

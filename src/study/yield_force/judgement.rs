@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
             None => TWO_GRIDS,
         };
         let load = measurement.stack.floor_load(reference);
-        let rounding = STEP_ROUNDING / (paper.wall_speed * paper.time_step) * load;
+        let rounding = step_rounding(paper) * load;
         let printed = self.estimates.iter().filter_map(|run| run.printed);
         let printing = printed.map(|printed| printing_error(&printed, slow));
         let printing = printing.fold(0.0, f64::max);
@@ -370,8 +370,8 @@ impl<'a> Reader<'a> {
 
     /// `found` with bounds in place of the parts of its budget that no run shows. Of the time step it is what two steps of
     /// the wall load: positions and forces are a step late at most. Of the preparation it is how far the starts are from
-    /// rest. What is left of the touch of the wall, which dies away faster than the speed, is not extrapolated away at one
-    /// speed. `None` where nothing is planned.
+    /// rest. At one speed neither what is left of the touch of the wall nor the rounding of its steps is extrapolated away.
+    /// `None` where nothing is planned.
     fn bounded(
         &self,
         mut found: Extrapolation,
@@ -398,6 +398,7 @@ impl<'a> Reader<'a> {
             let age = limit.wall_travel.or(limit.peak_travel)? / protocol.wall_speed;
             let left = left_of_touch(stack, convention, protocol.wall_speed, age);
             budget.wall_speed += amplified * left;
+            budget.round_off += step_rounding(protocol) * stack.floor_load(reference);
         }
         Some(found)
     }
@@ -548,9 +549,12 @@ const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor sli
 /// V&V 20, section 2-4.1; P. J. Roache, J. Fluids Eng. 116, 405 (1994)).
 const TWO_GRIDS: f64 = 3.0;
 
-/// Largest rounding of a coordinate from 2 to 4, which the height of cylinder 1 and of the wall is, in each step. It is much
-/// the same in every step, so that what moves is off by this part of a step of the wall.
-const STEP_ROUNDING: f64 = f64::EPSILON;
+/// Part of the way that a coordinate from 2 to 4, which the height of cylinder 1 and of the wall is, may be off by rounding:
+/// it is much the same in every step.
+fn step_rounding(protocol: &Protocol) -> f64 {
+    const LARGEST: f64 = f64::EPSILON;
+    LARGEST / (protocol.wall_speed * protocol.time_step)
+}
 
 /// A friction measured this close, relatively, to the one asked for is the same: codes cap the force at
 /// μ n itself, some through tan(atan μ), so that only roundings of 1e-16 are between them.

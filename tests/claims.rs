@@ -258,6 +258,7 @@ fn changed(name: &str, value: f64) -> f64 {
         "slope_power" => -1.0,
         "remainder_order_at_transition" => 1.5,
         "breakdown_friction" => 0.7746,
+        "wall_contact_friction" => 0.55,
         // Too little to hold the cylinders together.
         "cylinder_friction" => 0.3,
         // So little that the bottom cylinders stay in contact.

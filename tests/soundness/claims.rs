@@ -29,7 +29,8 @@ fn is_sound(register: &Register) {
         assert!(
             claim
                 .allowed
-                .is_none_or(|allowed| allowed > 0.0 && allowed.is_finite())
+                .as_ref()
+                .is_none_or(|allowed| allowed.size > 0.0 && allowed.size.is_finite())
         );
         assert!(claim.check.is_some() != claim.untestable.is_some());
         if let Some(erratum) = &claim.erratum {
@@ -51,7 +52,7 @@ pub fn seeds() -> Vec<Seed> {
         (format!("claim-{index}"), claim.into_bytes())
     });
     let short = "[[claim]]\nid = 'a'\nplace = 'p'\nstatement = 's'\nkind = 'number'\n";
-    let check = format!("{short}check = 'quintic'\nallowed = 0.1\n");
+    let check = format!("{short}check = 'quintic'\nallowed = {{ size = 0.1, of = 'F', because = 'x' }}\n");
     let untestable = format!("{short}untestable = 'u'\n");
     seeds
         .chain([check, untestable].map(|text| (format!("short-{}", text.len()), text.into_bytes())))

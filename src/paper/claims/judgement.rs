@@ -34,7 +34,10 @@ pub fn judge(
 
 fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) -> ClaimJudgement {
     let (verdict, evidence) = match examine(claim, paper, runs) {
-        Ok(finding) => (finding.verdict(claim.allowed), finding.evidence),
+        Ok(finding) => {
+            let allowed = claim.allowed.as_ref().map(|allowed| allowed.size);
+            (finding.verdict(allowed), finding.evidence)
+        }
         Err(reason) => (ClaimVerdict::Untestable, reason),
     };
     ClaimJudgement {

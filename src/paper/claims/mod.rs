@@ -21,4 +21,4 @@ pub use finding::ClaimVerdict;
 pub use judgement::{ClaimJudgement, judge};
 pub(crate) use notation::{list, number, powers_in_tex, scientific, values};
 pub use printed::PaperTheory;
-pub use register::{Claim, ClaimKind, Erratum, Register, RegisterError};
+pub use register::{Allowance, Claim, ClaimKind, Erratum, Register, RegisterError};

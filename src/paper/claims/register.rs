@@ -68,6 +68,18 @@ impl Erratum {
     }
 }
 
+/// A deviation that the words of a claim allow.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Allowance {
+    /// The largest one, in the check's own measure.
+    pub size: f64,
+    /// What it is a part of, or counted in.
+    pub of: String,
+    /// Why the words allow as much.
+    pub because: String,
+}
+
 /// One claim.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -85,8 +97,8 @@ pub struct Claim {
     pub kind: ClaimKind,
     /// The check that tests it.
     pub check: Option<String>,
-    /// The deviation that the words of the claim allow, in the check's own measure.
-    pub allowed: Option<f64>,
+    /// The deviation that the words of the claim allow.
+    pub allowed: Option<Allowance>,
     /// The reason why it cannot be tested.
     pub untestable: Option<String>,
     /// Anchors of the figures and tables of the report with its numbers, such as `figure-scaling`.
@@ -168,9 +180,9 @@ impl Claim {
                 return Err(invalid("check", value, accepted));
             }
         }
-        let allowed = self.allowed.unwrap_or(1.0);
+        let allowed = self.allowed.as_ref().map_or(1.0, |allowed| allowed.size);
         if !(allowed.is_finite() && allowed > 0.0) {
-            return Err(invalid("allowed", allowed, "a number above 0"));
+            return Err(invalid("allowed.size", allowed, "a number above 0"));
         }
         self.validate_erratum()
     }
@@ -217,7 +229,8 @@ mod tests {
         );
         assert!(error("").contains("`check` is absent"));
         assert!(error("verdict = 'holds'").contains("unknown field `verdict`"));
-        assert!(error("untestable = 'x'\nallowed = -1").contains("`allowed` is -1"));
+        let allowed = "untestable = 'x'\nallowed = { size = -1, of = 'x', because = 'y' }";
+        assert!(error(allowed).contains("`allowed.size` is -1"));
         let message =
             error("check = 'quintic'\n[claim.erratum]\ntext = 't'\nset = { nothing = 1 }");
         assert!(message.contains("`erratum.set` is nothing"), "{message}");

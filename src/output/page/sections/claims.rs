@@ -5,7 +5,7 @@ use super::super::document::{
 };
 use crate::output::DataTable;
 use crate::output::table::Columns;
-use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
+use crate::paper::claims::{Allowance, ClaimJudgement, ClaimVerdict};
 
 /// The verdicts in the order of the page.
 const VERDICTS: [ClaimVerdict; 4] = [
@@ -133,17 +133,18 @@ fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
 
 /// The evidence, what the words of an approximate claim are taken to allow, and a full stop before its sources.
 fn evidence(own: &ClaimJudgement) -> String {
-    let allowed = own
-        .claim
-        .allowed
-        .filter(|_| own.verdict == ClaimVerdict::Approximately);
+    let allowed = own.claim.allowed.as_ref();
+    let allowed = allowed.filter(|_| own.verdict == ClaimVerdict::Approximately);
     let is_last = own.claim.see.is_empty() && allowed.is_none();
     let stop = if is_last || ends_a_sentence(&own.evidence) {
         ""
     } else {
         "."
     };
-    let allowed = allowed.map(|allowed| format!(" Taken as allowed by its words: {allowed}."));
+    let allowed = allowed.map(|allowed| {
+        let Allowance { size, of, because } = allowed;
+        format!(" Allowed: {size} of {of}; {because}.")
+    });
     format!("{}{stop}{}", own.evidence, allowed.unwrap_or_default())
 }
 
@@ -195,8 +196,18 @@ fn claims_of(claims: Vec<Numbered>) -> DataTable {
     .means("`holds`, `approximately`, `fails` or `untestable`")
     .shown("verdict")
     .cell(|(_, own)| in_words(own.verdict).to_owned())
-    .number("allowed", "1", |(_, own)| own.claim.allowed)
-    .means("largest deviation, relative or in decades, with which it holds approximately; absent where its words allow none")
+    .number("allowed", "1", |(_, own)| {
+        Some(own.claim.allowed.as_ref()?.size)
+    })
+    .means("largest deviation with which it holds approximately; absent where its words allow none")
+    .text("allowed_of", |(_, own)| {
+        Some(own.claim.allowed.as_ref()?.of.clone())
+    })
+    .means("what that is a part of, or counted in")
+    .text("allowed_because", |(_, own)| {
+        Some(own.claim.allowed.as_ref()?.because.clone())
+    })
+    .means("why its words allow as much")
     .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")

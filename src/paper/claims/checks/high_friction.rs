@@ -40,33 +40,36 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Finding::exceptions(stacks.len() - right, evidence)
     }),
-    // Whether a stack with μ ≥ 0.8 withstands any force.
+    // Whether the bottom cylinders of a stack with μ ≥ 0.8 move inwards until they touch, y < 0.
     Check::theory("non-destructive", |paper| {
         let frictions = [0.8, 0.9];
         let stacks = pairs(frictions, PAPER_STIFFNESSES);
         let stacks: Vec<Stack> = stacks
             .map(|(mu, stiffness)| stack(paper, mu, stiffness))
             .collect();
+        let [written, turned] = [HistoryUpdate::Fixed, HistoryUpdate::Rotated].map(|rule| {
+            let outcomes = stacks
+                .iter()
+                .filter_map(|stack| LoadingOutcome::of(stack, rule));
+            let ends: Vec<Event> = outcomes.map(|outcome| outcome.first.event).collect();
+            [Event::ContactCloses, Event::WallContact]
+                .map(|event| ends.iter().filter(|&&end| end == event).count())
+        });
         let all = stacks.len();
-        let ends: Vec<_> = stacks
-            .into_iter()
-            .filter_map(|stack| LoadingOutcome::of(&stack, HistoryUpdate::Fixed))
-            .collect();
-        let ends = ends.iter().map(|outcome| outcome.first.event);
-        let count = |events: &[Event]| ends.clone().filter(|end| events.contains(end)).count();
-        let wall = count(&[Event::WallContact]);
-        let slips = count(&[Event::FloorSlip, Event::CylinderSlip]);
+        let ([inward, wall], [inward_turned, wall_turned]) = (written, turned);
         let evidence = format!(
-            "exact path of equilibria with {}, $\\mu_d = {}$, {}: in {wall} of {all} stacks the top wall reaches the bottom \
-             cylinders first, in {slips} a contact slips first; none is left standing by $y < 0$, which is not reached",
+            "exact path of equilibria with {}, $\\mu_d = {}$, {}: in {inward} of {all} stacks the bottom cylinders move inwards \
+             to $y < 0$ ({inward_turned} with a spring that turns). What keeps them from yielding is that the top wall reaches \
+             the bottom cylinders first, in {wall} ({wall_turned})",
             values(FRICTION, &frictions),
             number(paper.cylinder_friction),
             range(STIFFNESS, &PAPER_STIFFNESSES)
         );
-        Finding::exceptions(all - wall, evidence)
+        Finding::exceptions(all - inward, evidence)
     }),
     Check::theory("wall-contact", |paper| {
-        let closed = wall_contact_friction(paper, paper.lowest_stiffness);
+        let at = |stiffness| wall_contact_friction(paper, stiffness, HistoryUpdate::Fixed);
+        let closed = at(paper.lowest_stiffness);
         let side = |mu: f64| {
             followed_limit(
                 &stack(paper, mu, paper.lowest_stiffness),
@@ -80,15 +83,19 @@ pub(crate) const CHECKS: &[Check] = &[
         let stiffer = [1e3, 1e4];
         let evidence = format!(
             "exact quasi-static limit at {}: from $\\mu = {closed:.5}$ on the top wall reaches cylinder 2 before the floor \
-             slips ({}confirmed by the path follower at $\\mu \\pm {}$); from {} on at {}",
+             slips ({}confirmed by the path follower at $\\mu \\pm {}$); from {} on at {}. With a spring that turns from {} on at {}",
             values(STIFFNESS, &[paper.lowest_stiffness]),
             if confirmed { "" } else { "not " },
             number(distance),
+            fixed(stiffer.map(at), 5),
+            values(STIFFNESS, &stiffer),
             fixed(
-                stiffer.map(|stiffness| wall_contact_friction(paper, stiffness)),
+                PAPER_STIFFNESSES.map(|stiffness| {
+                    wall_contact_friction(paper, stiffness, HistoryUpdate::Rotated)
+                }),
                 5
             ),
-            values(STIFFNESS, &stiffer)
+            values(STIFFNESS, &PAPER_STIFFNESSES)
         );
         let deviation = confirmed.then_some((closed - paper.wall_contact_friction).abs());
         Finding::new(deviation.unwrap_or(f64::NAN), 0.005, evidence)
@@ -155,9 +162,9 @@ fn last_outward(paper: &PaperTheory, stiffness: f64) -> f64 {
 }
 
 /// The floor friction above which the wall reaches cylinder 2 before the floor slips.
-fn wall_contact_friction(paper: &PaperTheory, stiffness: f64) -> f64 {
+fn wall_contact_friction(paper: &PaperTheory, stiffness: f64, rule: HistoryUpdate) -> f64 {
     let base = stack(paper, 0.3, stiffness);
-    let path = EquilibriumPath::new(&base, HistoryUpdate::Fixed);
+    let path = EquilibriumPath::new(&base, rule);
     let mut boundaries = Boundary::in_friction(&path, &base).into_iter();
     let wall = boundaries.find(|boundary| boundary.above == Event::WallContact);
     wall.map_or(f64::NAN, |boundary| boundary.floor_friction)

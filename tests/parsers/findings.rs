@@ -71,7 +71,8 @@ fn infinite_numbers_in_the_register_of_claims_are_refused() {
             format!("[[claim]]\nid = 'a'\nplace = 'p'\nstatement = 's'\nkind = 'number'\n{change}");
         Register::from_toml(&text, "my.toml").map_err(|error| error.to_string())
     };
-    let message = claim("check = 'quintic'\nallowed = { size = inf, of = 'F', because = 'x' }").unwrap_err();
+    let message =
+        claim("check = 'quintic'\nallowed = { size = inf, of = 'F', because = 'x' }").unwrap_err();
     assert!(message.contains("`allowed.size` is inf"), "{message}");
     for value in ["inf", "-inf", "nan"] {
         let set = format!("[claim.erratum]\ntext = 't'\nset = {{ stack_weights = {value} }}");

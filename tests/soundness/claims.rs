@@ -52,7 +52,8 @@ pub fn seeds() -> Vec<Seed> {
         (format!("claim-{index}"), claim.into_bytes())
     });
     let short = "[[claim]]\nid = 'a'\nplace = 'p'\nstatement = 's'\nkind = 'number'\n";
-    let check = format!("{short}check = 'quintic'\nallowed = {{ size = 0.1, of = 'F', because = 'x' }}\n");
+    let check =
+        format!("{short}check = 'quintic'\nallowed = {{ size = 0.1, of = 'F', because = 'x' }}\n");
     let untestable = format!("{short}untestable = 'u'\n");
     seeds
         .chain([check, untestable].map(|text| (format!("short-{}", text.len()), text.into_bytes())))

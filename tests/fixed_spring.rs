@@ -4,7 +4,7 @@
 #[path = "fixed_spring/march.rs"]
 mod march;
 
-use march::{Bodies, State, extrapolated};
+use march::{Bodies, State, extrapolated, secant};
 use tristack::model::{
     Arms, ContactArms, ContactConvention, HistoryUpdate, Law, Power, Stack, TangentialHistory,
 };
@@ -253,6 +253,47 @@ fn onset_and_peak_are_those_of_the_bodies_where_the_bottom_is_closed() {
         let apart = own.apart(force, peak);
         println!("{own:?}: peak {force} {peak} {apart:e}");
         assert!(apart < 1e-8, "{own:?}: peak {force} {peak} {apart:e}");
+    }
+}
+
+/// With contact 2–3 closed a stack can slide under its own weight and stand: here from the start, and from about half its weight
+/// on.
+#[test]
+fn peak_is_that_of_the_bodies_where_they_slide_under_their_own_weight() {
+    let soft = Problem {
+        stiffness: 20.0,
+        kappa: 0.3,
+        ..PLAIN
+    };
+    for (own, slides_from_the_start) in [
+        (Problem { mu: 0.12, ..soft }, true),
+        (Problem { mu: 0.1325, ..soft }, false),
+    ] {
+        let limit = own.limit();
+        assert_eq!(limit.event, Event::ContactCloses, "{own:?}");
+        assert_eq!(limit.slip_onset, None, "{own:?}");
+        let peak = limit.peak_force.unwrap();
+        let sticking = Bodies::new(own, true, false);
+        let sliding = Bodies::new(own, true, true);
+        let lightest = sticking.loaded(1e-6, 16);
+        assert_eq!(
+            sticking.floor_excess(&lightest) > 0.0,
+            slides_from_the_start
+        );
+        let settled = |steps| match slides_from_the_start {
+            true => sliding.settled(steps),
+            false => {
+                let excess = |part: f64| sticking.floor_excess(&sticking.loaded(part, steps));
+                let part = secant([0.4, 0.5], excess);
+                assert!(part > 0.1 && part < 0.9, "{own:?}: {part}");
+                sliding.heavier(&sticking.loaded(part, steps), part, steps)
+            }
+        };
+        let highest = |steps| highest(&sliding, &settled(steps), steps) * own.stiffness;
+        let force = extrapolated(highest, 16);
+        let apart = own.apart(force, peak);
+        println!("{own:?}: peak {force} {peak} {apart:e}");
+        assert!(apart < 1e-11, "{own:?}: peak {force} {peak} {apart:e}");
     }
 }
 

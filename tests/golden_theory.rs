@@ -4,7 +4,10 @@
 use serde::Deserialize;
 use std::path::Path;
 use std::process::Command;
-use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
+use tristack::model::{
+    Arms, ContactArms, ContactConvention, DampingGrowth, Law, Power, Stack, TangentialHistory,
+    TangentialStiffening,
+};
 use tristack::theory::{
     Event, LimitCurve, Predictions, closed_form_limit, followed_limit, rigid_yield,
 };
@@ -280,7 +283,7 @@ fn rigid_disks_of_another_kind_of_solver_slide_at_the_rigid_limit() {
     assert_eq!(String::from_utf8_lossy(&anew.stdout), recorded);
 }
 
-/// What a wall speed adds, by bodies in the plane whose springs are displacements and whose derivatives are differences
+/// What a wall speed adds, by bodies in the plane all of whose derivatives are differences
 /// (reference/witness/first_order.py). Such differences over 1e-6 are rounded to 1e-10 of k_n r; at the stiffness 10⁴ that
 /// is 1e-6 of a weight, and as much of the lag, which the onset follows alone.
 #[test]
@@ -295,6 +298,11 @@ fn a_wall_speed_adds_what_the_balances_of_the_bodies_say() {
         pair_kinematic_arm: f64,
         floor_torque_arm: f64,
         floor_kinematic_arm: f64,
+        power: Power,
+        floor_ratio: f64,
+        history: TangentialHistory,
+        tangential_stiffening: TangentialStiffening,
+        damping: DampingGrowth,
         force: f64,
         onset_per_speed: f64,
         peak_per_speed: f64,
@@ -305,7 +313,7 @@ fn a_wall_speed_adds_what_the_balances_of_the_bodies_say() {
         .deserialize()
         .map(|row| row.expect("a row"))
         .collect();
-    assert_eq!(rows.len(), 14);
+    assert_eq!(rows.len(), 20);
     let mut worst = [Worst::default(), Worst::default(), Worst::default()];
     for row in rows {
         let stack = Stack {
@@ -322,8 +330,17 @@ fn a_wall_speed_adds_what_the_balances_of_the_bodies_say() {
                 kinematic: row.floor_kinematic_arm,
             },
         };
+        let law = Law {
+            power: row.power,
+            floor_ratio: row.floor_ratio,
+            history: row.history,
+            tangential_stiffening: row.tangential_stiffening,
+            damping: row.damping,
+            ..Law::LINEAR
+        };
         let convention = ContactConvention {
             arms,
+            law,
             ..match row.spring.as_str() {
                 "fixed" => ContactConvention::PAPER,
                 _ => ContactConvention::TURNING,

@@ -192,13 +192,18 @@ impl Bodies {
         panic!("no balance: {:?} {drive:?}", self.own);
     }
 
-    /// The stack at full weight, in steps that are even in the fourth root of the lengths.
+    /// The stack at full weight.
     pub fn settled(&self, steps: usize) -> State {
+        self.loaded(1.0, steps)
+    }
+
+    /// The stack at this part of its weight, in steps that are even in the fourth root of the lengths.
+    pub fn loaded(&self, full: f64, steps: usize) -> State {
         let mut old = Self::at_rest_without_weight();
         let power = self.own.power.value();
         for step in 1..=steps {
             let part = (step as f64 / steps as f64).powi(4);
-            let weight = self.own.weight() * part.powf(power);
+            let weight = self.own.weight() * full * part.powf(power);
             let guess = match step {
                 1 => {
                     let depth = (1.5 * weight).powf(power.recip());
@@ -211,16 +216,37 @@ impl Bodies {
         old
     }
 
-    /// The state at the second force of the wall, in even steps of the logarithm of the load.
+    /// The state at the second force of the wall.
     pub fn pressed(&self, start: &State, [from, to]: [f64; 2], steps: usize) -> State {
         let weight = self.own.weight();
+        self.driven(start, [1.0 + from, 1.0 + to], steps, |load| Drive::Loads {
+            weight,
+            wall: weight * (load - 1.0),
+        })
+    }
+
+    /// The stack at full weight, from the state at this part of it on.
+    pub fn heavier(&self, start: &State, from: f64, steps: usize) -> State {
+        let weight = self.own.weight();
+        self.driven(start, [from, 1.0], steps, |load| Drive::Loads {
+            weight: weight * load,
+            wall: 0.0,
+        })
+    }
+
+    /// The state at the second load, in even steps of its logarithm.
+    fn driven(
+        &self,
+        start: &State,
+        [from, to]: [f64; 2],
+        steps: usize,
+        drive: impl Fn(f64) -> Drive,
+    ) -> State {
         let [mut before, mut old] = [*start; 2];
         for step in 1..=steps {
-            let part = step as f64 / steps as f64;
-            let load = weight * (1.0 + from) * ((1.0 + to) / (1.0 + from)).powf(part);
-            let wall = load - weight;
+            let load = from * (to / from).powf(step as f64 / steps as f64);
             let guess = 2.0 * old.unknowns - before.unknowns;
-            let next = self.step(&old, guess, Drive::Loads { weight, wall });
+            let next = self.step(&old, guess, drive(load));
             before = std::mem::replace(&mut old, next);
         }
         old
@@ -249,18 +275,10 @@ impl Bodies {
         value: impl Fn(&State) -> f64,
     ) -> (f64, State) {
         let at = |force: f64| self.pressed(start, [from, force], steps);
-        let [mut force, mut next] = [near, near + 1e-4 * (near + 1.0)];
-        let mut old_value = value(&at(force));
-        for _ in 0..30 {
-            let next_value = value(&at(next));
-            let change = next_value * (next - force) / (next_value - old_value);
-            (force, old_value) = (next, next_value);
-            next -= change;
-            if change.abs() < 1e-12 * (next + 1.0) {
-                break;
-            }
-        }
-        (next, at(next))
+        let force = secant([near, near + 1e-4 * (near + 1.0)], |force| {
+            value(&at(force))
+        });
+        (force, at(force))
     }
 
     /// e/d − μ.
@@ -274,6 +292,21 @@ impl Bodies {
         let forces = self.forces(state);
         forces.spring.norm() / forces.normal - self.own.mu_d
     }
+}
+
+/// Where `value` vanishes, by secants from two places.
+pub fn secant([mut old, mut next]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
+    let mut old_value = value(old);
+    for _ in 0..30 {
+        let next_value = value(next);
+        let change = next_value * (next - old) / (next_value - old_value);
+        (old, old_value) = (next, next_value);
+        next -= change;
+        if change.abs() < 1e-12 * (next + 1.0) {
+            break;
+        }
+    }
+    next
 }
 
 /// What values in n, 2n, 4n and 8n steps, with errors of the second and fourth order, come to without an error.

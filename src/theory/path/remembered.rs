@@ -73,10 +73,7 @@ impl<'a> RememberedBranch<'a> {
         let (start, settled) = if slip >= settled {
             (path.state(slip), path.point(settled))
         } else {
-            let start = match slip > 0.0 {
-                true => path.state(slip),
-                false => slid_from_the_start(contacts, stack, convention)?,
-            };
+            let start = at_slip(path, stack, convention, slip)?;
             let rest = slid_under_own_weight(contacts, stack, start)?;
             (rest, contacts.point(&rest, Leg::Wall))
         };
@@ -157,6 +154,19 @@ impl<'a> RememberedBranch<'a> {
     }
 }
 
+/// The state in which the floor begins to slide at the parameter `slip` of the `path`, before gravity is complete.
+fn at_slip(
+    path: &FollowedPath,
+    stack: &Stack,
+    convention: &ContactConvention,
+    slip: f64,
+) -> Option<State> {
+    match slip > 0.0 {
+        true => Some(path.state(slip)),
+        false => slid_from_the_start(&path.contacts, stack, convention),
+    }
+}
+
 /// The state at a small load of a stack whose floor slides from the start, where no spring has been left behind yet: there
 /// all springs are alike.
 fn slid_from_the_start(
@@ -182,11 +192,10 @@ pub(in crate::theory) fn remembered_overlap_at_rest(
     slip: f64,
 ) -> Option<f64> {
     let contacts = &path.contacts;
-    let rest = match (slip > 0.0, slip >= path.settled()) {
-        (_, true) => path.state(path.settled()),
-        (true, _) => slid_until(contacts, stack, path.state(slip), |_| true)?,
-        (false, _) => {
-            let start = slid_from_the_start(contacts, stack, convention)?;
+    let rest = match slip >= path.settled() {
+        true => path.state(path.settled()),
+        false => {
+            let start = at_slip(path, stack, convention, slip)?;
             slid_until(contacts, stack, start, |_| true)?
         }
     };

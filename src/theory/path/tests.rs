@@ -2,7 +2,7 @@
 
 use super::super::regimes::CLOSING_STIFFNESS_RATIO;
 use super::*;
-use crate::model::Arms;
+use crate::model::{Arms, Law, TangentialHistory};
 
 fn path(stiffness: f64, stiffness_ratio: f64, bottom: BottomContact) -> FollowedPath {
     let stack = Stack {
@@ -86,4 +86,27 @@ fn a_contact_that_opens_within_round_off_of_the_start_is_open_from_there_on() {
     for path in closed {
         assert!(path.knots[1..].iter().all(|knot| !knot.closed));
     }
+}
+
+/// At rest the contact 1–2 carries about half a weight w: with N = δ^(3/2) its stiffness is 3/2 (w/2)^(1/3).
+#[test]
+fn a_stack_of_soft_contacts_says_that_it_is_slow() {
+    let stack = Stack::paper(0.3, 1e4);
+    let of = |law: Law| {
+        let convention = ContactConvention {
+            law,
+            ..ContactConvention::PAPER
+        };
+        let limit = followed_limit(&stack, &convention);
+        (limit.time_scale, limit.needs_slow_ramp)
+    };
+    assert_eq!(of(Law::LINEAR), (1.0, false));
+    let remembering = Law {
+        history: TangentialHistory::Force,
+        ..Law::HERTZ
+    };
+    let (time_scale, needs_slow_ramp) = of(remembering);
+    let expected = (1.5 * libm::cbrt(0.5e-4)).sqrt().recip();
+    assert!((time_scale / expected - 1.0).abs() < 1e-14, "{time_scale}");
+    assert!(needs_slow_ramp);
 }

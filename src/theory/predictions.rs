@@ -115,3 +115,34 @@ impl Predictions {
         Some(self.quasistatic.peak_force? + moving.excess?.peak * moving.speed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moving_wall_adds_its_speed_times_the_excess() {
+        let still = Predictions::new(&Stack::paper(0.2, 1e4), &ContactConvention::TURNING);
+        assert_eq!(still.moving_peak(), None);
+        // Limit and coefficient by runs at two speeds.
+        let expected = 4.880_027_89 + 41_762.7 * 1e-6;
+        let moving = still.at_speed(1e-6).moving_peak().unwrap();
+        assert!((moving - expected).abs() < 1e-7, "{moving}");
+    }
+
+    #[test]
+    fn each_of_several_stacks_has_its_own_predictions() {
+        let stacks = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e3)];
+        let stacks = stacks.map(|(friction, stiffness)| Stack::paper(friction, stiffness));
+        let convention = ContactConvention::PAPER;
+        let each: Vec<Predictions> = Predictions::of_each(&stacks, &convention).collect();
+        assert_eq!(each.len(), stacks.len());
+        for (own, stack) in each.iter().zip(&stacks) {
+            let alone = Predictions::new(stack, &convention);
+            assert_eq!(own.stack, *stack);
+            assert_eq!(own.perturbation, alone.perturbation);
+            let [own, alone] = [own, &alone].map(|one| one.quasistatic.yield_force.unwrap());
+            assert!((own / alone - 1.0).abs() < 1e-12, "{own} {alone}");
+        }
+    }
+}

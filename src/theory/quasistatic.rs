@@ -83,7 +83,40 @@ pub fn closed_form_limit(stack: &Stack) -> Limit {
 
 #[cfg(test)]
 mod tests {
+    use super::super::events::{Event, locate, locate_until};
     use super::*;
+
+    #[test]
+    fn centres_are_where_the_overlaps_leave_them() {
+        let path = ClosedForm::whole(&Stack::paper(0.3, 1e2));
+        let point = path.point(0.2);
+        let [right, top, bottom] = point.positions(&path.ring);
+        assert_eq!(bottom, 1.0 - point.floor_overlap);
+        let distance = 2.0 - point.pair_overlap;
+        assert!((libm::hypot(right, top - bottom) - distance).abs() < 1e-14);
+        // T = tan(ψ/2) with the angle ψ of the line of centres to the vertical.
+        let sine = 2.0 * point.tangent / (1.0 + point.tangent * point.tangent);
+        assert!((right - distance * sine).abs() < 1e-14);
+    }
+
+    #[test]
+    fn nothing_is_looked_for_beyond_the_stretch_of_the_end() {
+        let stack = Stack::paper(0.3, 1e2);
+        let path = ClosedForm::whole(&stack);
+        let slip = locate(&path, Event::FloorSlip, &stack).unwrap();
+        let until = |end| locate_until(&path, [Event::FloorSlip, Event::None], &stack, end);
+        assert_eq!(until(0.5 * slip), [None; 2]);
+        assert_eq!(until(2.0 * slip), [Some(slip), None]);
+    }
+
+    #[test]
+    fn a_path_ends_where_the_angle_is_right_even_if_gravity_is_not_complete() {
+        let path = ClosedForm::whole(&Stack::paper(0.3, 0.05));
+        let widest = HIGHEST_TANGENT - path.curve.start;
+        assert_eq!(path.stations().last(), Some(&widest));
+        assert_eq!(path.settled(), widest);
+        assert_eq!(path.point(widest).wall_force, 0.0);
+    }
 
     #[test]
     fn bottom_cylinders_part_only_above_a_stiffness_ratio() {

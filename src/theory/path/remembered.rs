@@ -110,8 +110,7 @@ impl<'a> RememberedBranch<'a> {
             let point = self.contacts.point(state, Leg::Wall);
             point.margin(Event::CylinderSlip, self.stack) < 0.0
         };
-        let mut before = self.knots.iter().filter(|(direction, _)| *direction < peak);
-        match before.any(slips) {
+        match self.before(peak).any(slips) {
             true => SlidingEnd::Other(Event::CylinderSlip),
             false => end,
         }
@@ -127,11 +126,19 @@ impl<'a> RememberedBranch<'a> {
         end_of_branch(|direction| self.point(direction), start, self.stack).1
     }
 
+    /// The kept states from the onset to that at u = `direction`, without it.
+    fn before(&self, direction: f64) -> impl Iterator<Item = &(f64, State)> {
+        let (start, _) = self.knots[0];
+        let whole = (direction - start).abs();
+        let knots = self.knots.iter();
+        knots.take_while(move |(at, _)| (at - start).abs() < whole)
+    }
+
     /// What is left of cylinder friction, or of the way of the wall, whichever is less, up to the largest load.
     pub(in crate::theory) fn margin(&self) -> f64 {
         let peak = self.peak_direction();
-        let before = self.knots.iter().filter(|(direction, _)| *direction < peak);
-        let points = before.map(|(_, state)| self.contacts.point(state, Leg::Wall));
+        let points = self.before(peak);
+        let points = points.map(|(_, state)| self.contacts.point(state, Leg::Wall));
         let points = points.chain([self.point(peak)]);
         let margins = points.flat_map(|point| {
             [Event::CylinderSlip, Event::WallContact].map(|event| point.margin(event, self.stack))
@@ -228,4 +235,45 @@ fn slid_until(
         let next = sliding.advance(state, [place(index), place(index + 1)])?;
         goes_on(&next).then_some(next)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::events::locate;
+    use super::super::{BottomContact, followed_path};
+    use super::*;
+
+    /// How the branch of the paper's stack with these ratio of stiffnesses, stiffness and frictions ends, and its largest load.
+    fn branch(
+        [stiffness_ratio, stiffness, floor, cylinders]: [f64; 4],
+    ) -> (SlidingEnd, PathPoint, PathPoint) {
+        let stack = Stack {
+            stiffness_ratio,
+            cylinder_friction: cylinders,
+            ..Stack::paper(floor, stiffness)
+        };
+        let convention = ContactConvention::PAPER;
+        let path = followed_path(&stack, &convention, BottomContact::Followed);
+        let slip = locate(&path, Event::FloorSlip, &stack).unwrap();
+        let branch = RememberedBranch::new(&path, &stack, &convention, slip).unwrap();
+        (branch.end(), branch.peak(), branch.point(OPENING))
+    }
+
+    #[test]
+    fn cylinders_that_slip_before_the_peak_end_the_branch() {
+        // Their contact needs 0.6147 at the onset and 0.5561 at the peak, where the wall has reached cylinder 2.
+        let (end, peak, opening) = branch([0.05, 20.0, 0.5, 0.62]);
+        assert_eq!(end, SlidingEnd::Other(Event::WallContact));
+        assert!(peak.floor_force > 1.001 * opening.floor_force);
+        let (end, same, _) = branch([0.05, 20.0, 0.5, 0.58]);
+        assert_eq!(end, SlidingEnd::Other(Event::CylinderSlip));
+        assert_eq!(same, peak);
+    }
+
+    #[test]
+    fn what_comes_after_a_peak_at_the_onset_does_not_end_the_branch() {
+        // 0.3850 at the onset, which is the peak, and 0.3928 later, while the load falls.
+        let (end, peak, _) = branch([1.0, 1e3, 0.4, 0.39]);
+        assert_eq!(end, SlidingEnd::Peak(peak));
+    }
 }

@@ -7,7 +7,7 @@ use super::real::{Composite, Real};
 /// Memory and force of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactState<R: Real, Memory, G: Geometry<R> = Plane> {
-    memory: Memory,
+    pub(super) memory: Memory,
     pub(super) force: ContactForce<R, G>,
     /// Whether any lane has touched since the last reset.
     loaded: bool,

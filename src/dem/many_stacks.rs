@@ -164,14 +164,38 @@ impl LaneWidth {
     ///
     /// [`compress_stack`]: super::compress_stack
     pub fn compress_stacks(self, queue: &mut impl RunQueue) {
+        self.with_number(Compression(queue));
+    }
+
+    /// Does `work` with numbers of so many lanes.
+    pub(super) fn with_number<Work: OnNumber>(self, work: Work) -> Work::Outcome {
         match self.0 {
-            Instructions::One => compress(0.0, queue),
-            Instructions::Two => compress(Pair::splat(0.0), queue),
+            Instructions::One => work.on(0.0),
+            Instructions::Two => work.on(Pair::splat(0.0)),
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2(simd) => compress(Lanes::splat(simd, 0.0), queue),
+            Instructions::Avx2(simd) => work.on(Lanes::splat(simd, 0.0)),
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512(simd) => compress(Lanes::splat(simd, 0.0), queue),
+            Instructions::Avx512(simd) => work.on(Lanes::splat(simd, 0.0)),
         }
+    }
+}
+
+/// Work with numbers of any number of lanes.
+pub(super) trait OnNumber {
+    /// The result.
+    type Outcome;
+
+    /// Does the work with numbers like `number`.
+    fn on<R: Real>(self, number: R) -> Self::Outcome;
+}
+
+struct Compression<'a, Queue>(&'a mut Queue);
+
+impl<Queue: RunQueue> OnNumber for Compression<'_, Queue> {
+    type Outcome = ();
+
+    fn on<R: Real>(self, number: R) {
+        compress(number, self.0);
     }
 }
 

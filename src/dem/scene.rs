@@ -247,6 +247,16 @@ where
         &self.pair_contacts[first][second].force
     }
 
+    /// What the contact of two cylinders remembers, the one with the higher index first.
+    pub(super) fn pair_memory(&mut self, first: usize, second: usize) -> &mut Model::Memory {
+        &mut self.pair_contacts[first][second].memory
+    }
+
+    /// What the contact of a wall with a cylinder remembers.
+    pub(super) fn wall_memory(&mut self, wall: usize, cylinder: usize) -> &mut Model::Memory {
+        &mut self.wall_contacts[wall][cylinder].memory
+    }
+
     /// Evaluates every contact at the present positions and advances the tangential springs to them.
     #[inline(always)]
     pub fn evaluate_forces(&mut self) {

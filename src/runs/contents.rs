@@ -7,7 +7,7 @@ use super::probe_record::probe_address;
 use super::store::{EntryKind, StoredEntry};
 use super::{ScheduledTask, StoreError, entries, in_parallel};
 use crate::code::{Code, Identity, InstalledCode, Provenance};
-use crate::dem::EventRun;
+use crate::dem::{EventRun, PublishedRun};
 use crate::files::{FileError, parse_json, read_sealed};
 use crate::model::Case;
 use crate::runs::Sharing;
@@ -50,6 +50,8 @@ pub enum StoredTask {
     MicroTests,
     /// An event run.
     Event(EventRun),
+    /// A run of the authors' program.
+    Published(PublishedRun),
     /// An impact.
     Impact(ImpactRun),
 }
@@ -60,6 +62,7 @@ impl fmt::Display for StoredTask {
             Self::Case(case) => write!(formatter, "{case}"),
             Self::MicroTests => formatter.write_str("micro-tests"),
             Self::Event(run) => write!(formatter, "{run}"),
+            Self::Published(run) => write!(formatter, "{run}"),
             Self::Impact(run) => write!(formatter, "{run}"),
         }
     }
@@ -72,6 +75,7 @@ impl StoredTask {
             Self::Case(case) => ScheduledTask::address(case, code),
             Self::MicroTests => probe_address(code),
             Self::Event(run) => run.address(),
+            Self::Published(run) => run.address(),
             Self::Impact(run) => ScheduledTask::address(run, code),
         }
     }
@@ -127,8 +131,12 @@ fn origin(entry: &StoredEntry) -> Result<Origin, FileError> {
             Ok(Origin::made(provenance, StoredTask::MicroTests))
         }
         EntryKind::Observation => {
-            let run = observed_run(&text()?, path)?;
-            Ok(Origin::of_native(Some(StoredTask::Event(run))))
+            let text = text()?;
+            let task = match observed_run(&text, path) {
+                Ok(run) => StoredTask::Published(run),
+                Err(_) => StoredTask::Event(observed_run(&text, path)?),
+            };
+            Ok(Origin::of_native(Some(task)))
         }
         EntryKind::Impact => {
             let (run, Identity { code, version, .. }) = read_impact(&text()?, path)?;

@@ -1,30 +1,92 @@
-//! Event runs in the schedule.
+//! Native runs of which only what was observed is kept: event runs, and those of the authors' program.
 
 use super::{Kind, Progress, Reading, Recorded, RecordedError, ScheduledTask, Store};
-use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext, observe};
-use crate::dem::{EventRun, Observation};
+use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext, observe, repeat};
+use crate::dem::{EventRun, Observation, PublishedForces, PublishedRun};
 use crate::files::{FileError, parse_json};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 use std::path::Path;
 
-/// An event run with its observation, as it is kept.
+/// A native run that is observed; the text of its [`Display`] names it in messages.
+pub trait ObservedRun:
+    Copy + Display + PartialEq + Serialize + DeserializeOwned + Send + Sync + 'static
+{
+    /// What is kept of it.
+    type Observation: Clone + Serialize + DeserializeOwned + Send;
+
+    /// Duration of a step in seconds.
+    const SECONDS_PER_STEP: f64;
+
+    /// Content address: everything that decides the observation.
+    fn address(&self) -> String;
+
+    /// The most steps that it takes.
+    fn largest_steps(&self) -> u64;
+
+    /// Carries out `runs`.
+    fn observe(runs: &[Self], context: &RunContext, finished: Finished<Self::Observation>);
+}
+
+impl ObservedRun for EventRun {
+    type Observation = Observation;
+
+    /// A single stack, without vectors.
+    const SECONDS_PER_STEP: f64 = 5e-8;
+
+    fn address(&self) -> String {
+        self.address()
+    }
+
+    fn largest_steps(&self) -> u64 {
+        self.largest_steps() as u64
+    }
+
+    fn observe(runs: &[Self], context: &RunContext, finished: Finished<Observation>) {
+        for (index, run) in runs.iter().enumerate() {
+            finished(index, observe(run, context).map_err(|failure| *failure));
+        }
+    }
+}
+
+impl ObservedRun for PublishedRun {
+    type Observation = PublishedForces;
+
+    /// In lanes.
+    const SECONDS_PER_STEP: f64 = 2e-8;
+
+    fn address(&self) -> String {
+        self.address()
+    }
+
+    fn largest_steps(&self) -> u64 {
+        self.largest_steps()
+    }
+
+    fn observe(runs: &[Self], context: &RunContext, finished: Finished<PublishedForces>) {
+        repeat(runs, context, finished);
+    }
+}
+
+/// A run with its observation, as it is kept.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ObservedRun {
-    run: EventRun,
+struct Kept<Run, Observation> {
+    run: Run,
     observation: Observation,
 }
 
-/// The event run in the `text` of the result at `path`.
+/// The run in the `text` of the result at `path`.
 ///
 /// # Errors
-/// If it is malformed.
-pub(super) fn observed_run(text: &[u8], path: &Path) -> Result<EventRun, FileError> {
-    parse_json::<ObservedRun>(text, path).map(|kept| kept.run)
+/// If it is malformed, or a run of another kind.
+pub(super) fn observed_run<Run: ObservedRun>(text: &[u8], path: &Path) -> Result<Run, FileError> {
+    parse_json::<Kept<Run, Run::Observation>>(text, path).map(|kept| kept.run)
 }
 
-impl ScheduledTask for EventRun {
-    type Outcome = Observation;
+impl<Run: ObservedRun> ScheduledTask for Run {
+    type Outcome = Run::Observation;
 
     const KIND: Kind = Kind::Observation;
 
@@ -33,24 +95,27 @@ impl ScheduledTask for EventRun {
     }
 
     fn steps(&self) -> u64 {
-        self.largest_steps() as u64
+        self.largest_steps()
     }
 
-    /// A single stack, without vectors.
     fn seconds_per_step(&self, _: Code) -> f64 {
-        5e-8
+        Self::SECONDS_PER_STEP
     }
 
     fn address(&self, _: &dyn InstalledCode) -> String {
-        self.address()
+        ObservedRun::address(self)
     }
 
     fn stored(
         &self,
         _: &dyn InstalledCode,
         store: &Store,
-    ) -> Result<Option<Observation>, FileError> {
-        let kept = store.sealed(Self::KIND, &self.address(), parse_json::<ObservedRun>)?;
+    ) -> Result<Option<Run::Observation>, FileError> {
+        let kept = store.sealed(
+            Self::KIND,
+            &ObservedRun::address(self),
+            parse_json::<Kept<Run, Run::Observation>>,
+        )?;
         Ok(kept
             .filter(|kept| kept.run == *self)
             .map(|kept| kept.observation))
@@ -59,33 +124,36 @@ impl ScheduledTask for EventRun {
     fn keep(
         &self,
         _: &dyn InstalledCode,
-        observation: &Observation,
+        observation: &Run::Observation,
         store: &Store,
     ) -> Result<(), FileError> {
-        let kept = ObservedRun {
+        let kept = Kept {
             run: *self,
-            observation: *observation,
+            observation: observation.clone(),
         };
         let content = serde_json::to_string(&kept).expect("plain data has a JSON form") + "\n";
-        store.put_sealed(Self::KIND, &self.address(), &content)
+        store.put_sealed(Self::KIND, &ObservedRun::address(self), &content)
     }
 
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Observation, RecordedError> {
-        Err(recorded.absent(code, "event run"))
+    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Run::Observation, RecordedError> {
+        Err(recorded.absent(code, "observed run"))
     }
 
     fn carry_out(
         runs: &[Self],
         _: &dyn InstalledCode,
         context: &RunContext,
-        finished: Finished<Observation>,
+        finished: Finished<Run::Observation>,
     ) {
-        for (index, run) in runs.iter().enumerate() {
-            finished(index, observe(run, context).map_err(|failure| *failure));
-        }
+        Self::observe(runs, context, finished);
     }
 
-    fn report(&self, code: Code, result: Result<&Observation, &Failure>, progress: &dyn Progress) {
+    fn report(
+        &self,
+        code: Code,
+        result: Result<&Run::Observation, &Failure>,
+        progress: &dyn Progress,
+    ) {
         progress.finished(code, self, result.map(|_| None));
     }
 }
@@ -95,6 +163,18 @@ impl Reading for Observation {
 
     fn of(observation: Observation) -> Self {
         observation
+    }
+
+    fn identity(&self) -> &Identity {
+        Identity::native()
+    }
+}
+
+impl Reading for PublishedForces {
+    type Task = PublishedRun;
+
+    fn of(forces: PublishedForces) -> Self {
+        forces
     }
 
     fn identity(&self) -> &Identity {

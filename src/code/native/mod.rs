@@ -7,11 +7,13 @@ use super::failure::{Failure, FailureKind};
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
 use super::registry::Code;
-use crate::dem::{EventRun, LaneKind, LaneWidth, Observation};
+use crate::dem::{EventRun, LaneKind, LaneWidth, Observation, PublishedForces, PublishedRun};
 use crate::dem::{compress_stack_precisely, run_contact_test, run_pyramid};
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use lanes::Lanes;
+use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// The DEM of this program.
@@ -98,6 +100,50 @@ pub(crate) fn observe(run: &EventRun, context: &RunContext) -> Result<Observatio
         usable.ok_or_else(|| SeriesError::Absent { message: message() })
     });
     observation.map_err(|kind| Box::new(failure(run, kind)))
+}
+
+/// Carries out `runs` of the authors' program in lanes.
+pub(crate) fn repeat(
+    runs: &[PublishedRun],
+    context: &RunContext,
+    finished: Finished<PublishedForces>,
+) {
+    let width = match runs.len() {
+        1 => LaneWidth::ONE,
+        _ => LaneWidth::widest(),
+    };
+    // Longest first, so that no lane is left alone with a long run: the force grows with the friction.
+    let mut order: Vec<usize> = (0..runs.len()).collect();
+    order.sort_by(|&one, &other| {
+        let [one, other] = [&runs[one], &runs[other]];
+        let steps = other.largest_steps().cmp(&one.largest_steps());
+        steps.then(
+            other
+                .stack
+                .floor_friction
+                .total_cmp(&one.stack.floor_friction),
+        )
+    });
+    let sorted: Vec<PublishedRun> = order.iter().map(|&index| runs[index]).collect();
+    let last_finished = Cell::new(Instant::now());
+    let late = || context.late_since(last_finished.get());
+    let wanted = || !context.interrupt.requested() && late().is_none();
+    let mut waiting: BTreeSet<usize> = (0..runs.len()).collect();
+    width.run_published(&sorted, wanted, |place, forces| {
+        let index = order[place];
+        waiting.remove(&index);
+        last_finished.set(Instant::now());
+        let unusable = || {
+            let message = "its force never falls, or leaves the finite numbers".to_owned();
+            failure(&runs[index], SeriesError::Absent { message }.into())
+        };
+        let usable = forces.is_usable().then_some(forces);
+        finished(index, usable.ok_or_else(unusable));
+    });
+    for index in waiting {
+        let kind = late().map_or(FailureKind::Interrupted, FailureKind::TimedOut);
+        finished(index, Err(failure(&runs[index], kind)));
+    }
 }
 
 /// The cause of an unusable series; `late` is the time limit, if that was exceeded.

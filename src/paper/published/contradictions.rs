@@ -1,0 +1,250 @@
+//! What data files, their heads, the program and the paper give for one thing, compared with each other.
+
+use super::checkout::{Checkout, DataFile, Subject};
+use super::points::{PAPER_SETTINGS, PublishedForce};
+use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
+
+/// Where a number stands, and the number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quotation {
+    /// File and line, or place in the paper.
+    pub source: String,
+    /// The number.
+    pub value: f64,
+}
+
+/// Two numbers for one thing that do not fit together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contradiction {
+    /// What they are numbers of, with its unit.
+    pub what: String,
+    /// The two.
+    pub quoted: [Quotation; 2],
+    /// What made the difference, where that is known.
+    pub because: String,
+}
+
+impl Contradiction {
+    /// The second number less the first, relative to the first; of forces, to F + 3.
+    pub fn size(&self) -> f64 {
+        let [first, second] = self.quoted.each_ref().map(|own| own.value);
+        let lift = if self.what.starts_with("F ") {
+            3.0
+        } else {
+            0.0
+        };
+        (second - first) / (first + lift)
+    }
+}
+
+/// A number that somebody gives for something.
+struct Statement {
+    what: String,
+    quoted: Quotation,
+    /// Half a unit of its last printed digit.
+    half_unit: f64,
+    /// How it was made, where that is known.
+    made: String,
+}
+
+/// What the supplement says of all runs (Secs. I A and I C).
+const SUPPLEMENT: [(&str, f64); 5] = [
+    (RESTITUTION, 0.7),
+    (RATIO, PAPER_STIFFNESS_RATIO),
+    (CYLINDER_FRICTION, 0.7),
+    (SPEED, PAPER_SETTINGS[0]),
+    (STEP, PAPER_SETTINGS[1]),
+];
+const RESTITUTION: &str = "restitution";
+const RATIO: &str = "k_n/k_t";
+const CYLINDER_FRICTION: &str = "friction of the cylinders";
+const SPEED: &str = "wall speed of the yield forces, r √(k_n/m)";
+const STEP: &str = "time step of the yield forces, √(m/k_n)";
+
+/// All pairs of numbers of one thing that differ by more than their printed digits allow; of each thing, one pair for every
+/// number that differs from the first.
+pub(super) fn contradictions(checkout: &Checkout, forces: &[PublishedForce]) -> Vec<Contradiction> {
+    let mut statements = of_supplement();
+    statements.extend(of_program(checkout));
+    statements.extend(checkout.files.iter().flat_map(of_head));
+    statements.extend(of_settings(forces));
+    statements.extend(forces.iter().map(of_force));
+    let mut found: Vec<Contradiction> = Vec::new();
+    for (index, second) in statements.iter().enumerate() {
+        let mut earlier = statements[..index].iter();
+        let Some(first) = earlier.find(|first| first.what == second.what) else {
+            continue;
+        };
+        let apart = (second.quoted.value - first.quoted.value).abs();
+        let rounding = f64::EPSILON * first.quoted.value.abs();
+        if apart <= (first.half_unit + second.half_unit).max(4.0 * rounding) {
+            continue;
+        }
+        found.push(Contradiction {
+            what: second.what.clone(),
+            quoted: [first.quoted.clone(), second.quoted.clone()],
+            because: because(first, second),
+        });
+    }
+    found
+}
+
+fn because(first: &Statement, second: &Statement) -> String {
+    match (first.made.as_str(), second.made.as_str()) {
+        ("", "") => String::new(),
+        ("", made) | (made, "") => made.to_owned(),
+        (first, second) if first == second => format!("both {first}"),
+        (first, second) => format!("{first}; {second}"),
+    }
+}
+
+fn statement(what: impl Into<String>, source: impl Into<String>, value: f64) -> Statement {
+    Statement {
+        what: what.into(),
+        quoted: Quotation {
+            source: source.into(),
+            value,
+        },
+        half_unit: 0.0,
+        made: String::new(),
+    }
+}
+
+fn of_supplement() -> Vec<Statement> {
+    let all = SUPPLEMENT.into_iter();
+    all.map(|(what, value)| statement(what, "supplement, Sec. I", value))
+        .collect()
+}
+
+/// The constants of the program, where the checkout has it.
+fn of_program(checkout: &Checkout) -> Vec<Statement> {
+    let mut statements = Vec::new();
+    for (path, text) in &checkout.programs {
+        let defined = |name: &str| {
+            let mut lines = text.lines().enumerate();
+            lines.find_map(|(index, line)| {
+                let mut words = line.strip_prefix("#define ")?.split_whitespace();
+                let value = (words.next()? == name).then(|| words.next())??;
+                Some((
+                    value.parse::<f64>().ok()?,
+                    format!("{path}, line {}", index + 1),
+                ))
+            })
+        };
+        for (what, name) in [(RESTITUTION, "e"), (CYLINDER_FRICTION, "mu")] {
+            if let Some((value, source)) = defined(name) {
+                statements.push(statement(what, source, value));
+            }
+        }
+        if let (Some((normal, _)), Some((tangential, source))) = (defined("kn"), defined("kt")) {
+            statements.push(statement(RATIO, source, normal / tangential));
+        }
+    }
+    statements
+}
+
+/// The name of a file against the parameter in its head.
+fn of_head(file: &DataFile) -> Vec<Statement> {
+    let what = match file.subject {
+        Subject::Stiffnesses { .. } => format!("floor friction of {}", file.path),
+        Subject::Frictions { .. } => format!("stiffness of {}, m g/r", file.path),
+        _ => return Vec::new(),
+    };
+    let (Subject::Stiffnesses { friction: named } | Subject::Frictions { stiffness: named }) =
+        file.subject
+    else {
+        return Vec::new();
+    };
+    let mut parameters = file
+        .head
+        .iter()
+        .filter(|line| line.starts_with("Parameter"));
+    let said = parameters.find_map(|line| {
+        let value = line.rsplit_once('=')?.1.trim();
+        match value {
+            "2 - sqrt(3)" => Some(CRITICAL_FRICTION),
+            _ => value.parse().ok(),
+        }
+    });
+    let named = statement(&*what, format!("name of {}", file.path), named);
+    let said = said.map(|said| statement(&*what, format!("head of {}", file.path), said));
+    std::iter::once(named).chain(said).collect()
+}
+
+/// Wall speed and time step that give the forces of a file, in the paper's units: of each file those that are farthest from what
+/// the supplement says of all.
+fn of_settings(forces: &[PublishedForce]) -> Vec<Statement> {
+    let mut statements: Vec<Statement> = Vec::new();
+    for own in forces {
+        let (Some(origin), PAPER_SETTINGS) = (&own.origin, own.labelled) else {
+            continue;
+        };
+        let [speed, step] = PAPER_SETTINGS;
+        let made = [
+            (
+                SPEED,
+                speed,
+                origin.run.wall_speed,
+                format!("{} √(g r)", short(origin.wall_speed)),
+            ),
+            (
+                STEP,
+                step,
+                origin.run.time_step,
+                format!("{} √(r/g)", short(origin.time_step)),
+            ),
+        ];
+        for (what, said, value, made) in made {
+            let source = format!("what gives {}", own.file);
+            let farthest = Statement {
+                made,
+                ..statement(what, &*source, value)
+            };
+            let mut known = statements.iter_mut();
+            let known = known.find(|known| known.what == what && known.quoted.source == source);
+            let distance = |value: f64| libm::log(value / said).abs();
+            match known {
+                None => statements.push(farthest),
+                Some(known) if distance(value) > distance(known.quoted.value) => *known = farthest,
+                Some(_) => {}
+            }
+        }
+    }
+    statements
+}
+
+/// A number with at most three digits.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{rounded:e}")
+}
+
+fn of_force(published: &PublishedForce) -> Statement {
+    let stack = &published.stack;
+    let [speed, step] = published.labelled;
+    Statement {
+        half_unit: published.value.half_unit(),
+        made: match &published.origin {
+            Some(origin) => {
+                let stopped = origin.end_time.map_or_else(String::new, |time| {
+                    format!(", stopped at t = {time} √(r/g) while the force rose")
+                });
+                format!(
+                    "start {} at {} √(g r), step {} √(r/g){stopped}",
+                    origin.start,
+                    short(origin.wall_speed),
+                    short(origin.time_step)
+                )
+            }
+            None => "not reproduced".to_owned(),
+        },
+        ..statement(
+            format!(
+                "F at μ = {:.6}, stiffness {}, wall speed {speed:e}, time step {step:e}, m g",
+                stack.floor_friction, stack.stiffness
+            ),
+            format!("{}, line {}", published.file, published.line),
+            published.value.value,
+        )
+    }
+}

@@ -1,0 +1,14 @@
+//! The authors' published data, the runs of their program that made them, and what of it does not fit together.
+
+mod checkout;
+mod contradictions;
+mod points;
+mod repetition;
+
+pub use checkout::{Checkout, DataFile, Printed, Subject};
+pub use contradictions::{Contradiction, Quotation};
+pub(crate) use points::WALL_STARTS;
+pub use points::{
+    ForceOrigin, PublishedForce, PublishedSeries, published_forces, published_series,
+};
+pub use repetition::{ALIKE, Fit, Published, RepeatedForce, RepeatedSeries};

@@ -402,6 +402,7 @@ fn native_reproduction() -> Reproduction {
         },
         curves: curves(),
         spheres: Spheres::default(),
+        published: None,
         provenances: Vec::new(),
     }
 }

@@ -16,8 +16,19 @@ pub struct ClaimJudgement {
     pub verdict: ClaimVerdict,
     /// The quantities compared and their values, or the reason why there are none.
     pub evidence: String,
+    /// The verdict on the same statement by the published data; `None` without them, or where they say nothing about it.
+    pub as_published: Option<SecondVerdict>,
     /// Correction; only where it has been checked to hold.
     pub erratum: Option<String>,
+}
+
+/// A verdict by the published data instead of native runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondVerdict {
+    /// The verdict.
+    pub verdict: ClaimVerdict,
+    /// The quantities compared and their values, or the reason why there are none.
+    pub evidence: String,
 }
 
 /// Judges every claim of `register` by the formulas of `paper` and by `runs`, without which claims on DEM runs are
@@ -33,17 +44,26 @@ pub fn judge(
 }
 
 fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) -> ClaimJudgement {
-    let (verdict, evidence) = match examine(claim, paper, runs) {
+    let verdict_of = |found: Result<Finding, String>| match found {
         Ok(finding) => {
             let allowed = claim.allowed.as_ref().map(|allowed| allowed.size);
             (finding.verdict(allowed), finding.evidence)
         }
         Err(reason) => (ClaimVerdict::Untestable, reason),
     };
+    let (verdict, evidence) = verdict_of(examine(claim, paper, runs));
+    let check = claim.check.as_deref().and_then(checks::find);
+    let published = runs.and_then(|runs| runs.published.as_ref());
+    let as_published = check.zip(published);
+    let as_published = as_published.and_then(|(check, data)| check.run_as_published(paper, data));
+    let as_published = as_published
+        .and_then(Result::ok)
+        .map(|found| verdict_of(Ok(found)));
     ClaimJudgement {
         claim: claim.clone(),
         verdict,
         evidence,
+        as_published: as_published.map(|(verdict, evidence)| SecondVerdict { verdict, evidence }),
         erratum: erratum(claim, paper, runs, verdict),
     }
 }

@@ -14,11 +14,12 @@ mod multiplied_out;
 mod notation;
 mod printed;
 mod register;
+mod simulations;
 mod truth;
 
 pub use checks::check_names;
 pub use finding::ClaimVerdict;
-pub use judgement::{ClaimJudgement, judge};
+pub use judgement::{ClaimJudgement, SecondVerdict, judge};
 pub(crate) use notation::{list, number, powers_in_tex, scientific, values};
 pub use printed::PaperTheory;
 pub use register::{Allowance, Claim, ClaimKind, Erratum, Register, RegisterError};

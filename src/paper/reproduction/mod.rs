@@ -16,13 +16,14 @@ pub(crate) use force_series::force_series_stack;
 pub use force_series::{ForceSeries, force_series};
 pub use laws::Laws;
 pub use scaling::{Exponent, exponents, scaling_measurements};
-pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at};
+pub(crate) use scaling::{FITTED_FROM, SCALING_FRICTIONS, exponent_at, slope};
 pub use snapshots::{Snapshots, snapshots};
 pub(crate) use spheres::SPHERES_STIFFNESSES;
 pub use spheres::{BodiesCurve, Spheres};
 
 use crate::code::{Code, Provenance};
 use crate::model::{Case, HistoryUpdate, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
+use crate::paper::published::{Checkout, Published};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
 use crate::series::SeriesError;
 use crate::study::Campaign;
@@ -71,6 +72,9 @@ pub struct Reproduction {
     pub curves: Curves,
     /// Spheres in place of cylinders.
     pub spheres: Spheres,
+    /// What the authors have published, and the same by native runs of their program; `None` where nobody has given a
+    /// checkout.
+    pub published: Option<Published>,
     /// The origins of the runs, in the order of their use.
     pub provenances: Vec<Provenance>,
 }
@@ -107,6 +111,8 @@ pub(crate) struct Scope<'a> {
     pub settings: &'a Settings<'a>,
     /// Whether all of Fig. 2(a) is run at the paper's literal settings, which takes some ten minutes.
     pub literal: bool,
+    /// The authors' repository.
+    pub published: Option<&'a Checkout>,
 }
 
 /// Reproduces the paper; `None` after an interrupt.
@@ -130,6 +136,13 @@ pub(crate) fn reproduce(
     let Some(snapshots) = snapshots(settings.interrupt)? else {
         return Ok(None);
     };
+    let published = match scope.published {
+        None => None,
+        Some(checkout) => match Published::repeat(checkout, &campaign) {
+            None => return Ok(None),
+            repeated => repeated,
+        },
+    };
     let names = campaign.names().into_iter();
     let mut provenances = measured.provenances;
     provenances.extend(provenances_of(&laws.yield_curves));
@@ -151,6 +164,7 @@ pub(crate) fn reproduce(
         survey,
         curves: theory.curves,
         spheres: theory.spheres,
+        published,
     }))
 }
 

@@ -97,7 +97,7 @@ impl Point {
 }
 
 fn fit(code: Code, power: Power, mu: f64, points: &[Point]) -> Exponent {
-    let weights = slope_weights(points);
+    let weights = slope_weights(points.iter().map(|point| point.stiffness));
     let sum = |term: &dyn Fn(f64, &Point) -> f64| -> f64 {
         let terms = weights.iter().zip(points);
         terms.map(|(&weight, point)| term(weight, point)).sum()
@@ -120,12 +120,21 @@ fn fit(code: Code, power: Power, mu: f64, points: &[Point]) -> Exponent {
 }
 
 /// The weights with which the ordinates enter a least-squares slope.
-fn slope_weights(points: &[Point]) -> Vec<f64> {
-    let count = points.len() as f64;
-    let mean = points.iter().map(|point| point.stiffness).sum::<f64>() / count;
-    let distances = points.iter().map(|point| point.stiffness - mean);
+fn slope_weights(abscissae: impl ExactSizeIterator<Item = f64> + Clone) -> Vec<f64> {
+    let count = abscissae.len() as f64;
+    let mean = abscissae.clone().sum::<f64>() / count;
+    let distances = abscissae.map(|abscissa| abscissa - mean);
     let spread: f64 = distances.clone().map(|distance| distance.powi(2)).sum();
     distances.map(|distance| distance / spread).collect()
+}
+
+/// The least-squares slope of ln(F + 3) over ln(1/ε) of pairs of stiffness and load; not a number for fewer than two.
+pub(crate) fn slope(points: &[(f64, f64)]) -> f64 {
+    let weights = slope_weights(points.iter().map(|point| libm::log(point.0)));
+    let terms = weights.iter().zip(points);
+    terms
+        .map(|(weight, point)| weight * libm::log(point.1))
+        .sum()
 }
 
 /// The one of three exponents, for frictions below, at and above μ_c, that belongs to `mu`.

@@ -15,11 +15,14 @@ mod supplement;
 
 use super::finding::Finding;
 use super::printed::PaperTheory;
+use super::simulations::Simulations;
 use super::truth::YieldState;
+use crate::paper::published::Published;
 use crate::paper::reproduction::Reproduction;
 
 type TheoryTest = fn(&PaperTheory) -> Finding;
 type StateTest = fn(&PaperTheory, &YieldState) -> f64;
+type SimulationTest = fn(&PaperTheory, &Simulations) -> Result<Finding, String>;
 type RunTest = fn(&PaperTheory, &Reproduction) -> Result<Finding, String>;
 
 /// The data that a check needs.
@@ -28,6 +31,8 @@ enum Test {
     Theory(TheoryTest),
     /// The deviation of an equation at every yield state.
     AtStates(StateTest),
+    /// Yield forces and series of native runs or of the published data; the error names those that are missing.
+    Simulations(SimulationTest),
     /// Runs; the error names those that are missing.
     Runs(RunTest),
 }
@@ -50,6 +55,11 @@ impl Check {
         Self { name, test }
     }
 
+    const fn simulations(name: &'static str, test: SimulationTest) -> Self {
+        let test = Test::Simulations(test);
+        Self { name, test }
+    }
+
     const fn runs(name: &'static str, test: RunTest) -> Self {
         let test = Test::Runs(test);
         Self { name, test }
@@ -65,7 +75,24 @@ impl Check {
             (Test::Theory(test), _) => Ok(test(paper)),
             (Test::AtStates(test), _) => Ok(appendix::at_states(|state| test(paper, state))),
             (Test::Runs(test), Some(runs)) => test(paper, runs),
-            (Test::Runs(_), None) => Err("this takes DEM runs, and none were made".to_owned()),
+            (Test::Simulations(test), Some(runs)) => test(paper, &Simulations::native(runs)),
+            (Test::Runs(_) | Test::Simulations(_), None) => {
+                Err("this takes DEM runs, and none were made".to_owned())
+            }
+        }
+    }
+}
+
+impl Check {
+    /// The same with the published data; `None` of what these say nothing about.
+    pub(crate) fn run_as_published(
+        &self,
+        paper: &PaperTheory,
+        published: &Published,
+    ) -> Option<Result<Finding, String>> {
+        match &self.test {
+            Test::Simulations(test) => Some(test(paper, &Simulations::published(published))),
+            _ => None,
         }
     }
 }

@@ -1,20 +1,21 @@
-//! The paper's statements on its simulations, checked with the native DEM, which has the paper's contact law.
+//! The paper's statements on its simulations, checked with the native DEM, which has the paper's contact law, and with the
+//! published data.
 
 use super::Check;
-use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention};
 use crate::paper::claims::finding::{Finding, relative, violation, worst};
 use crate::paper::claims::notation::{FRICTION, list, number, percent, scientific, stack, values};
+use crate::paper::claims::simulations::Simulations;
 use crate::paper::reproduction::{
-    ConvergencePoint, FAST_WALL, FITTED_FROM, Reproduction, SCALING_FRICTIONS, WALL_SPEEDS,
-    convergence_stack, exponent_at, force_series_stack,
+    FAST_WALL, FITTED_FROM, SCALING_FRICTIONS, WALL_SPEEDS, convergence_stack, exponent_at,
+    force_series_stack,
 };
-use crate::study::yield_force::{Judgement, PAPER_TIME_STEP};
+use crate::study::yield_force::PAPER_TIME_STEP;
 
 pub(crate) const CHECKS: &[Check] = &[
     // f(t) rises, has one maximum, and falls.
-    Check::runs("force-series", |_, runs| {
-        let rows = &runs.force_series.rows;
+    Check::simulations("force-series", |_, runs| {
+        let rows = &runs.series.rows;
         let numbered = rows.iter().enumerate();
         let peak = numbered.max_by(|left, right| left.1.1.total_cmp(&right.1.1));
         let (index, &(_, highest)) = peak.ok_or_else(|| missing("f(t)"))?;
@@ -25,22 +26,24 @@ pub(crate) const CHECKS: &[Check] = &[
         }
         let last = rows.last().map_or(f64::NAN, |row| row.1);
         let evidence = format!(
-            "native DEM at {}, {}: $f$ rises to ${highest:.4}mg$ (largest fall on the way ${}$ of it) and then falls to \
+            "{} at {}, {}: $f$ rises to ${highest:.4}mg$ (largest fall on the way ${}$ of it) and then falls to \
              ${last:.3}mg$",
+            runs.who,
             stack(&force_series_stack()),
-            speed(runs.force_series.wall_speed),
+            speed(runs.series.wall_speed),
             scientific(drop / highest, 1)
         );
         let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
         Ok(Finding::new(deviation, 1e-3, evidence))
     }),
     // The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
-    Check::runs("peak-is-quasistatic", |_, runs| {
-        let series = &runs.force_series;
+    Check::simulations("peak-is-quasistatic", |_, runs| {
+        let series = &runs.series;
         let forces = series.peak_force.zip(series.limit);
         let (peak, limit) = forces.ok_or_else(|| missing("f(t)"))?;
         let evidence = format!(
-            "native DEM at {}, {}, {}: peak ${peak:.6}mg$, exact quasi-static limit ${limit:.6}mg$: {}",
+            "{} at {}, {}, {}: peak ${peak:.6}mg$, exact quasi-static limit ${limit:.6}mg$: {}",
+            runs.who,
             stack(&force_series_stack()),
             speed(series.wall_speed),
             time_step(series.time_step),
@@ -48,14 +51,15 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
     }),
-    Check::runs("converges-with-speed", |paper, runs| {
+    Check::simulations("converges-with-speed", |paper, runs| {
         let speeds = [1e-4, 1e-5, paper.compression_speed];
         let excesses = speeds.map(|speed| excess(runs, speed));
         let [Some(fast), Some(middle), Some(slow)] = excesses else {
             return Err(missing("the convergence study"));
         };
         let evidence = format!(
-            "native DEM at {}, {}: peak against the exact quasi-static limit {}",
+            "{} at {}, {}: peak against the exact quasi-static limit {}",
+            runs.who,
             stack(&convergence_stack()),
             time_step(PAPER_TIME_STEP),
             percents(runs, &WALL_SPEEDS)
@@ -63,30 +67,31 @@ pub(crate) const CHECKS: &[Check] = &[
         let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
         Ok(Finding::statement(shrinks, evidence))
     }),
-    Check::runs("compression-speed", |paper, runs| {
+    Check::simulations("compression-speed", |paper, runs| {
         let excess = excess(runs, paper.compression_speed);
         let excess = excess.ok_or_else(|| missing("this wall speed"))?;
         let evidence = format!(
-            "native DEM at {}, {}: peak against the exact quasi-static limit {}: it grows as $v_{{\\mathrm{{com}}}}/\\epsilon$",
+            "{} at {}, {}: peak against the exact quasi-static limit {}: it grows as $v_{{\\mathrm{{com}}}}/\\epsilon$",
+            runs.who,
             stack(&convergence_stack()),
             time_step(PAPER_TIME_STEP),
             percents(runs, &WALL_SPEEDS[2..])
         );
         Ok(Finding::new(excess.abs(), 1e-3, evidence))
     }),
-    Check::runs("time-step", |paper, runs| {
-        let points = &runs.convergence.time_steps;
-        let peak = |step: f64| native(points, |point| point.time_step, step)?.peak_force;
+    Check::simulations("time-step", |paper, runs| {
+        let peak = |step: f64| at(&runs.time_steps, step);
         let peaks = peak(paper.time_step).zip(peak(0.1 * paper.time_step));
-        let (at, finer) = peaks.ok_or_else(|| missing("these time steps"))?;
+        let (usual, finer) = peaks.ok_or_else(|| missing("these time steps"))?;
         let coarsest = 0.1;
         let coarse = peak(coarsest).map_or_else(String::new, |coarse| {
             let off = scientific(relative(coarse, finer), 1);
             format!("; even at {} it is ${off}$ off", time_step(coarsest))
         });
-        let change = relative(at, finer);
+        let change = relative(usual, finer);
         let evidence = format!(
-            "native DEM at {}, {}: the peak changes by ${}$ between {} and a tenth of it{coarse}",
+            "{} at {}, {}: the peak changes by ${}$ between {} and a tenth of it{coarse}",
+            runs.who,
             stack(&convergence_stack()),
             speed(FAST_WALL),
             scientific(change, 1),
@@ -107,10 +112,10 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Finding::new(if ratio <= 1.0 { 0.0 } else { ratio }, 0.0, evidence)
     }),
-    Check::runs("agrees-with-perturbation", |paper, runs| {
-        let rows = forces(&runs.yield_curves);
+    Check::simulations("agrees-with-perturbation", |paper, runs| {
+        let rows = runs.over_friction.iter();
         let kappa = paper.stiffness_ratio;
-        let compared = rows.into_iter().map(|(mu, stiffness, force)| {
+        let compared = rows.map(|&[mu, stiffness, force]| {
             let printed = paper.perturbative_load(mu, kappa, 1.0 / stiffness);
             (relative(printed, force + 3.0), mu, stiffness)
         });
@@ -121,19 +126,21 @@ pub(crate) const CHECKS: &[Check] = &[
         let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
         let near = worst(near.map(|row| row.0));
         let evidence = format!(
-            "native DEM, {} stacks of Fig. 2(a), wall speed extrapolated to 0, against Eq. (17): $f + 3mg$ differs by at \
+            "{}, {} stacks of Fig. 2(a){}, against Eq. (17): $f + 3mg$ differs by at \
              most {:.1} % ({}), {:.1} % up to $\\mu_c$. The distance does not vanish for stiff cylinders above $\\mu_c$",
+            runs.who,
             compared.len(),
+            runs.read,
             100.0 * largest,
             stack(&paper.stack(mu, stiffness)),
             100.0 * near
         );
         Ok(Finding::new(largest, 1e-3, evidence))
     }),
-    Check::runs("runs-approach-rigid-limit", |paper, runs| {
-        let rows = forces(&runs.scaling).into_iter();
-        let below = rows.filter(|&(mu, ..)| mu < CRITICAL_FRICTION);
-        let below = below.map(|(mu, stiffness, force)| {
+    Check::simulations("runs-approach-rigid-limit", |paper, runs| {
+        let rows = runs.over_stiffness.iter();
+        let below = rows.filter(|row| row[0] < CRITICAL_FRICTION);
+        let below = below.map(|&[mu, stiffness, force]| {
             let rigid = paper.rigid_yield_force(mu);
             (stiffness, relative(force + 3.0, rigid + 3.0))
         });
@@ -142,35 +149,39 @@ pub(crate) const CHECKS: &[Check] = &[
         let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
         let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
         let evidence = format!(
-            "native DEM at {}: $f + 3mg$ comes closer to $f_0 + 3mg$ with every decade of $k_n r/mg$, to ${}$ at ${}$; at \
+            "{} at {}: $f + 3mg$ {} closer to $f_0 + 3mg$ with every larger $k_n r/mg$, to ${}$ at ${}$; at \
              $\\mu_c$ and above it grows without bound (see the exponents)",
+            runs.who,
             values(FRICTION, &SCALING_FRICTIONS[..1]),
+            if shrinks { "comes" } else { "does not come" },
             scientific(closest, 1),
             number(stiffness)
         );
         let deviation = worst([closest, violation(shrinks)]);
         Ok(Finding::new(deviation, 1e-2, evidence))
     }),
-    Check::runs("runs-scale", |paper, runs| {
+    Check::simulations("runs-scale", |paper, runs| {
         let mut listed = Vec::new();
         let mut deviations = Vec::new();
-        let exponents = runs.exponents.iter();
-        for exponent in exponents.filter(|exponent| exponent.code == Code::NATIVE) {
-            let printed = exponent_at(exponent.mu, [0.0, paper.scaling_at, paper.scaling_above]);
-            deviations.push((exponent.exponent - printed).abs());
+        for own in &runs.exponents {
+            let printed = exponent_at(own.friction, [0.0, paper.scaling_at, paper.scaling_above]);
+            deviations.push((own.exponent - printed).abs());
+            let uncertainty = own.uncertainty.map_or_else(String::new, |uncertainty| {
+                format!(" \\pm {}", scientific(uncertainty, 0))
+            });
             listed.push(format!(
-                "${:.4} \\pm {}$ at {}",
-                exponent.exponent,
-                scientific(exponent.uncertainty, 0),
-                values(FRICTION, &[exponent.mu])
+                "${:.4}{uncertainty}$ at {}",
+                own.exponent,
+                values(FRICTION, &[own.friction])
             ));
         }
         if deviations.len() < 3 {
             return Err(missing("Fig. 2(b)"));
         }
         let evidence = format!(
-            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, native DEM, fitted from ${}$ on: {}; the paper's 0, {} and {} are \
+            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, {}, fitted from ${}$ on: {}; the paper's 0, {} and {} are \
              their limits",
+            runs.who,
             number(FITTED_FROM),
             list(listed),
             paper.scaling_at,
@@ -182,26 +193,22 @@ pub(crate) const CHECKS: &[Check] = &[
 
 /// The reason for which a check cannot be made.
 fn missing(name: &str) -> String {
-    format!("there is no native run of {name} in this reproduction")
+    format!("nothing was run or published of {name}")
 }
 
-/// The native run with this value of `setting`.
-fn native(
-    points: &[ConvergencePoint],
-    setting: impl Fn(&ConvergencePoint) -> f64,
-    value: f64,
-) -> Option<&ConvergencePoint> {
-    let mut native = points.iter().filter(|point| point.code == Code::NATIVE);
-    native.find(|point| relative(setting(point), value) < 1e-9)
+/// The number that belongs to this `value` of a setting.
+fn at(points: &[(f64, f64)], value: f64) -> Option<f64> {
+    let mut points = points.iter();
+    let own = points.find(|(setting, _)| relative(*setting, value) < 1e-9);
+    own.map(|&(_, number)| number)
 }
 
 /// Excess of the peak over the limit at a wall speed.
-fn excess(runs: &Reproduction, speed: f64) -> Option<f64> {
-    let points = &runs.convergence.wall_speeds;
-    native(points, |point| point.wall_speed, speed)?.excess_of_peak()
+fn excess(runs: &Simulations, speed: f64) -> Option<f64> {
+    at(&runs.wall_speeds, speed)
 }
 
-fn percents(runs: &Reproduction, speeds: &[f64]) -> String {
+fn percents(runs: &Simulations, speeds: &[f64]) -> String {
     list(speeds.iter().map(|&speed| match excess(runs, speed) {
         Some(excess) => format!("{} at {}", percent(excess, 3), self::speed(speed)),
         None => format!("not run at {}", self::speed(speed)),
@@ -215,11 +222,4 @@ fn speed(speed: f64) -> String {
 
 fn time_step(step: f64) -> String {
     format!(r"$\Delta t = {}\sqrt{{m/k_n}}$", number(step))
-}
-
-/// Friction, stiffness and yield force of the native rows that have one.
-fn forces(judgements: &[Judgement]) -> Vec<(f64, f64, f64)> {
-    let native = judgements.iter().filter(|row| row.code == Code::NATIVE);
-    let forces = native.filter_map(|row| Some((row.mu(), row.stiffness(), row.yield_force()?)));
-    forces.collect()
 }

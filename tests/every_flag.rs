@@ -136,7 +136,7 @@ fn words(command: &str, flag: &str, value: &str) -> Vec<String> {
     let replaced = |name: &str| match flag {
         "--youngs" => name == flag || (name == "--stiffness" && command != "predict"),
         "--mass" => name == "--density",
-        "--profile" => ["--mu", "--stiffness"].contains(&name),
+        "--profile" | "--published" => ["--mu", "--stiffness"].contains(&name),
         "--explain" => ["--mu", "--codes"].contains(&name),
         _ => name == flag,
     };
@@ -149,6 +149,9 @@ fn words(command: &str, flag: &str, value: &str) -> Vec<String> {
     }
     if flag == "--youngs" && command != "predict" {
         words.extend(["--poisson", "0.3", "--law", "hertz"].map(str::to_owned));
+    }
+    if flag == "--published" && command == "crosscheck" {
+        words.extend(["--profile", "published"].map(str::to_owned));
     }
     match flag {
         "--tangential-stiffening" => words.push(format!("{flag}={value}")),

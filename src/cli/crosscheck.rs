@@ -4,12 +4,13 @@ use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, RowOptions, RunOptions, find_all, power, selected_codes, tell_stand_ins,
+    CodeOptions, Format, RowOptions, RunOptions, StackOptions, find_all, options_of, power,
+    selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
-use super::{CliError, ExitStatus, tell};
+use super::{CliError, ExitStatus, published, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::Power;
@@ -32,20 +33,26 @@ use std::path::PathBuf;
     after_help = "Examples: tristack crosscheck --codes native,liggghts --out results\n          \
     tristack crosscheck --explain yade/0.3/100\n          \
     tristack crosscheck --mu 0.3 --profile standard --only-failures --junit junit.xml\n          \
-    tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --summary"
+    tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --summary\n          \
+    tristack crosscheck --profile published --published arXiv-2511.06807"
 )]
 pub(super) struct Arguments {
     #[command(flatten)]
     stacks: StackSet,
+    /// Checkout of the authors' repository, github.com/Ryudo-Suzuki/arXiv-2511.06807; with `--profile published`, which
+    /// reproduces their numbers
+    #[arg(long, value_name = "DIR", requires = "profile", conflicts_with_all = not_of_published())]
+    pub published: Option<PathBuf>,
     /// Contact law: `linear` (the paper's), or `hertz`: styles of the codes with Hertz's normal force and a tangential
     /// spring of Mindlin's stiffness; the quick profile has one style of each code, the standard one all
     #[arg(long, value_parser = power, value_name = "LAW", default_value = "linear")]
     law: Power,
     #[command(flatten)]
-    codes: CodeOptions,
-    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv, with other laws laws.md and laws.svg as well
+    pub codes: CodeOptions,
+    /// Directory for crosscheck.csv, crosscheck.json, crosscheck.md and budget.csv, with other laws laws.md and laws.svg as well;
+    /// of the published numbers, for published.csv, published.json, published.md and further tables
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows; measured in the way of
     /// --profile
     #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "mu", "stiffness", "only_failures", "summary", "junit"])]
@@ -57,14 +64,26 @@ pub(super) struct Arguments {
     #[command(flatten)]
     rows: RowOptions,
     #[command(flatten)]
-    run: RunOptions,
+    pub run: RunOptions,
     /// Format of the rows, or of the explanation of one
     #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    pub format: Format,
+}
+
+/// The options that say nothing about the published numbers.
+fn not_of_published() -> Vec<clap::Id> {
+    let own = ["law", "explain", "shortcuts"].map(clap::Id::from);
+    let others = options_of::<StackOptions>().into_iter();
+    let others = others.chain(options_of::<RowOptions>());
+    let others = others.chain(["mu", "stiffness"].map(clap::Id::from));
+    own.into_iter().chain(others).collect()
 }
 
 /// Runs the crosscheck, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    if arguments.stacks.is_published() {
+        return published::run(arguments, command);
+    }
     if let Some(row) = &arguments.explain {
         return explain(
             row,
@@ -77,7 +96,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }
     let named = arguments.codes.of_power(arguments.law)?;
     let codes = match named.is_empty() {
-        true => find_all(&arguments.stacks.codes(arguments.law)),
+        true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,
     };
     let out = Out::claim(arguments.out.as_deref(), &layout())?;

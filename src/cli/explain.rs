@@ -62,7 +62,7 @@ pub(super) fn explain(
     accepted.map_err(as_flag)?;
     let codes = find_all(&[row.code]);
     settle(&codes, options)?;
-    let measurement = stacks.profile().measurement(row.code, &stack, power);
+    let measurement = stacks.profile()?.measurement(row.code, &stack, power);
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

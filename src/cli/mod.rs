@@ -26,6 +26,7 @@ mod plan;
 mod predict;
 mod probe;
 mod progress;
+mod published;
 mod record;
 mod regimes;
 mod report;

@@ -4,11 +4,12 @@ use super::convention::settle;
 use super::options::{CodeParser, RunOptions, find_all, selected_codes};
 use super::out::Out;
 use super::progress::Reporter;
+use super::published::{checkout, status as published_status};
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{Power, shown};
-use crate::output::{Origin, friction, report_files};
+use crate::output::{Origin, friction, published_summary, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
 use crate::runs::SelectedCode;
@@ -34,6 +35,10 @@ pub(super) struct Arguments {
     /// Also run all of figure 2(a) at the paper's literal wall speed and time step, for some ten minutes
     #[arg(long)]
     literal: bool,
+    /// Checkout of the authors' repository, github.com/Ryudo-Suzuki/arXiv-2511.06807: reproduce its numbers, and show them
+    /// beside the others
+    #[arg(long, value_name = "DIR")]
+    published: Option<PathBuf>,
     /// Directory of the report
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
@@ -47,6 +52,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         [Power::Linear, Power::Hertz].map(|power| codes_of(&arguments.codes, power));
     let (codes, hertz_codes) = (codes?, hertz_codes?);
     let register = Register::paper()?;
+    let checkout = arguments.published.as_deref().map(checkout);
+    let checkout = checkout.transpose()?;
     let out = Out::claim(Some(&arguments.out), &layout())?;
     let settings = arguments.run.settings()?;
     settle(&codes, &arguments.run)?;
@@ -56,6 +63,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         hertz_codes: &hertz_codes,
         settings: &settings,
         literal: arguments.literal,
+        published: checkout.as_ref(),
     };
     let outcome = reproduce(&scope, &Reporter::new());
     let reproduced = match outcome {
@@ -127,6 +135,11 @@ fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatu
     );
     let rows: Vec<&Judgement> = reproduction.judged_rows().collect();
     let statuses = rows.iter().map(|row| ExitStatus::of_row(row));
+    let published = reproduction.published.as_ref();
+    if let Some(published) = published {
+        tell!("{}", published_summary(published));
+    }
+    let statuses = statuses.chain(published.map(published_status));
     let status = statuses.max().unwrap_or(ExitStatus::Success);
     let open: Vec<&Judgement> = rows.iter().copied().filter(|row| !row.passes()).collect();
     tell!(

@@ -5,7 +5,8 @@ use crate::code::Code;
 use crate::model::{InvalidValue, Power, Stack};
 use crate::output::friction;
 use crate::study::yield_force::{Measurement, Profile};
-use clap::Args;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
 
 const OWN_FRICTIONS: &str = "; with --stiffness and without --profile they make stacks of their own, otherwise they \
     choose rows of the profile";
@@ -15,12 +16,42 @@ const OWN_STIFFNESSES: &str = "; with --mu and without --profile they make stack
 /// hundredth, and people write the critical one with few digits.
 const FEW_DIGITS: f64 = 1e-5;
 
+/// What `--profile` chooses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Chosen {
+    Judged(Profile),
+    Published,
+}
+
+impl ValueEnum for Chosen {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Chosen; 5] = [
+            Chosen::Judged(Profile::Quick),
+            Chosen::Judged(Profile::Standard),
+            Chosen::Judged(Profile::Paper),
+            Chosen::Judged(Profile::Literal),
+            Chosen::Published,
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Judged(profile) => profile.to_possible_value(),
+            Self::Published => Some(PossibleValue::new("published").help(
+                "The authors' published numbers, reproduced by native runs of their program: of \
+                 `crosscheck` alone, with --published",
+            )),
+        }
+    }
+}
+
 /// The stacks of a profile or some of them, or others in its way.
 #[derive(Debug, Clone, Args)]
 pub(super) struct StackSet {
     /// Set of stacks [default: quick]
     #[arg(long, value_enum)]
-    profile: Option<Profile>,
+    profile: Option<Chosen>,
     #[arg(long, help = FRICTIONS.to_owned() + OWN_FRICTIONS, value_parser = Values::<Friction>::parse, allow_hyphen_values = true)]
     mu: Option<Values<Friction>>,
     #[arg(
@@ -37,18 +68,36 @@ pub(super) struct StackSet {
 
 impl StackSet {
     /// The profile, in whose way stacks are measured.
-    pub fn profile(&self) -> Profile {
-        self.profile.unwrap_or(Profile::Quick)
+    ///
+    /// # Errors
+    /// If the published numbers are asked for, which are not measured.
+    pub fn profile(&self) -> Result<Profile, InvalidValue> {
+        match self.profile {
+            None => Ok(Profile::Quick),
+            Some(Chosen::Judged(profile)) => Ok(profile),
+            Some(Chosen::Published) => Err(InvalidValue {
+                key: "--profile".to_owned(),
+                value: "published".to_owned(),
+                accepted: "quick, standard, paper or literal; `tristack crosscheck --profile published --published DIR` \
+                           reproduces the published numbers"
+                    .to_owned(),
+            }),
+        }
+    }
+
+    /// Whether the published numbers are asked for.
+    pub fn is_published(&self) -> bool {
+        self.profile == Some(Chosen::Published)
     }
 
     /// The codes that measure them by a law of this power: of other laws than the paper's, the quick profile has one of
     /// each folder.
-    pub fn codes(&self, power: Power) -> Vec<Code> {
+    pub fn codes(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
         let mut codes = Code::of_power(power);
-        if power != Power::Linear && self.profile() == Profile::Quick {
+        if power != Power::Linear && self.profile()? == Profile::Quick {
             codes.retain(|code| code.is_first_variant());
         }
-        codes
+        Ok(codes)
     }
 
     /// The measurements of the stacks by each of the codes `names`, by a law of this power.
@@ -69,7 +118,7 @@ impl StackSet {
             .into_iter()
             .try_for_each(|(stack, name)| name.check_stiffness_ratio(stack.stiffness_ratio))
             .map_err(as_flag)?;
-        let all = self.profile().measurements_of(&stacks, names, power);
+        let all = self.profile()?.measurements_of(&stacks, names, power);
         match own {
             Some(_) => Ok(all),
             None => self.chosen(all),
@@ -91,7 +140,10 @@ impl StackSet {
     }
 
     fn profile_stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
-        let stacks = self.profile().stacks(power, self.others.bodies).into_iter();
+        let stacks = self
+            .profile()?
+            .stacks(power, self.others.bodies)
+            .into_iter();
         let stack = |stack: Stack| {
             let mu = Friction::Number(stack.floor_friction);
             self.others.stack(mu, stack.stiffness, power)

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let named = arguments.codes.of_power(arguments.law)?;
     let codes = match named.is_empty() {
-        true => find_all(&arguments.stacks.codes(arguments.law)),
+        true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,
     };
     settle(&codes, &arguments.run)?;

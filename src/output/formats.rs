@@ -4,10 +4,11 @@ use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
     all_durations, arm_effects, atlas_table, bench, boundaries, budget, check, code_durations,
-    crosscheck, crosscheck_summary, declared_explanations, forecasts, impacts, inventory,
-    judged_series, largest_forces, measured_convention, passport_changes, passport_forces,
-    planned_runs, probe, pyramids, regimes, scaling, simulations, stored, stored_entries,
-    stored_files, theory, trajectories,
+    contradictions, crosscheck, crosscheck_summary, declared_explanations, forecasts, impacts,
+    inventory, judged_series, largest_forces, measured_convention, passport_changes,
+    passport_forces, planned_runs, probe, published_files, published_forces, published_series,
+    pyramids, regimes, scaling, simulations, stored, stored_entries, stored_files, theory,
+    trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -85,6 +86,10 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         regimes(&[], 0, 0),
         boundaries(&[]),
         largest_forces(&[]),
+        published_forces(&[]),
+        published_series(&[]),
+        contradictions(&[]),
+        published_files(&[]),
         theory(&[]),
         forecasts(&[]),
         simulations(&[]),

@@ -21,6 +21,7 @@ mod page;
 mod passport;
 mod plan;
 mod probe;
+pub(crate) mod published;
 mod regimes;
 mod schema;
 mod series;
@@ -65,6 +66,10 @@ pub(crate) use page::{Origin, report_files};
 pub(crate) use passport::{arm_effects, measured_convention, passport_json, passport_markdown};
 pub(crate) use plan::planned_runs;
 pub(crate) use probe::{probe, probe_by_code};
+pub(crate) use published::{
+    contradictions, published_files, published_forces, published_markdown, published_series,
+    published_summary, published_tables, published_text,
+};
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,
 };

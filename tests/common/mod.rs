@@ -290,3 +290,20 @@ pub fn are_as_on_file(directory: &Path) -> usize {
     }
     compared
 }
+
+/// What the authors' program, compiled for this start, stack and time step and for wall speed 1e-3, prints.
+pub const AUTHORS_FORCE: &str = "30.140993";
+
+/// A checkout with one start, three touching cylinders, and one yield force of Fig. 2(a), as printed.
+pub fn small_checkout(place: &Path, force: &str) {
+    let (data, init) = (place.join("fig2a/data"), place.join("src/init"));
+    fs::create_dir_all(&data).unwrap();
+    fs::create_dir_all(&init).unwrap();
+    let top = 1.0 + 3f64.sqrt();
+    let places = format!("-1 1 0 0 0 0\n1 1 0 0 0 0\n0 {top} 0 0 0 0\n");
+    fs::write(init.join("init_p_A1.0e-03.txt"), places).unwrap();
+    fs::write(init.join("init_deltat_A1.0e-03.txt"), "0 0 0\n".repeat(8)).unwrap();
+    let head = "# Parameter: dimensionless spring constant kn r / mg = 1.0e+3";
+    let rows = format!("{head}\n0.300000 {force}\n");
+    fs::write(data.join("k1e+2.txt"), rows).unwrap();
+}

@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::panel::{Panel, Point, Sample, Stroke};
-use super::style::{DIFFERS, GUIDE, INCONCLUSIVE, Mark};
+use super::style::{DIFFERS, GUIDE, INCONCLUSIVE, Mark, PUBLISHED};
 use crate::code::Code;
 use crate::output::number::power_of_ten;
+use crate::paper::published::{Published, PublishedForce};
 use crate::study::yield_force::Judgement;
 use crate::study::{MAX_TOLERANCE, Verdict};
 
@@ -28,6 +29,25 @@ pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Jud
         let shown = !row.code.repeats_another();
         Some((x(row), row.yield_force().filter(|_| shown)? + 3.0))
     });
+}
+
+/// The published points of a figure, each where `place` puts it.
+pub(super) fn published(
+    panel: &mut Panel,
+    published: Option<&Published>,
+    figure: &str,
+    place: impl Fn(&PublishedForce) -> Option<Point>,
+) {
+    let Some(published) = published else { return };
+    panel.marks(PUBLISHED, published.of_figure(figure).filter_map(place));
+    panel.key(Sample::Mark(PUBLISHED), "published");
+}
+
+/// What the published data in a figure are, for its caption.
+pub(super) fn published_words(published: Option<&Published>, what: &str) -> String {
+    published.map_or_else(String::new, |_| {
+        format!(" Published: the authors' {what} ([](#table-published)).")
+    })
 }
 
 /// A panel with |error| of every row, a ring around each on which there is no agreement, and the largest tolerance.

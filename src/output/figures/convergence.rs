@@ -9,6 +9,7 @@ use super::style::{GUIDE, Mark, THIN, TOGETHER};
 use crate::code::Code;
 use crate::model::Power;
 use crate::paper::claims::number;
+use crate::paper::published::Published;
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL, convergence_stack};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
 
@@ -23,9 +24,17 @@ type Run = (f64, Option<f64>);
 type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// Distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
-pub(super) fn convergence(study: &Convergence) -> Figure {
+pub(super) fn convergence(study: &Convergence, published: Option<&Published>) -> Figure {
+    let mut peaks = speeds(study, "F_{peak}", 1e-4, ConvergencePoint::excess_of_peak);
+    codes::published(&mut peaks, published, "figS3b", |own| {
+        let [speed, _] = own.labelled;
+        let limit = own.limit?;
+        // Labelled with the unit of the paper, made in that of the program.
+        let speed = speed / own.stack.stiffness.sqrt();
+        Some((speed, (own.value.value / limit - 1.0).abs()))
+    });
     let panels = [
-        speeds(study, "F_{peak}", 1e-4, ConvergencePoint::excess_of_peak),
+        peaks,
         speeds(study, "F_{slip}", 1e-8, ConvergencePoint::excess_of_slip),
         steps(study, "F_{peak}", |point| point.peak_force),
         steps(study, "F_{slip}", |point| point.slip_force),
@@ -38,13 +47,17 @@ pub(super) fn convergence(study: &Convergence) -> Figure {
          side on one band belong to the same wall speed, that in its middle. \
          What the time step $\\Delta t$ changes (c) of the peak and (d) of the slip onset at $v = {}\\,r\\sqrt{{k_n/m}}$, \
          relative to the same code at $\\Delta t = {}\\sqrt{{m/k_n}}$. Lines join the native runs, which stand at their speed; vertical: the paper's \
-         settings.",
+         settings.{}",
         number(stack.floor_friction),
         number(stack.stiffness),
         number(stack.stiffness_ratio),
         number(PAPER_TIME_STEP),
         number(FAST_WALL),
-        number(PAPER_TIME_STEP)
+        number(PAPER_TIME_STEP),
+        codes::published_words(
+            published,
+            "points of (a), at the speeds of their program, which are $\\sqrt{k_n r/(mg)} = 100$ times smaller than their labels"
+        )
     );
     let key = shown_codes(study).into_iter();
     let key = key.map(|code| (Sample::Mark(Mark::of(code)), code.label()));

@@ -2,10 +2,12 @@
 
 use super::Figure;
 use super::axis::Axis;
+use super::codes;
 use super::panel::{Anchor, Panel, Point, Sample};
 use super::sheet::Sheet;
-use super::style::{EXACT, GUIDE, ONSET, PEAK};
+use super::style::{EXACT, GUIDE, ONSET, PEAK, PUBLISHED_CURVE};
 use crate::paper::claims::number;
+use crate::paper::published::{Published, WALL_STARTS};
 use crate::paper::reproduction::{ForceSeries, force_series_stack};
 
 /// Unit of printed times.
@@ -16,23 +18,27 @@ const BELOW: f64 = 12.0;
 const ABOVE: f64 = 3.0;
 
 /// The wall force over time, as a whole and around its peak.
-pub(super) fn force_series(series: &ForceSeries) -> Figure {
-    let panels = [whole(series), around_the_peak(series)];
+pub(super) fn force_series(series: &ForceSeries, published: Option<&Published>) -> Figure {
+    let panels = [whole(series, published), around_the_peak(series)];
     let stack = force_series_stack();
     let caption = format!(
         "Supplement, figure of f(t). (a) Force $F = f/(mg)$ of the wall over the time $t$ at $\\mu = {}$, \
              $k_n r/(mg) = {}$, $\\kappa = {}$ and the paper's wall speed $v = {}\\,r\\sqrt{{k_n/m}}$ and time step ${}\\sqrt{{m/k_n}}$: one native run. (b) The same around the peak, which the paper takes for the yield force; \
-             circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.",
+             circle: onset of slip at the floor, diamond: peak, dashed: exact quasi-static limit.{}",
         number(stack.floor_friction),
         number(stack.stiffness),
         number(stack.stiffness_ratio),
         number(series.wall_speed),
-        number(series.time_step)
+        number(series.time_step),
+        codes::published_words(
+            published,
+            "series in (a), over the way of the wall: its speed and its time have other units than the paper says"
+        )
     );
     Figure::of_sheet("force-series", caption, &Sheet::of_halves(panels))
 }
 
-fn whole(series: &ForceSeries) -> Panel {
+fn whole(series: &ForceSeries, published: Option<&Published>) -> Panel {
     let end = series.rows.last().map_or(LONG, |row| row.0) / LONG;
     let highest = series.peak_force.unwrap_or(1.0);
     let time = Axis::around("time t/(10⁴ √(m/kₙ))", (0.0, 1.04 * end));
@@ -44,6 +50,18 @@ fn whole(series: &ForceSeries) -> Panel {
     }
     let rows = series.rows.iter();
     panel.line(EXACT, rows.map(|&(time, force)| (time / LONG, force)));
+    for own in published.iter().flat_map(|published| &published.series) {
+        let speed = own.published.wall_speed().unwrap_or(series.wall_speed);
+        let rows = own.published.rows.iter();
+        let rows = rows.map(|(_, [time, force])| {
+            let way = speed * (time.value - WALL_STARTS);
+            (way / series.wall_speed / LONG, force.value)
+        });
+        let shown = rows.filter(|&(time, _)| (0.0..=1.04 * end).contains(&time));
+        panel.line(PUBLISHED_CURVE, shown);
+        panel.key(Sample::Line(EXACT), "native");
+        panel.key(Sample::Line(PUBLISHED_CURVE), "published");
+    }
     panel
 }
 

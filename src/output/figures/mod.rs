@@ -85,10 +85,10 @@ impl Figure {
 /// All figures: first those of the paper, then further ones.
 pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
     let draw: [fn(&Reproduction) -> Figure; 8] = [
-        |own| yield_curves::yield_curves(&own.yield_curves, &own.curves),
-        |own| scaling::scaling(&own.scaling, &own.exponents, &own.curves, &own.laws),
-        |own| force_series::force_series(&own.force_series),
-        |own| convergence::convergence(&own.convergence),
+        |own| yield_curves::yield_curves(&own.yield_curves, &own.curves, own.published.as_ref()),
+        |own| scaling::scaling(own),
+        |own| force_series::force_series(&own.force_series, own.published.as_ref()),
+        |own| convergence::convergence(&own.convergence, own.published.as_ref()),
         |own| theory_error::theory_error(&own.curves),
         |own| model_form::model_form(&own.yield_curves, &own.curves),
         |own| regimes::regimes(&own.maps, &own.survey),

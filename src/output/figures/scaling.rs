@@ -8,18 +8,16 @@ use super::{Figure, friction_words, stiffness_axis};
 use crate::code::Code;
 use crate::model::{PAPER_STIFFNESS_RATIO, Power};
 use crate::paper::claims::{number, values};
+use crate::paper::published::Published;
 use crate::paper::reproduction::{
-    Curves, Exponent, FITTED_FROM, Laws, SCALING_FRICTIONS, TheoryPoint,
+    Curves, Exponent, FITTED_FROM, Laws, Reproduction, SCALING_FRICTIONS, TheoryPoint,
 };
 use crate::study::yield_force::Judgement;
 
 /// Yield force over the stiffness with the fitted exponents, and the errors of the codes, a panel for each friction.
-pub(super) fn scaling(
-    judgements: &[Judgement],
-    exponents: &[Exponent],
-    curves: &Curves,
-    laws: &Laws,
-) -> Figure {
+pub(super) fn scaling(reproduction: &Reproduction) -> Figure {
+    let (judgements, laws) = (&reproduction.scaling, &reproduction.laws);
+    let published = reproduction.published.as_ref();
     let errors = SCALING_FRICTIONS.map(|mu| {
         let own = judgements.iter();
         let own = own.filter(|row| row.mu() == mu);
@@ -27,7 +25,7 @@ pub(super) fn scaling(
         codes::name_errors(&mut panel, &friction_words(mu));
         panel
     });
-    let loads = forces(judgements, curves, laws);
+    let loads = forces(judgements, &reproduction.curves, laws, published);
     let panels: Vec<Panel> = [loads].into_iter().chain(errors).collect();
     let caption = format!(
         "Fig. 2(b) of the paper. (a) Load at yield $F + 3$, with the yield force $F = f/(mg)$, over the stiffness \
@@ -39,20 +37,26 @@ pub(super) fn scaling(
                   its value for infinite stiffness. (b–d) Distance \
                   of each code with linear springs from the exact limit under its own convention, relative to $F + 3$, a panel \
                   for each friction; {}. \
-                  Dashed: the largest tolerance that a row may have. Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}",
+                  Dashed: the largest tolerance that a row may have. Points with a ring: inconclusive, their uncertainty is larger than the largest tolerance.{}{}",
         values("\\mu", &SCALING_FRICTIONS),
         number(FITTED_FROM),
         codes::errors_at_edges(),
-        codes::left_out(judgements)
+        codes::left_out(judgements),
+        codes::published_words(published, "points")
     );
     let both: Vec<Judgement> = judgements.iter().chain(&laws.scaling).cloned().collect();
     let sheet = Sheet::of_halves(panels)
         .with_key(codes::key(&both))
-        .with_table(fits(exponents.iter().chain(&laws.exponents)));
+        .with_table(fits(reproduction.exponents.iter().chain(&laws.exponents)));
     Figure::of_sheet("scaling", caption, &sheet)
 }
 
-fn forces(judgements: &[Judgement], curves: &Curves, laws: &Laws) -> Panel {
+fn forces(
+    judgements: &[Judgement],
+    curves: &Curves,
+    laws: &Laws,
+    published: Option<&Published>,
+) -> Panel {
     let mut panel = Panel::new(stiffness_axis(), codes::load_axis((4.0, 6e5)));
     let load = |force: Option<f64>| force.map(|force| force + 3.0);
     for (mu, place) in SCALING_FRICTIONS.into_iter().zip(CURVE_ENDS) {
@@ -70,6 +74,9 @@ fn forces(judgements: &[Judgement], curves: &Curves, laws: &Laws) -> Panel {
     panel.words(HERTZ_WORDS, HERTZ_END, Anchor::End);
     codes::loads(&mut panel, &laws.scaling, |row| row.stiffness());
     codes::loads(&mut panel, judgements, |row| row.stiffness());
+    codes::published(&mut panel, published, "fig2b", |own| {
+        Some((own.stack.stiffness, own.load()))
+    });
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
     panel.key(Sample::Line(HERTZ), "exact limit, Hertz");

@@ -183,6 +183,10 @@ impl Mark {
     }
 }
 
+/// A point that the authors have published: around that of a code.
+pub(super) const PUBLISHED: Mark = Mark::new(Shape::Square, ORANGE, 5.2);
+/// A curve that they have published.
+pub(super) const PUBLISHED_CURVE: Stroke = Stroke::new(ORANGE, 1.5, &[5.0, 3.0]);
 /// A measured point that belongs to no code.
 pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle));
 /// The onset of slip and the peak on a curve.

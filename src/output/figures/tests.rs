@@ -157,6 +157,7 @@ fn reproduction(judgements: Vec<Judgement>) -> Reproduction {
         },
         curves: curves(),
         spheres: Spheres::default(),
+        published: None,
         provenances: Vec::new(),
     }
 }

@@ -8,6 +8,7 @@ use super::style::{EXACT, GUIDE, PERTURBATION, RIGID_BELOW};
 use super::{Figure, stiffness_words};
 use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
 use crate::paper::claims::values;
+use crate::paper::published::Published;
 use crate::paper::reproduction::{Curves, TheoryPoint};
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
@@ -19,7 +20,11 @@ const WITHOUT_FORCE: f64 = 3.0;
 const RIGID_POINTS: usize = 61;
 
 /// Yield force by every code and theory, and the errors of the codes, a panel for each stiffness.
-pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure {
+pub(super) fn yield_curves(
+    judgements: &[Judgement],
+    curves: &Curves,
+    published: Option<&Published>,
+) -> Figure {
     let errors = PAPER_STIFFNESSES.map(|stiffness| {
         let own = judgements.iter();
         let own = own.filter(|row| row.stiffness() == stiffness);
@@ -27,7 +32,9 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
         codes::name_errors(&mut panel, &stiffness_words(stiffness));
         panel
     });
-    let panels = [forces(judgements, curves)].into_iter().chain(errors);
+    let panels = [forces(judgements, curves, published)]
+        .into_iter()
+        .chain(errors);
     let caption = format!(
         "Fig. 2(a) of the paper. (a) Load at yield $F + 3$, with the yield force $F = f/(mg)$, over the floor friction $\\mu$ \
              for stiffnesses {} at $\\kappa = {PAPER_STIFFNESS_RATIO}$: exact quasi-static limit of the paper's model, the \
@@ -35,16 +42,17 @@ pub(super) fn yield_curves(judgements: &[Judgement], curves: &Curves) -> Figure 
              every code under its own contact \
              convention, by slip onset extrapolated to vanishing wall speed. (b–d) Distance of \
              each code from the exact limit under its own convention, relative to $F + 3$, a panel for each stiffness; \
-             {}. Dashed: the largest tolerance that a row may have; most are smaller. Runs of the standard profile.{}",
+             {}. Dashed: the largest tolerance that a row may have; most are smaller. Runs of the standard profile.{}{}",
         values("k_n r/(mg)", &PAPER_STIFFNESSES),
         codes::errors_at_edges(),
-        codes::left_out(judgements)
+        codes::left_out(judgements),
+        codes::published_words(published, "points")
     );
     let sheet = Sheet::of_halves(panels.collect::<Vec<Panel>>()).with_key(codes::key(judgements));
     Figure::of_sheet("yield-curves", caption, &sheet)
 }
 
-fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
+fn forces(judgements: &[Judgement], curves: &Curves, published: Option<&Published>) -> Panel {
     let mut panel = Panel::new(Axis::friction(), codes::load_axis(LOADS));
     panel.line(RIGID_BELOW, rigid());
     panel.upright(GUIDE, CRITICAL_FRICTION);
@@ -62,6 +70,9 @@ fn forces(judgements: &[Judgement], curves: &Curves) -> Panel {
         panel.words(stiffness_words(stiffness), place, Anchor::End);
     }
     codes::loads(&mut panel, judgements, |row| row.mu());
+    codes::published(&mut panel, published, "fig2a", |own| {
+        Some((own.stack.floor_friction, own.load()))
+    });
     panel.key(Sample::Line(EXACT), "exact limit");
     panel.key(Sample::Line(PERTURBATION), "perturbation");
     panel.key(Sample::Line(RIGID_BELOW), "rigid");

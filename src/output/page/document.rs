@@ -169,6 +169,8 @@ pub(super) struct PageClaim {
     pub verdict: String,
     pub words: &'static str,
     pub evidence: String,
+    /// The verdict by the published data, and its evidence.
+    pub as_published: Option<String>,
     pub erratum: Option<String>,
     /// Numbers of the displayed equations that it covers.
     pub equations: Vec<String>,

@@ -125,6 +125,7 @@ fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
         verdict: own.verdict.to_string(),
         words: in_words(own.verdict),
         evidence: evidence(own),
+        as_published: as_published(own),
         erratum: own.erratum.clone(),
         equations: first.map(|known| known.number.clone()).collect(),
         sources: claim.see.iter().map(|see| format!("[](#{see})")).collect(),
@@ -146,6 +147,13 @@ fn evidence(own: &ClaimJudgement) -> String {
         format!(" Allowed: {size} of {of}; {because}.")
     });
     format!("{}{stop}{}", own.evidence, allowed.unwrap_or_default())
+}
+
+/// The verdict by the published data, and its evidence.
+fn as_published(own: &ClaimJudgement) -> Option<String> {
+    let second = own.as_published.as_ref()?;
+    let words = in_words(second.verdict);
+    Some(format!("As published: {words}. {}", second.evidence))
 }
 
 fn ends_a_sentence(text: &str) -> bool {
@@ -211,6 +219,18 @@ fn claims_of(claims: Vec<Numbered>) -> DataTable {
     .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")
+    .cell(|(_, own)| {
+        let second = as_published(own);
+        second.map_or_else(|| own.evidence.clone(), |second| format!("{}. {second}", own.evidence))
+    })
+    .text("published_verdict", |(_, own)| {
+        Some(own.as_published.as_ref()?.verdict.to_string())
+    })
+    .means("the verdict by the data that the authors have published; absent without them, or where they say nothing about it")
+    .text("published_evidence", |(_, own)| {
+        Some(own.as_published.as_ref()?.evidence.clone())
+    })
+    .means("what was compared for it, and the numbers")
     .text("erratum", |(_, own)| own.erratum.clone())
     .means("what should stand there; only where that has been checked to hold")
     .rows(claims)

@@ -5,6 +5,7 @@ mod conventions;
 mod environment;
 mod laws;
 mod preparation;
+mod published;
 mod spheres;
 mod summary;
 mod tolerances;
@@ -55,6 +56,22 @@ pub(super) fn document(
 ) -> Document {
     let figures = figures(reproduction).into_iter().map(Block::figure);
     let figures = figures.collect();
+    let mut sections = vec![
+        summary::section(reproduction, judged),
+        claims::errata(judged),
+        Section::new("figures", "Figures, recomputed from runs", figures),
+    ];
+    sections.extend(reproduction.published.as_ref().map(published::section));
+    sections.extend([
+        claims::register(judged),
+        tolerances::section(reproduction),
+        preparation::section(reproduction),
+        conventions::section(reproduction),
+        laws::section(reproduction),
+        spheres::section(reproduction),
+        environment::section(reproduction, origin),
+        untested::section(reproduction, judged, origin),
+    ]);
     Document {
         title: "Reproducibility report: “Anomalous Enhancement of Yield Strength due to Static Friction”"
             .to_owned(),
@@ -64,19 +81,7 @@ pub(super) fn document(
              $r\\sqrt{k_n/m}$, times in $\\sqrt{m/k_n}$; stiffness is $1/\\epsilon = k_n r/(mg)$, and $F = f/(mg)$."
                 .to_owned(),
         ],
-        sections: vec![
-            summary::section(reproduction, judged),
-            claims::errata(judged),
-            Section::new("figures", "Figures, recomputed from runs", figures),
-            claims::register(judged),
-            tolerances::section(reproduction),
-            preparation::section(reproduction),
-            conventions::section(reproduction),
-            laws::section(reproduction),
-            spheres::section(reproduction),
-            environment::section(reproduction, origin),
-            untested::section(reproduction, judged, origin),
-        ],
+        sections,
     }
     .numbered()
 }

@@ -4,17 +4,20 @@ use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
-use crate::output::DataTable;
 use crate::output::number::{digits, friction_in_tex, percent, power_of_ten, stiffness_in_tex};
 use crate::output::table::Columns;
+use crate::output::{DataTable, published_summary};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, list};
-use crate::paper::reproduction::{Reproduction, TheoryPoint};
+use crate::paper::published::{Published, RepeatedForce};
+use crate::paper::reproduction::{Curves, Reproduction, SCALING_FRICTIONS, TheoryPoint};
 use crate::study::Verdict;
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES, PAPER_WALL_SPEED};
 use crate::theory::Predictions;
 
 pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> Section {
     let items = [
+        of_theory(&reproduction.curves),
+        reproduction.published.as_ref().map(of_published),
         Some(of_claims(claims)),
         Some(of_codes(reproduction)),
         Some(of_rows(reproduction)),
@@ -41,6 +44,42 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
         ),
     ];
     Section::new("summary", "Summary", blocks)
+}
+
+/// A size in percent.
+fn unsigned(size: f64) -> String {
+    format!("{:.2} %", 100.0 * size)
+}
+
+/// How good the paper's theory is, and whether it becomes exact.
+fn of_theory(curves: &Curves) -> Option<String> {
+    let error = |point: &TheoryPoint| point.error(point.perturbation);
+    let largest = |above: bool| {
+        let own = curves.over_friction.iter();
+        let own = own.filter(|point| (point.mu >= CRITICAL_FRICTION) == above);
+        own.filter_map(error).map(f64::abs).reduce(f64::max)
+    };
+    let stiffest = |mu: f64| {
+        let own = curves.over_stiffness.iter().filter(|point| point.mu == mu);
+        let own = own.filter(|point| error(point).is_some());
+        own.max_by(|one, other| one.stiffness.total_cmp(&other.stiffness))
+    };
+    let [below, _, above] = SCALING_FRICTIONS.map(stiffest);
+    let (below, above) = (below?, above?);
+    Some(format!(
+        "The paper’s theory: at the stiffnesses of Fig. 2(a) the load $F + 3$ by Eq. (17) is within {} of the exact limit below $\\mu_c$ \
+         and within {} from there on ([](#table-theories), [](#figure-theory-error)). Below $\\mu_c$ it becomes exact for stiff cylinders: \
+         {} off at $\\mu = {}$, stiffness ${}$. Above $\\mu_c$ it does not, since its leading order, Eq. (8), is one of small \
+         displacements: at $\\mu = {}$, stiffness ${}$ it is {} off, and stays so.",
+        unsigned(largest(false)?),
+        unsigned(largest(true)?),
+        power_of_ten(error(below)?.abs()),
+        below.mu,
+        stiffness_in_tex(below.stiffness),
+        above.mu,
+        stiffness_in_tex(above.stiffness),
+        percent(error(above)?)
+    ))
 }
 
 fn of_claims(claims: &[ClaimJudgement]) -> String {
@@ -76,6 +115,29 @@ fn of_codes(reproduction: &Reproduction) -> String {
          ([](#figure-yield-curves), [](#table-yield_curves)).",
         list(codes),
         power_of_ten(largest.fold(0.0, f64::max))
+    )
+}
+
+/// What the published figures show, and how their numbers were reproduced.
+fn of_published(published: &Published) -> String {
+    let farthest = |figure: &str| {
+        let own = published.forces.iter();
+        let own = own.filter(|own| own.published.figure() == figure);
+        let excess = own.filter_map(RepeatedForce::excess);
+        percent(
+            excess
+                .max_by(|one, other| one.abs().total_cmp(&other.abs()))
+                .unwrap_or(0.0),
+        )
+    };
+    format!(
+        "The published points: {} ([](#table-published)). They show the exact limit, but for wall speed, start and end of the runs, \
+         which differ from point to point: up to {} of $F + 3$ in Fig. 2(a), {} in Fig. 2(b). {} pairs of numbers for one thing do not fit \
+         together ([](#table-contradictions)).",
+        published_summary(published),
+        farthest("fig2a"),
+        farthest("fig2b"),
+        published.contradictions.len()
     )
 }
 

@@ -10,10 +10,8 @@ use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 
 /// The limits of every report.
-const OUTSIDE: [&str; 5] = [
+const OUTSIDE: [&str; 4] = [
     "Real cylinders: nothing here was compared with an experiment.",
-    "The points that the paper plots: its source has no numbers of them, so that its formulas, settings and words alone are \
-     compared.",
     "Contact laws other than linear springs and Hertz–Mindlin, more than three cylinders, and codes in three dimensions: of \
      spheres the report has the exact limit alone.",
     "Stiffness ratios other than 2.5 (linear) and 17/14 (Hertz) in the runs; theory and regime maps go further.",
@@ -26,6 +24,13 @@ pub(super) fn section(
     origin: &Origin,
 ) -> Section {
     let mut items: Vec<String> = OUTSIDE.map(str::to_owned).to_vec();
+    if reproduction.published.is_none() {
+        items.push(
+            "The points that the paper plots: `tristack report --published DIR` reads them from a checkout of the authors’ \
+             repository, and reproduces them."
+                .to_owned(),
+        );
+    }
     let laws = &reproduction.laws.yield_curves;
     items.extend(recorded(reproduction.yield_curves.iter().chain(laws)));
     if !origin.literal {

@@ -1,0 +1,40 @@
+//! The published numbers, reproduced.
+
+use super::super::document::{Block, Section};
+use crate::output::published::{PROTOCOL, REPOSITORY};
+use crate::output::{
+    contradictions, published_files, published_forces, published_series, published_summary,
+};
+use crate::paper::published::Published;
+
+pub(super) fn section(published: &Published) -> Section {
+    let blocks = vec![
+        Block::paragraph(format!(
+            "The data of {REPOSITORY} against native runs. {PROTOCOL} {}.",
+            published_summary(published)
+        )),
+        Block::long_table(
+            true,
+            "published",
+            "Every published yield force: exact limit, what gives it, and what remains. $F = f/(mg)$; distances relative to $F + 3$.",
+            &published_forces(&published.forces),
+        ),
+        Block::table(
+            "published_series",
+            "Published series of the wall force.",
+            &published_series(&published.series),
+        ),
+        Block::table(
+            "contradictions",
+            "Numbers that data files, their heads, the program and the paper give for one thing, and that do not fit together.",
+            &contradictions(&published.contradictions),
+        ),
+        Block::long_table(
+            true,
+            "published_files",
+            "The data files that were read.",
+            &published_files(&published.files),
+        ),
+    ];
+    Section::new("published", "The published numbers, reproduced", blocks)
+}

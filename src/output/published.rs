@@ -1,0 +1,242 @@
+//! The authors' published numbers, reproduced, and those that do not fit together.
+
+use super::number::{digits, relative, rounded};
+use super::table::{Columns, DataTable};
+use super::text::markdown_code;
+use crate::paper::published::{
+    ALIKE, Contradiction, DataFile, Fit, Published, RepeatedForce, RepeatedSeries,
+};
+
+const FOUND_IN: &str = "`tristack crosscheck --profile published` (published.csv, published.json), `tristack report --published` (tables/published.csv)";
+
+/// The repository of the authors.
+pub(crate) const REPOSITORY: &str = "github.com/Ryudo-Suzuki/arXiv-2511.06807";
+
+/// How the runs are made.
+pub(crate) const PROTOCOL: &str = "The native DEM does in them what the authors' program does: order of force and spring in a step, sliding \
+    friction and cut of the spring, restitution 0.3, a given start, gravity at once, a wall that waits at 2 + √3, and for the yield \
+    force the one before the first decrease. The start is one of the states on file, wall speed and time step are as a rule powers of ten, \
+    one choice for a run of neighbouring rows (reference/published.toml); nothing is fitted.";
+
+/// The published yield forces.
+pub(crate) fn published_forces(forces: &[RepeatedForce]) -> DataTable<'_> {
+    let origin = |row: &&RepeatedForce| row.published.origin.clone();
+    Columns::<&RepeatedForce>::new(
+        "published",
+        "A row is a yield force that the authors have published, what gives it, and the same by a native run of their program.",
+        FOUND_IN,
+    )
+    .text("file", |row| row.published.file.clone())
+    .means("the file, below the checkout")
+    .shown("file")
+    .number("line", "", |row| row.published.line)
+    .means("the line in it")
+    .shown("line")
+    .dispensable(1)
+    .stack(|row| row.published.stack)
+    .number("published_force", "m g", |row| row.published.value.value)
+    .means("F as it is printed")
+    .shown("published F")
+    .cell(|row| {
+        let value = row.published.value;
+        format!("{:.*}", value.decimals, value.value)
+    })
+    .number("limit_force", "m g", |row| row.published.limit)
+    .means("exact quasi-static limit of the stack, with springs that nothing turns; absent where nothing yields")
+    .shown_as("exact limit", digits::<8>)
+    .number("excess", "1", |row| row.excess())
+    .means("published F less the limit, relative to F + 3")
+    .shown_as("published − limit", relative)
+    .text("start", move |row| origin(row).map(|own| own.start))
+    .means("the start that gives it: A in the name of the file with the state")
+    .shown("start")
+    .number("wall_speed", "√(g r)", move |row| {
+        origin(row).map(|own| own.wall_speed)
+    })
+    .means("the wall speed that gives it, in the unit of the program")
+    .shown_as("wall speed, √(g r)", rounded)
+    .number("wall_speed_in_paper_units", "r √(k_n/m)", move |row| {
+        origin(row).map(|own| own.run.wall_speed)
+    })
+    .means("the same in the unit of the paper")
+    .number("time_step", "√(r/g)", move |row| {
+        origin(row).map(|own| own.time_step)
+    })
+    .means("the time step that gives it, in the unit of the program")
+    .shown_as("time step, √(r/g)", rounded)
+    .dispensable(2)
+    .number("end_time", "√(r/g)", move |row| {
+        origin(row).and_then(|own| own.end_time)
+    })
+    .means("time at which the run was stopped while its force rose, so that it is no yield force; absent where it ended with the first decrease")
+    .shown_as("stopped at, √(r/g)", rounded)
+    .dispensable(4)
+    .number("repeated_force", "m g", |row| row.force())
+    .means("F by the native run with these")
+    .shown_as("reproduced", digits::<9>)
+    .dispensable(3)
+    .number("remainder", "1", |row| row.remainder())
+    .means("repeated F less the published one, relative to F + 3")
+    .shown_as("what remains", relative)
+    .word("fit", |row| row.fit())
+    .means(
+        "`every-digit`, `alike` (to 3e-6 of F + 3), `differs`, `unknown` (nothing is known that gives it) or `failed`",
+    )
+    .shown("fit")
+    .rows(forces)
+}
+
+/// The published series of forces.
+pub(crate) fn published_series(series: &[RepeatedSeries]) -> DataTable<'_> {
+    let origin = |row: &&RepeatedSeries| row.published.origin.clone();
+    Columns::<&RepeatedSeries>::new(
+        "published_series",
+        "A row is a series of the wall force that the authors have published, and the same by a native run of their program.",
+        "`tristack crosscheck --profile published` (published_series.csv, published.json), `tristack report --published` (tables/published_series.csv)",
+    )
+    .text("file", |row| row.published.file.clone())
+    .means("the file, below the checkout")
+    .shown("file")
+    .stack(|row| row.published.stack)
+    .text("start", move |row| origin(row).map(|own| own.start))
+    .means("the start that gives it: A in the name of the file with the state")
+    .shown("start")
+    .number("wall_speed", "√(g r)", move |row| {
+        origin(row).map(|own| own.wall_speed)
+    })
+    .means("the wall speed that gives it, in the unit of the program")
+    .shown_as("wall speed, √(g r)", rounded)
+    .number("time_step", "√(r/g)", move |row| {
+        origin(row).map(|own| own.time_step)
+    })
+    .means("the time step that gives it, in the unit of the program")
+    .shown_as("time step, √(r/g)", rounded)
+    .number("rows", "", |row| row.published.rows.len())
+    .means("rows of the series")
+    .shown("rows")
+    .number("rows_in_every_digit", "", |row| row.rows_in_every_digit())
+    .means("rows whose force is reproduced in every printed digit")
+    .shown("in every digit")
+    .number("largest_remainder", "1", |row| row.largest_remainder())
+    .means("largest difference of a force, relative to f + 3")
+    .shown_as("largest remainder", relative)
+    .word("fit", |row| row.fit())
+    .means("as in `published`")
+    .shown("fit")
+    .rows(series)
+}
+
+/// Numbers of one thing that differ.
+pub(crate) fn contradictions(found: &[Contradiction]) -> DataTable<'_> {
+    Columns::<&Contradiction>::new(
+        "contradictions",
+        "A row is two numbers that the authors give for one thing, and that do not fit together.",
+        "`tristack crosscheck --profile published` (contradictions.csv, published.json), `tristack report --published` (tables/contradictions.csv)",
+    )
+    .text("what", |row| row.what.clone())
+    .means("what they are numbers of, with its unit")
+    .shown("of what")
+    .number("first", "", |row| row.quoted[0].value)
+    .means("the one")
+    .shown_as("the one", digits::<8>)
+    .text("first_source", |row| row.quoted[0].source.clone())
+    .means("where it stands")
+    .shown("stands in")
+    .number("second", "", |row| row.quoted[1].value)
+    .means("the other")
+    .shown_as("the other", digits::<8>)
+    .text("second_source", |row| row.quoted[1].source.clone())
+    .means("where that stands")
+    .shown("stands in")
+    .number("size", "1", |row| row.size())
+    .means("the other less the one, relative to the one; of forces, to F + 3")
+    .shown_as("apart", relative)
+    .text("because", |row| row.because.clone())
+    .means("what made them, where that is known")
+    .shown("made by")
+    .rows(found)
+}
+
+/// The files that were read.
+pub(crate) fn published_files(files: &[DataFile]) -> DataTable<'_> {
+    Columns::<&DataFile>::new(
+        "published_files",
+        "A row is a data file of the authors that was read.",
+        "`tristack crosscheck --profile published` (published_files.csv, published.json), `tristack report --published` (tables/published_files.csv)",
+    )
+    .text("file", |file| file.path.clone())
+    .means("the file, below the checkout")
+    .shown("file")
+    .number("rows", "", |file| file.rows.len())
+    .means("its rows of numbers")
+    .shown("rows")
+    .text("sha256", |file| file.digest.clone())
+    .means("SHA-256 of its content")
+    .shown("SHA-256")
+    .rows(files)
+}
+
+/// All tables of what was published.
+pub(crate) fn published_tables(published: &Published) -> [DataTable<'_>; 4] {
+    [
+        published_forces(&published.forces),
+        published_series(&published.series),
+        contradictions(&published.contradictions),
+        published_files(&published.files),
+    ]
+}
+
+/// How much is reproduced, in a sentence.
+pub(crate) fn published_summary(published: &Published) -> String {
+    let count = |wanted: Fit| published.fits().filter(|&fit| fit == wanted).count();
+    let (all, every_digit) = (published.fits().count(), count(Fit::EveryDigit));
+    let mut text = format!(
+        "{every_digit} of {all} published numbers and series are reproduced in every printed digit, {} to {ALIKE:e} of F + 3",
+        count(Fit::Alike)
+    );
+    for (fit, said) in [
+        (Fit::Differs, "differ"),
+        (Fit::Failed, "failed"),
+        (
+            Fit::Unknown,
+            "have no start, speed and time step that are known to give them",
+        ),
+    ] {
+        match count(fit) {
+            0 => {}
+            some => text += &format!(", {some} {said}"),
+        }
+    }
+    text
+}
+
+/// The tables for a terminal.
+pub(crate) fn published_text(published: &Published) -> String {
+    let [forces, series, contradictions, _] =
+        published_tables(published).map(|table| table.shown().terminal());
+    format!(
+        "Published yield forces, and the same by native runs of the program that made them\n{forces}\n\
+         Published series of the wall force\n{series}\n\
+         Numbers for one thing that do not fit together\n{contradictions}"
+    )
+}
+
+/// The beginning of the page.
+pub(crate) const PUBLISHED_TITLE: &str = "# The published numbers, reproduced\n\nMade by tristack";
+
+/// A page with all tables.
+pub(crate) fn published_markdown(published: &Published, command: &str) -> String {
+    let [forces, series, contradictions, files] =
+        published_tables(published).map(|table| table.shown().markdown());
+    format!(
+        "{PUBLISHED_TITLE} {} with {}.\n\n\
+         {}.\n\n\
+         ## Yield forces\n\nThe data of {REPOSITORY}. {PROTOCOL}\n\n{forces}\n\
+         ## Series\n\n{series}\n\
+         ## What does not fit together\n\n{contradictions}\n\
+         ## Files\n\n{files}",
+        env!("CARGO_PKG_VERSION"),
+        markdown_code(command),
+        published_summary(published)
+    )
+}

@@ -1,0 +1,249 @@
+//! The authors' published data, read from a checkout of their repository, and reproduced by the native runs of their program.
+//! The checkout is not part of the project: without it these tests look at nothing, unless TRISTACK_REQUIRE_PUBLISHED is set.
+
+mod common;
+
+use common::{AUTHORS_FORCE, Bench, assert_only, released_program, small_checkout};
+use std::path::{Path, PathBuf};
+use tempfile::tempdir;
+use tristack::dem::{LaneWidth, PublishedForces, PublishedRun};
+use tristack::paper::published::{Checkout, PublishedForce, published_forces};
+
+/// Wall speed in √(g r) from which on a run takes less than a second.
+const FAST: f64 = 1e-3;
+
+/// Where the checkout is looked for.
+fn authors() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/authors")
+}
+
+fn checkout() -> Option<Checkout> {
+    let place = authors();
+    let required = std::env::var_os("TRISTACK_REQUIRE_PUBLISHED").is_some();
+    assert!(
+        required <= place.is_dir(),
+        "{} is required",
+        place.display()
+    );
+    place.is_dir().then(|| Checkout::read(&place).unwrap())
+}
+
+/// The forces with an origin that `choose` takes, each with what the run gives.
+fn again(
+    checkout: &Checkout,
+    choose: impl Fn(&PublishedForce) -> bool,
+) -> Vec<(PublishedForce, f64)> {
+    let forces = published_forces(checkout).into_iter();
+    let forces: Vec<PublishedForce> = forces.filter(choose).collect();
+    let runs = forces
+        .iter()
+        .map(|force| force.origin.as_ref().unwrap().run);
+    let runs: Vec<PublishedRun> = runs.collect();
+    let (one, other) = runs.split_at(runs.len() / 2);
+    let found = std::thread::scope(|scope| {
+        let one = scope.spawn(move || yield_forces(one));
+        let other = yield_forces(other);
+        [one.join().unwrap(), other].concat()
+    });
+    forces.into_iter().zip(found).collect()
+}
+
+/// The yield force of every run, one by one: in tests the operations of lanes are calls.
+fn yield_forces(runs: &[PublishedRun]) -> Vec<f64> {
+    let mut found = vec![f64::NAN; runs.len()];
+    let ended = |index: usize, forces: PublishedForces| {
+        let stopped = forces.samples.last().copied();
+        found[index] = stopped.or(forces.yield_force).unwrap();
+    };
+    LaneWidth::ONE.run_published(runs, || true, ended);
+    found
+}
+
+fn is_fast(force: &PublishedForce) -> bool {
+    let origin = force.origin.as_ref();
+    origin.is_some_and(|origin| origin.wall_speed >= FAST && origin.time_step >= 1e-4)
+}
+
+#[test]
+fn published_forces_are_reproduced_to_their_digits() {
+    let Some(checkout) = checkout() else { return };
+    let rows = again(&checkout, is_fast);
+    let mut printed = 0;
+    for (force, found) in &rows {
+        let left = (found - force.value.value) / (force.value.value + 3.0);
+        printed += usize::from(force.value.is(*found));
+        println!(
+            "{} {} {} {} {found:.6} {left:+.1e}",
+            force.file, force.line, force.stack.floor_friction, force.value.value
+        );
+        assert!(
+            left.abs() < 3e-6,
+            "{} line {}: {found}",
+            force.file,
+            force.line
+        );
+    }
+    println!("{printed} of {}", rows.len());
+    assert!(printed >= rows.len() / 2);
+}
+
+#[test]
+fn the_curve_of_the_later_version_is_reproduced_in_every_digit() {
+    if checkout().is_none() {
+        return;
+    }
+    let place = tempdir().unwrap();
+    let copied = [
+        ("later/figures/fig2b/data", "figures/fig2b/data"),
+        ("later/figures/fig2a/data", "figures/fig2a/data"),
+        ("src/init", "src/init"),
+    ];
+    for (from, to) in copied {
+        let to = place.path().join(to);
+        std::fs::create_dir_all(&to).unwrap();
+        for file in std::fs::read_dir(authors().join(from)).unwrap() {
+            let file = file.unwrap();
+            std::fs::copy(file.path(), to.join(file.file_name())).unwrap();
+        }
+    }
+    let checkout = Checkout::read(place.path()).unwrap();
+    let rows = again(&checkout, |force| force.figure() == "fig2b");
+    assert_eq!(rows.len(), 19);
+    for (force, found) in &rows {
+        assert!(
+            force.value.is(*found),
+            "{} line {}: {found}",
+            force.file,
+            force.line
+        );
+    }
+    let stopped = rows.iter().filter(|(force, _)| {
+        let limit = force.limit.unwrap();
+        force.value.value < limit && force.origin.as_ref().unwrap().end_time == Some(500.0)
+    });
+    assert_eq!(stopped.count(), 10);
+}
+
+#[test]
+fn anything_else_is_refused_by_what_it_lacks() {
+    let place = tempdir().unwrap();
+    let error = Checkout::read(place.path()).unwrap_err().to_string();
+    assert!(error.contains("figures/fig2a/data"), "{error}");
+    let data = place.path().join("figures/fig2a/data");
+    std::fs::create_dir_all(&data).unwrap();
+    std::fs::write(data.join("k1e+2.txt"), "# head\n0.1 0.161201\n0.2 none\n").unwrap();
+    let error = Checkout::read(place.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("line 3") && error.contains("none"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_file_is_read_with_its_head_its_lines_and_its_digits() {
+    let place = tempdir().unwrap();
+    let data = place.path().join("fig2b/data");
+    std::fs::create_dir_all(&data).unwrap();
+    std::fs::create_dir_all(place.path().join("fig2a/data")).unwrap();
+    std::fs::write(data.join("mu0.33.txt"), "# Parameter: 0.3\n\n100 41.486832").unwrap();
+    std::fs::write(data.join("load.plt"), "plot").unwrap();
+    let checkout = Checkout::read(place.path()).unwrap();
+    let [file] = &checkout.files[..] else {
+        panic!("{:?}", checkout.files)
+    };
+    assert_eq!(file.head, ["Parameter: 0.3"]);
+    let [(line, [_, force])] = file.rows[..] else {
+        panic!("{file:?}")
+    };
+    assert_eq!((line, force.decimals), (3, 6));
+    assert!(force.is(41.486_832_4) && !force.is(41.486_833));
+    let [force] = &published_forces(&checkout)[..] else {
+        panic!("one force")
+    };
+    assert_eq!(
+        (force.stack.floor_friction, force.stack.stiffness),
+        (0.33, 100.0)
+    );
+    assert_eq!(force.origin, None);
+}
+
+fn table(bench: &Bench) -> serde_json::Value {
+    let text = std::fs::read_to_string(bench.path("out/published.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn the_command_reproduces_a_checkout_and_names_what_differs() {
+    let bench = Bench::without_codes();
+    let command = "crosscheck --profile published --published repository --out out";
+    small_checkout(&bench.path("repository"), "31.000000");
+    let wrong = bench.tristack(command).output().unwrap();
+    assert_eq!(wrong.status.code(), Some(2), "{wrong:?}");
+    let tables = table(&bench);
+    let row = &tables["tables"][0]["rows"][0];
+    assert_eq!(row["fit"], "differs");
+    assert_eq!(row["wall_speed"], 1e-3);
+    let head = &tables["tables"][2]["rows"];
+    let heads = head.as_array().unwrap().iter();
+    let mut heads = heads.filter(|row| row["second"] == 1e3);
+    assert_eq!(heads.next().unwrap()["first"], 1e2);
+    small_checkout(&bench.path("repository"), AUTHORS_FORCE);
+    let right = bench.tristack(command).output().unwrap();
+    assert_eq!(right.status.code(), Some(0), "{right:?}");
+    let row = &table(&bench)["tables"][0]["rows"][0];
+    assert_eq!(row["fit"], "every-digit");
+    let files = [
+        "contradictions.csv",
+        "published.csv",
+        "published.json",
+        "published.md",
+        "published_files.csv",
+        "published_series.csv",
+    ];
+    assert_only(&bench.path("out"), &files);
+}
+
+#[test]
+fn the_published_profile_asks_for_its_checkout_and_for_no_other_code() {
+    let bench = Bench::without_codes();
+    let said = |command: &str| {
+        let output = bench.tristack(command).output().unwrap();
+        assert!(!output.status.success(), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let crosscheck = "crosscheck --profile published";
+    assert!(said(crosscheck).contains("--published DIR"));
+    let published = format!("{crosscheck} --published .");
+    assert!(said(&published).contains("figures/fig2a/data"));
+    assert!(said(&format!("{published} --codes native,yade")).contains("yade"));
+    assert!(said(&format!("{published} --mu 0.3")).contains("--mu"));
+    assert!(said("time --profile published").contains(crosscheck));
+}
+
+/// Everything, which takes minutes even for a released program.
+#[test]
+fn the_released_program_reproduces_every_published_number() {
+    let (Some(program), Some(_)) = (released_program(), checkout()) else {
+        return;
+    };
+    let place = tempdir().unwrap();
+    let output = std::process::Command::new(program)
+        .args(["crosscheck", "--profile", "published", "--published"])
+        .arg(authors())
+        .args(["--format", "json", "--store"])
+        .arg(place.path().join("store"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let tables: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = |table: usize| tables["tables"][table]["rows"].as_array().unwrap();
+    let fits = |fit: &str| rows(0).iter().filter(|row| row["fit"] == fit).count();
+    let (every_digit, alike) = (fits("every-digit"), fits("alike"));
+    println!(
+        "{every_digit} of {} in every digit, {alike} alike",
+        rows(0).len()
+    );
+    assert_eq!(every_digit + alike, rows(0).len());
+    assert!(every_digit > 2 * alike);
+    assert_eq!(rows(1)[0]["fit"], "alike");
+}

@@ -29,6 +29,7 @@ pub(crate) fn published_forces(forces: &[RepeatedForce]) -> DataTable<'_> {
     .text("file", |row| row.published.file.clone())
     .means("the file, below the checkout")
     .shown("file")
+    .cell(|row| in_words(&row.published.file))
     .number("line", "", |row| row.published.line)
     .means("the line in it")
     .shown("line")
@@ -97,6 +98,7 @@ pub(crate) fn published_series(series: &[RepeatedSeries]) -> DataTable<'_> {
     .text("file", |row| row.published.file.clone())
     .means("the file, below the checkout")
     .shown("file")
+    .cell(|row| in_words(&row.published.file))
     .stack(|row| row.published.stack)
     .text("start", move |row| origin(row).map(|own| own.start))
     .means("the start that gives it: A in the name of the file with the state")
@@ -142,12 +144,14 @@ pub(crate) fn contradictions(found: &[Contradiction]) -> DataTable<'_> {
     .text("first_source", |row| row.quoted[0].source.clone())
     .means("where it stands")
     .shown("stands in")
+    .cell(|row| in_words(&row.quoted[0].source))
     .number("second", "", |row| row.quoted[1].value)
     .means("the other")
     .shown_as("the other", digits::<8>)
     .text("second_source", |row| row.quoted[1].source.clone())
     .means("where that stands")
     .shown("stands in")
+    .cell(|row| in_words(&row.quoted[1].source))
     .number("size", "1", |row| row.size())
     .means("the other less the one, relative to the one; of forces, to F + 3")
     .shown_as("apart", relative)
@@ -167,13 +171,23 @@ pub(crate) fn published_files(files: &[DataFile]) -> DataTable<'_> {
     .text("file", |file| file.path.clone())
     .means("the file, below the checkout")
     .shown("file")
+    .cell(|file| in_words(&file.path))
     .number("rows", "", |file| file.rows.len())
     .means("its rows of numbers")
     .shown("rows")
     .text("sha256", |file| file.digest.clone())
     .means("SHA-256 of its content")
-    .shown("SHA-256")
+    .shown("SHA-256 begins")
+    .cell(|file| file.digest.chars().take(SHOWN_DIGITS).collect())
     .rows(files)
+}
+
+/// Digits of a digest in tables for people.
+const SHOWN_DIGITS: usize = 16;
+
+/// A path for people, with a place at which a line may end.
+fn in_words(path: &str) -> String {
+    path.replace("/data/", ": ")
 }
 
 /// All tables of what was published.

@@ -56,10 +56,10 @@ const SUPPLEMENT: [(&str, f64); 5] = [
     (STEP, PAPER_SETTINGS[1]),
 ];
 const RESTITUTION: &str = "restitution";
-const RATIO: &str = "k_n/k_t";
+const RATIO: &str = "kₙ/kₜ";
 const CYLINDER_FRICTION: &str = "friction of the cylinders";
-const SPEED: &str = "wall speed of the yield forces, r √(k_n/m)";
-const STEP: &str = "time step of the yield forces, √(m/k_n)";
+const SPEED: &str = "wall speed of the yield forces, r √(kₙ/m)";
+const STEP: &str = "time step of the yield forces, √(m/kₙ)";
 
 /// All pairs of numbers of one thing that differ by more than their printed digits allow; of each thing, one pair for every
 /// number that differs from the first.

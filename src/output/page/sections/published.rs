@@ -1,7 +1,7 @@
 //! The published numbers, reproduced.
 
 use super::super::document::{Block, Section};
-use crate::output::published::{PROTOCOL, REPOSITORY};
+use crate::output::published::PROTOCOL;
 use crate::output::{
     contradictions, published_files, published_forces, published_series, published_summary,
 };
@@ -10,7 +10,7 @@ use crate::paper::published::Published;
 pub(super) fn section(published: &Published) -> Section {
     let blocks = vec![
         Block::paragraph(format!(
-            "The data of {REPOSITORY} against native runs. {PROTOCOL} {}.",
+            "The data of the authors’ public repository against native runs. {PROTOCOL} {}.",
             published_summary(published)
         )),
         Block::long_table(

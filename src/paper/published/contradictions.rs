@@ -56,10 +56,10 @@ const SUPPLEMENT: [(&str, f64); 5] = [
     (STEP, PAPER_SETTINGS[1]),
 ];
 const RESTITUTION: &str = "restitution";
-const RATIO: &str = "kₙ/kₜ";
+const RATIO: &str = "ratio κ of normal to tangential stiffness";
 const CYLINDER_FRICTION: &str = "friction of the cylinders";
-const SPEED: &str = "wall speed of the yield forces, r √(kₙ/m)";
-const STEP: &str = "time step of the yield forces, √(m/kₙ)";
+const SPEED: &str = "wall speed of the yield forces, in the unit of the paper";
+const STEP: &str = "time step of the yield forces, in the unit of the paper";
 
 /// All pairs of numbers of one thing that differ by more than their printed digits allow; of each thing, one pair for every
 /// number that differs from the first.

@@ -247,3 +247,24 @@ fn the_released_program_reproduces_every_published_number() {
     assert!(every_digit > 2 * alike);
     assert_eq!(rows(1)[0]["fit"], "alike");
 }
+
+#[test]
+fn rows_that_no_run_can_have_are_shown_and_not_run() {
+    let bench = Bench::without_codes();
+    small_checkout(&bench.path("repository"), AUTHORS_FORCE);
+    let figure = |name: &str, file: &str, rows: &str| {
+        let data = bench.path("repository").join(name).join("data");
+        std::fs::create_dir_all(&data).unwrap();
+        std::fs::write(data.join(file), rows).unwrap();
+    };
+    figure("figS3a", "dt.txt", "0 5.2\n-1 5.2\n");
+    figure("figS3b", "vwall.txt", "0 5.2\n");
+    figure("fig2a", "k0.txt", "-0.3 5.2\n");
+    let command = "crosscheck --profile published --published repository --out out";
+    let output = bench.tristack(command).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let tables = table(&bench);
+    let rows = tables["tables"][0]["rows"].as_array().unwrap();
+    let unknown = rows.iter().filter(|row| row["fit"] == "unknown");
+    assert_eq!((rows.len(), unknown.count()), (5, 4));
+}

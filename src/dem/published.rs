@@ -72,6 +72,13 @@ pub struct ForceSampling {
     pub count: u64,
 }
 
+impl ForceSampling {
+    /// The step of the sample with this `index`.
+    fn step(&self, index: u64) -> u64 {
+        self.first.saturating_add(self.every.saturating_mul(index))
+    }
+}
+
 /// What a published run shows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -123,7 +130,8 @@ impl PublishedRun {
     pub fn largest_steps(&self) -> u64 {
         match self.sampling {
             Some(sampling) => {
-                sampling.first + sampling.every * sampling.count.saturating_sub(1) + 1
+                let last = sampling.step(sampling.count.saturating_sub(1));
+                last.saturating_add(1)
             }
             None => self.last_step(),
         }
@@ -136,7 +144,8 @@ impl PublishedRun {
 
     /// The step with which a run ends whose force never falls.
     fn last_step(&self) -> u64 {
-        self.first_moving_step() + (LONGEST_TRAVEL / (self.wall_speed * self.time_step)) as u64
+        let travel = (LONGEST_TRAVEL / (self.wall_speed * self.time_step)) as u64;
+        self.first_moving_step().saturating_add(travel)
     }
 
     fn convention(&self) -> ContactConvention {
@@ -345,7 +354,7 @@ impl<'a> Lane<'a> {
     /// The next step of which the force is kept.
     fn next_sample(&self) -> Option<u64> {
         let (sampling, done) = (self.run.sampling?, self.samples.len() as u64);
-        (done < sampling.count).then_some(sampling.first + sampling.every * done)
+        (done < sampling.count).then_some(sampling.step(done))
     }
 
     /// Keeps the force of the last step if it is asked for; the forces of the run if it is at its end.
@@ -380,7 +389,7 @@ fn block<R: Real>(lanes: &[Option<Lane>], group: &mut Group<R>) -> u64 {
             None => {}
         }
         if let Some(sample) = lane.next_sample() {
-            steps = steps.min(sample + 1 - lane.step);
+            steps = steps.min((sample - lane.step).saturating_add(1));
         }
     }
     steps

@@ -156,7 +156,9 @@ fn force(
         };
         let start = checkout.starts.get(&rows.start)?;
         let stack = Stack::paper(rows.friction.unwrap_or(friction), stiffness);
-        Some(ForceOrigin {
+        let can_be_run =
+            stack.validate().is_ok() && [wall_speed, time_step].iter().all(|&own| own > 0.0);
+        can_be_run.then(|| ForceOrigin {
             start: rows.start.clone(),
             wall_speed,
             time_step,
@@ -187,6 +189,7 @@ fn force(
 }
 
 fn limit(stack: &Stack) -> Option<f64> {
+    stack.validate().ok()?;
     quasistatic_limit(stack, &ContactConvention::PAPER).yield_force
 }
 

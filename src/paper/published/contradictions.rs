@@ -22,18 +22,15 @@ pub struct Contradiction {
     pub quoted: [Quotation; 2],
     /// What made the difference, where that is known.
     pub because: String,
+    /// What is added to both before they are compared: the weight of the stack, 3 m g, of forces, else nothing.
+    lift: f64,
 }
 
 impl Contradiction {
     /// The second number less the first, relative to the first; of forces, to F + 3.
     pub fn size(&self) -> f64 {
         let [first, second] = self.quoted.each_ref().map(|own| own.value);
-        let lift = if self.what.starts_with("F ") {
-            3.0
-        } else {
-            0.0
-        };
-        (second - first) / (first + lift)
+        (second - first) / (first + self.lift)
     }
 }
 
@@ -45,6 +42,8 @@ struct Statement {
     half_unit: f64,
     /// How it was made, where that is known.
     made: String,
+    /// As in a [`Contradiction`].
+    lift: f64,
 }
 
 /// What the supplement says of all runs (Secs. I A and I C).
@@ -84,6 +83,7 @@ pub(super) fn contradictions(checkout: &Checkout, forces: &[PublishedForce]) -> 
             what: second.what.clone(),
             quoted: [first.quoted.clone(), second.quoted.clone()],
             because: because(first, second),
+            lift: second.lift,
         });
     }
     found
@@ -107,6 +107,7 @@ fn statement(what: impl Into<String>, source: impl Into<String>, value: f64) -> 
         },
         half_unit: 0.0,
         made: String::new(),
+        lift: 0.0,
     }
 }
 
@@ -223,6 +224,7 @@ fn of_force(published: &PublishedForce) -> Statement {
     let stack = &published.stack;
     let [speed, step] = published.labelled;
     Statement {
+        lift: 3.0,
         half_unit: published.value.half_unit(),
         made: match &published.origin {
             Some(origin) => {

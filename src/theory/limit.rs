@@ -183,7 +183,12 @@ mod tests {
             let reason = reason(stack);
             assert!(reason.contains(part), "{reason}");
         }
-        assert_eq!(closed_form_limit(&stack(0.3, 0.7, 2.5)).reason, None);
+        let limit = closed_form_limit(&stack(0.3, 0.7, 2.5));
+        assert_eq!(limit.reason, None);
+        assert!(limit.rest.is_some() && !limit.rises_after_onset());
+        assert_eq!(limit.travel_to_watch(), limit.wall_travel);
+        assert!(limit.wall_travel.is_some_and(|travel| travel > 0.0));
+        assert_eq!(closed_form_limit(&stack(0.05, 0.7, 2.5)).rest, None);
         assert!(explanation(Event::None, false).contains("the force of the wall, ends"));
         assert_eq!(explanation(Event::FloorSlip, false), "the floor slips");
     }

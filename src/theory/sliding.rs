@@ -256,6 +256,37 @@ mod tests {
         }
     }
 
+    /// The floor load depends on the arm of the floor, by the overlap that it makes.
+    #[test]
+    fn stiff_cylinders_balance_to_the_same_part_of_their_load() {
+        let stiffness = 1e6;
+        let branch = branch(0.3, stiffness, Arms::reciprocal(0.7, -0.4));
+        for direction in [0.1, 0.9] {
+            let point = branch.point(direction);
+            let (sin, cos) = libm::sincos(2.0 * libm::atan(point.tangent));
+            let pressing = point.pair_overlap * (cos + point.pair_ratio * sin);
+            let load = pressing + stiffness.recip();
+            assert!((load / point.floor_force - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_state_has_the_direction_in_which_it_was_found() {
+        for bodies in [2, 3, 5] {
+            let stack = Stack {
+                bodies,
+                ..Stack::paper(0.25, 1e2)
+            };
+            let branch = SlidingBranch::new(&stack, &ContactConvention::TURNING);
+            for direction in [0.1, 0.5, 0.9] {
+                let point = branch.point(direction);
+                let found = branch.direction(&point);
+                assert!((found - direction).abs() < 1e-12, "{bodies} {found}");
+                assert_eq!(point.pair_friction, point.pair_ratio);
+            }
+        }
+    }
+
     #[test]
     fn peak_is_where_the_contact_opens_and_the_rational_equation_holds() {
         for (mu, stiffness) in [(0.2, 1e2), (0.25, 1e3), (0.3, 1e2), (0.3, 1e6), (0.35, 1e4)] {

@@ -9,13 +9,17 @@ use super::style::{GUIDE, Mark, THIN, TOGETHER};
 use crate::code::Code;
 use crate::model::Power;
 use crate::paper::claims::number;
-use crate::paper::published::Published;
+use crate::paper::published::{Published, PublishedForce};
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL, convergence_stack};
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
 
 /// The largest distance from the limit shown.
 const EXCESS: f64 = 3e1;
 const CHANGE: (f64, f64) = (1e-5, 3e-2);
+/// The slowest wall shown.
+const SLOWEST: f64 = 2e-8;
+/// The published figure on wall speed.
+const PUBLISHED_SPEEDS: &str = "figS3b";
 /// Distance of two marks that stand side by side for the same wall speed, as a part of the panel.
 const ABREAST: f64 = 0.022;
 
@@ -25,17 +29,22 @@ type Force = fn(&ConvergencePoint) -> Option<f64>;
 
 /// Distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
 pub(super) fn convergence(study: &Convergence, published: Option<&Published>) -> Figure {
-    let mut peaks = speeds(study, "F_{peak}", 1e-4, ConvergencePoint::excess_of_peak);
-    codes::published(&mut peaks, published, "figS3b", |own| {
-        let [speed, _] = own.labelled;
-        let limit = own.limit?;
-        // Labelled with the unit of the paper, made in that of the program.
-        let speed = speed / own.stack.stiffness.sqrt();
-        Some((speed, (own.value.value / limit - 1.0).abs()))
+    // Labelled with the unit of the paper, made in that of the program.
+    let place = |own: &PublishedForce| {
+        let speed = own.labelled[0] / own.stack.stiffness.sqrt();
+        Some((speed, (own.value.value / own.limit? - 1.0).abs()))
+    };
+    let points = published.into_iter();
+    let points = points.flat_map(|own| own.of_figure(PUBLISHED_SPEEDS).filter_map(place));
+    let lowest = points.fold((SLOWEST, 1e-4), |lowest: Point, point: Point| {
+        (lowest.0.min(0.5 * point.0), lowest.1.min(0.5 * point.1))
     });
+    let mut peaks = speeds(study, "F_{peak}", lowest, ConvergencePoint::excess_of_peak);
+    codes::published(&mut peaks, published, PUBLISHED_SPEEDS, place);
+    let slowest = (SLOWEST, 1e-8);
     let panels = [
         peaks,
-        speeds(study, "F_{slip}", 1e-8, ConvergencePoint::excess_of_slip),
+        speeds(study, "F_{slip}", slowest, ConvergencePoint::excess_of_slip),
         steps(study, "F_{peak}", |point| point.peak_force),
         steps(study, "F_{slip}", |point| point.slip_force),
     ];
@@ -75,10 +84,10 @@ fn shown_codes(study: &Convergence) -> Vec<Code> {
 }
 
 /// The distance of a force from the limit over the wall speed, the codes side by side: they would hide each other.
-fn speeds(study: &Convergence, symbol: &str, lowest: f64, excess: Force) -> Panel {
-    let range = (lowest, EXCESS);
+fn speeds(study: &Convergence, symbol: &str, lowest: Point, excess: Force) -> Panel {
+    let range = (lowest.1, EXCESS);
     let mut panel = Panel::new(
-        Axis::log("wall speed v/(r √(kₙ/m))", (2e-8, 5e-3)),
+        Axis::log("wall speed v/(r √(kₙ/m))", (lowest.0, 5e-3)),
         Axis::log(&format!("|{symbol} − F_{{limit}}|/F_{{limit}}"), range),
     );
     let codes = shown_codes(study);

@@ -32,14 +32,27 @@ pub(super) fn force_series(series: &ForceSeries, published: Option<&Published>) 
         number(series.time_step),
         codes::published_words(
             published,
-            "series in (a), over the way of the wall: its speed and its time have other units than the paper says"
+            "series in (a), over the way of the wall, since its speed and its time have other units than the paper says; \
+             that wall starts above the stack, at the height of cylinders that do not overlap"
         )
     );
     Figure::of_sheet("force-series", caption, &Sheet::of_halves(panels))
 }
 
 fn whole(series: &ForceSeries, published: Option<&Published>) -> Panel {
+    let published = published.and_then(|published| published.series.first());
+    let published = published.map(|own| {
+        let speed = own.published.wall_speed().unwrap_or(series.wall_speed);
+        let rows = own.published.rows.iter();
+        let rows = rows.map(|(_, [time, force])| {
+            let way = speed * (time.value - WALL_STARTS);
+            (way / series.wall_speed / LONG, force.value)
+        });
+        rows.collect::<Vec<Point>>()
+    });
+    let peak = published.as_deref().map_or(0.0, |rows| highest(rows).0);
     let end = series.rows.last().map_or(LONG, |row| row.0) / LONG;
+    let end = end.max(1.05 * peak);
     let highest = series.peak_force.unwrap_or(1.0);
     let time = Axis::around("time t/(10⁴ √(m/kₙ))", (0.0, 1.04 * end));
     let force = Axis::around("wall force F = f/(m g)", (0.0, 1.15 * highest));
@@ -50,17 +63,13 @@ fn whole(series: &ForceSeries, published: Option<&Published>) -> Panel {
     }
     let rows = series.rows.iter();
     panel.line(EXACT, rows.map(|&(time, force)| (time / LONG, force)));
-    for own in published.iter().flat_map(|published| &published.series) {
-        let speed = own.published.wall_speed().unwrap_or(series.wall_speed);
-        let rows = own.published.rows.iter();
-        let rows = rows.map(|(_, [time, force])| {
-            let way = speed * (time.value - WALL_STARTS);
-            (way / series.wall_speed / LONG, force.value)
-        });
-        let shown = rows.filter(|&(time, _)| (0.0..=1.04 * end).contains(&time));
+    if let Some(rows) = published {
+        let shown = rows.into_iter();
+        let shown = shown.filter(|&(time, _)| (0.0..=1.04 * end).contains(&time));
         panel.line(PUBLISHED_CURVE, shown);
         panel.key(Sample::Line(EXACT), "native");
         panel.key(Sample::Line(PUBLISHED_CURVE), "published");
+        panel.key_at(0.66, 0.82);
     }
     panel
 }

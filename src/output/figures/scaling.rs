@@ -1,9 +1,9 @@
 //! Fig. 2(b): the yield force over the stiffness, below, at and above the critical friction.
 
 use super::codes::{self, error_panel};
-use super::panel::{Anchor, Panel, Sample};
+use super::panel::{Anchor, Panel, Point, Sample};
 use super::sheet::Sheet;
-use super::style::{EXACT, HERTZ, PERTURBATION};
+use super::style::{EXACT, HERTZ, PERTURBATION, THIN};
 use super::{Figure, friction_words, stiffness_axis};
 use crate::code::Code;
 use crate::model::{PAPER_STIFFNESS_RATIO, Power};
@@ -26,6 +26,14 @@ pub(super) fn scaling(reproduction: &Reproduction) -> Figure {
         panel
     });
     let loads = forces(judgements, &reproduction.curves, laws, published);
+    let others: Vec<f64> = other_frictions(published).iter().map(|own| own.0).collect();
+    let points = match others.is_empty() {
+        true => "points".to_owned(),
+        false => format!(
+            "points; thin: the exact limit at {}, the friction of some of them",
+            values("\\mu", &others)
+        ),
+    };
     let panels: Vec<Panel> = [loads].into_iter().chain(errors).collect();
     let caption = format!(
         "Fig. 2(b) of the paper. (a) Load at yield $F + 3$, with the yield force $F = f/(mg)$, over the stiffness \
@@ -42,7 +50,7 @@ pub(super) fn scaling(reproduction: &Reproduction) -> Figure {
         number(FITTED_FROM),
         codes::errors_at_edges(),
         codes::left_out(judgements),
-        codes::published_words(published, "points")
+        codes::published_words(published, &points)
     );
     let both: Vec<Judgement> = judgements.iter().chain(&laws.scaling).cloned().collect();
     let sheet = Sheet::of_halves(panels)
@@ -74,7 +82,14 @@ fn forces(
     panel.words(HERTZ_WORDS, HERTZ_END, Anchor::End);
     codes::loads(&mut panel, &laws.scaling, |row| row.stiffness());
     codes::loads(&mut panel, judgements, |row| row.stiffness());
-    codes::published(&mut panel, published, "fig2b", |own| {
+    for (friction, limits) in other_frictions(published) {
+        if let Some(&(stiffness, load)) = limits.last() {
+            let place = (stiffness, 2.5 * load);
+            panel.words(friction_words(friction), place, Anchor::End);
+        }
+        panel.line(THIN, limits);
+    }
+    codes::published(&mut panel, published, PUBLISHED_FIGURE, |own| {
         Some((own.stack.stiffness, own.load()))
     });
     panel.key(Sample::Line(EXACT), "exact limit");
@@ -82,6 +97,31 @@ fn forces(
     panel.key(Sample::Line(HERTZ), "exact limit, Hertz");
     panel
 }
+
+/// The frictions of published points that no curve has, each with stiffness and F + 3 of the exact limit, from the softest on.
+fn other_frictions(published: Option<&Published>) -> Vec<(f64, Vec<Point>)> {
+    let own = published.into_iter();
+    let own = own.flat_map(|published| published.of_figure(PUBLISHED_FIGURE));
+    let mut found: Vec<(f64, Vec<Point>)> = Vec::new();
+    for own in own {
+        let friction = own.stack.floor_friction;
+        let Some(limit) = own.limit.filter(|_| !SCALING_FRICTIONS.contains(&friction)) else {
+            continue;
+        };
+        let point = (own.stack.stiffness, limit + 3.0);
+        match found.iter_mut().find(|known| known.0 == friction) {
+            Some((_, points)) => points.push(point),
+            None => found.push((friction, vec![point])),
+        }
+    }
+    for (_, points) in &mut found {
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    }
+    found
+}
+
+/// The published figure.
+const PUBLISHED_FIGURE: &str = "fig2b";
 
 /// Places of the names of the curves, above their right ends.
 const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 42.0), (3e5, 2.2e3), (8e4, 5e4)];
